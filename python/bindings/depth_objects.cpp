@@ -157,8 +157,8 @@ std::tuple<Array<double>, Array<bool>, Array<double>, Array<double>> complete_bo
                              height_known};
     const auto [region, inside, joined, depth] = pieces;
     const PieceLimits limits{region, inside, joined, depth};
-    auto body = unlocked(objects.measured.size(),
-                         [&] { return complete_body(objects, index, where, limits); });
+    auto body =
+        unlocked(objects.measured.size(), [&] { return complete_body(objects, index, where, limits); });
     return {give(std::move(body.state)), give(std::move(body.whole), {2}), give(std::move(body.size)),
             give(std::move(body.signature))};
 }

@@ -23,7 +23,8 @@ struct JoinedObjects {
 };
 
 JoinedObjects one_object(const ObjectFeatures& objects, Index index) {
-    JoinedObjects one{rectangle_of(objects, index), {}, objects.measured(index, 5), objects.measured(index, 6)};
+    JoinedObjects one{
+        rectangle_of(objects, index), {}, objects.measured(index, 5), objects.measured(index, 6)};
     for (std::size_t side = 0; side < one.cut.size(); ++side)
         one.cut[side] = objects.cut(index, static_cast<Index>(side));
     return one;

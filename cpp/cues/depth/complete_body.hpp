@@ -19,10 +19,11 @@ struct PieceLimits {
 
 /// A body in meters.
 struct Body {
-    Vector state;      ///< float64 (5,): X, Y, Z, W, H, completed where it is cut
-    Flags whole;       ///< bool (2,): whether the whole width and the whole height are visible
-    Vector size;       ///< float64 (2,): the usual size; where it isn't known, at least that of the object
-    Vector signature;  ///< float64 (2 bins + 2,): the object's columns and rows; centroid of all pieces less the center, x and y, meters
+    Vector state;  ///< float64 (5,): X, Y, Z, W, H, completed where it is cut
+    Flags whole;   ///< bool (2,): whether the whole width and the whole height are visible
+    Vector size;   ///< float64 (2,): the usual size; where it isn't known, at least that of the object
+    Vector
+        signature;  ///< float64 (2 bins + 2,): the object's columns and rows; centroid of all pieces less the center, x and y, meters
 };
 
 /// The body of which an object is a part: joined with the pieces that gaps separate from it, and completed where it is cut.

@@ -66,7 +66,8 @@ void require_arguments(const ObjectFeatures& objects, VectorRef others, const Ex
     require_finite(expected.state, "expected");
     require_size_above_0(expected.size);
     require_size(expected.signature, 2 * objects.columns.cols() + 2, "signature");
-    for (const auto& [value, name] : {std::pair{costs.x, "x"}, std::pair{costs.y, "y"}, std::pair{costs.z, "z"}})
+    for (const auto& [value, name] :
+         {std::pair{costs.x, "x"}, std::pair{costs.y, "y"}, std::pair{costs.z, "z"}})
         if (!(value > 0.0 && std::isfinite(value))) refuse(name, "a finite number above 0", value);
     for (const auto& [value, name] : {std::pair{costs.share, "share"}, std::pair{costs.base, "base"}})
         if (!(value >= 0.0 && std::isfinite(value))) refuse(name, "a finite number, not negative", value);
@@ -88,8 +89,8 @@ int match_object(const ObjectFeatures& objects, VectorRef others, const Expected
         const RectangleState state = rectangle_of(objects, i);
         if (matcher.depth_cost(state) >= least || state[3] * state[4] < costs.min_area) continue;
         const bool* cut = objects.cut.row(i).data();
-        double cost = matcher.cost(
-            complete ? complete_rectangle(state, cut, expected.state, expected.size) : state);
+        double cost =
+            matcher.cost(complete ? complete_rectangle(state, cut, expected.state, expected.size) : state);
         if (cost >= least) continue;
         if (std::none_of(cut, cut + 4, [](bool each) { return each; }))
             cost += costs.signature * signature_distance(objects, i, expected.signature);

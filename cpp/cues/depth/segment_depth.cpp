@@ -33,6 +33,9 @@ constexpr int kBlock = 64;  ///< pixels, so that loops over them have no remaind
 /// Of an image's pixels an eighth or fewer are searched, before a camera that doesn't move.
 constexpr int kUsualShare = 8;
 
+/// A row of which a fourth or less is searched is listed.
+constexpr int kListedShare = 4;
+
 /// Neighbors mostly share a level, and reading a count that was just written is slow: so they count in different tables.
 constexpr std::size_t kTables = 4;
 
@@ -191,54 +194,78 @@ private:
     std::optional<GroundView> ground_;
     std::vector<float> unmeasured_;
     std::array<std::vector<float>, 3> distance_, padded_, nearest_rows_;  // of three rows, in turn
-    std::array<const float*, 3> nearest_;  // one of those, or unmeasured_
+    std::array<const float*, 3> nearest_;                                 // one of those, or unmeasured_
     std::array<bool, 3> measured_{};
 };
 
-/// Lists the columns of the pixels of a row that are set. Returns how many there are.
 TRICUE_MULTIVERSION
-std::ptrdiff_t list_columns(const BitImage& mask, int y, std::int32_t* columns) {
-    std::int32_t* end = columns;
-    for (int i = 0; i < mask.words(); ++i) end = list_bits<8>(mask.word(y, i), std::int32_t{i * kBlock}, end);
-    return end - columns;
+int count_pixels(const BitImage& mask, int y) {
+    int count = 0;
+    for (int i = 0; i < mask.words(); ++i) count += count_bits(mask.word(y, i));
+    return count;
 }
 
-/// Whether the label of a pixel isn't that of its left neighbor, which is the one listed before it. Returns whether that is so anywhere.
+/// Lists the columns of the pixels of a row that are set, and their distances.
 TRICUE_MULTIVERSION
-bool mark_changes(const std::uint8_t* __restrict labels, const std::int32_t* __restrict columns,
-                  std::ptrdiff_t n, std::uint8_t* __restrict changes) {
+void list_pixels(const BitImage& mask, int y, const float* distance, std::int32_t* columns, float* to) {
+    std::int32_t* end = columns;
+    for (int i = 0; i < mask.words(); ++i) end = list_bits<8>(mask.word(y, i), std::int32_t{i * kBlock}, end);
+    for (; columns != end; ++columns, ++to) *to = distance[*columns];
+}
+
+/// The distances of a whole row, infinite where its mask is 0.
+TRICUE_MULTIVERSION
+void mask_distances(const float* __restrict distance, const std::uint8_t* __restrict mask, int n,
+                    float* __restrict to) {
+    for_overlapping_blocks(n, [=](std::ptrdiff_t x) { to[x] = mask[x] ? distance[x] : kUnmeasured; });
+}
+
+/// Whether each label isn't that of the pixel before it. Returns whether that is so anywhere.
+TRICUE_MULTIVERSION
+bool mark_changes(const std::uint8_t* __restrict labels, int n, std::uint8_t* __restrict changes) {
     std::uint8_t any = 0;
     changes[0] = 0;
-    for (std::ptrdiff_t i = 1; i < n; ++i) {
-        changes[i] = (labels[i] != labels[i - 1]) & (columns[i] == columns[i - 1] + 1);
-        any |= changes[i];
-    }
+    for (int x = 1; x < n; ++x) any |= changes[x] = labels[x] != labels[x - 1];
     return any != 0;
 }
 
-/// The distances of the pixels where objects are looked for, in reading order. Mostly they are few, and apart.
+/// The same of pixels that are listed: whether each one's left neighbor is listed, too, and has another label.
+TRICUE_MULTIVERSION
+bool mark_listed_changes(const std::uint8_t* __restrict labels, const std::int32_t* __restrict columns, int n,
+                         std::uint8_t* __restrict changes) {
+    std::uint8_t any = 0;
+    changes[0] = 0;
+    for (int i = 1; i < n; ++i)
+        any |= changes[i] = (labels[i] != labels[i - 1]) & (columns[i] == columns[i - 1] + 1);
+    return any != 0;
+}
+
+/// The distances of the pixels where objects are looked for, row by row.
 ///
-/// Of their places only the bits are kept: memory for more would be fetched from the system anew in every frame, which in a frame
-/// that is all searched took longer than all else.
+/// Before a camera that doesn't move these pixels are few, and apart: then they are listed. A row with many is kept whole, with
+/// infinite distances at its others: to list them takes longer than to divide all.
 class SearchedDistances {
 public:
     SearchedDistances(int rows, int cols)
-        : rows_(rows),
-          cols_(cols),
-          bits_(rows, cols),
-          counts_(static_cast<std::size_t>(rows)),
-          columns_(static_cast<std::size_t>(cols) + kBlock),
-          changed_(columns_.size()) {
-        make_room(rows * std::ptrdiff_t{cols} / kUsualShare);
+        : rows_(rows), cols_(cols), bits_(rows, cols), counts_(static_cast<std::size_t>(rows)) {
+        const std::ptrdiff_t usual = rows * std::ptrdiff_t{cols} / kUsualShare;
+        make_room(usual, columns_);
+        make_room(usual, distances_);
     }
 
     /// Those of a row whose mask isn't 0; row after row.
     void add_row(int y, const float* distance, const std::uint8_t* mask) {
         bits_.read(y, mask);
-        const std::ptrdiff_t count = list_columns(bits_, y, columns_.data());
-        make_room(size_ + count);
+        int count = count_pixels(bits_, y);
+        make_room(size_ + cols_, distances_);
         float* to = distances_.data() + size_;
-        for (std::ptrdiff_t i = 0; i < count; ++i) to[i] = distance[columns_[static_cast<std::size_t>(i)]];
+        if (count > cols_ / kListedShare) {
+            mask_distances(distance, mask, count = cols_, to);
+        } else {
+            make_room(listed_ + count, columns_);
+            list_pixels(bits_, y, distance, columns_.data() + listed_, to);
+            listed_ += count;
+        }
         counts_[static_cast<std::size_t>(y)] = count;
         size_ += count;
     }
@@ -265,55 +292,64 @@ public:
     PixelRuns runs(VectorRef dividers, bool single) {
         std::vector<float> limits;
         for (const double s : dividers) limits.push_back(round_up_to_float(s));
-        Labels image(rows_, cols_);  // read only where a bit is set
+        const auto label = [&limits](const float* distances, int count, std::uint8_t* labels) {
+            for (int first = 0; first < count; first += kBlock)
+                divide(distances + first, limits.data(), static_cast<int>(limits.size()) - 1, labels + first);
+        };
+        const std::size_t pixels = static_cast<std::size_t>(rows_) * static_cast<std::size_t>(cols_);
+        std::vector<std::uint8_t> image(pixels + kBlock), changed(static_cast<std::size_t>(cols_) + kBlock),
+            few(changed.size());
         BitImage changes(rows_, cols_);
-        std::vector<std::uint8_t> labels(columns_.size());
         fill_last_block();
         const float* distances = distances_.data();
+        const std::int32_t* columns = columns_.data();
         for (int y = 0; y < rows_; ++y) {
-            const std::ptrdiff_t count = counts_[static_cast<std::size_t>(y)];
+            const int count = counts_[static_cast<std::size_t>(y)];
             if (count == 0) continue;
-            list_columns(bits_, y, columns_.data());
-            for (std::ptrdiff_t first = 0; first < count; first += kBlock)
-                divide(distances + first, limits.data(), static_cast<int>(limits.size()) - 1,
-                       labels.data() + first);
-            add_labels(y, labels, count, image, changes);
+            std::uint8_t* row = image.data() + y * std::ptrdiff_t{cols_};
+            if (count == cols_) {
+                label(distances, count, row);
+                bits_.read(y, row);
+                if (mark_changes(row, cols_, changed.data())) changes.read(y, changed.data());
+            } else {
+                label(distances, count, few.data());
+                add_labels(y, few.data(), columns, count, row);
+                if (mark_listed_changes(few.data(), columns, count, changed.data()))
+                    for (int i = 0; i < count; ++i)
+                        if (changed[static_cast<std::size_t>(i)]) changes.set(y, columns[i]);
+                columns += count;
+            }
             distances += count;
         }
         return label_runs(bits_, changes, {image.data(), rows_, cols_, 1, cols_}, single);
     }
 
 private:
-    /// Memory as it is needed, and a block more.
-    void make_room(std::ptrdiff_t pixels) {
-        if (pixels + kBlock > distances_.size())
-            distances_.conservativeResize(std::max(pixels + kBlock, 2 * distances_.size()));
+    /// Memory as it is needed, and a block more: that of a whole image is fetched from the system anew in every frame.
+    template <typename Numbers>
+    static void make_room(std::ptrdiff_t pixels, Numbers& numbers) {
+        if (pixels + kBlock > numbers.size())
+            numbers.conservativeResize(std::max(pixels + kBlock, 2 * numbers.size()));
+    }
+
+    /// Those of pixels that are listed, into a row of which nothing else is read. What is in no division is searched no longer.
+    void add_labels(int y, const std::uint8_t* labels, const std::int32_t* columns, int count,
+                    std::uint8_t* row) {
+        const bool all = std::memchr(labels, 0, std::size_t{static_cast<unsigned>(count)}) == nullptr;
+        if (!all) std::fill_n(row, cols_, std::uint8_t{0});
+        for (int i = 0; i < count; ++i) row[columns[i]] = labels[i];
+        if (!all) bits_.read(y, row);
     }
 
     /// Distances that don't count, up to a whole block.
     void fill_last_block() { distances_.segment(size_, kBlock) = kUnmeasured; }
 
-    /// Labels of a row's pixels that are listed; those of no division are searched no longer.
-    void add_labels(int y, const std::vector<std::uint8_t>& labels, std::ptrdiff_t count, Labels& image,
-                    BitImage& changes) {
-        std::uint8_t* row = image.row(y).data();
-        const bool all = std::memchr(labels.data(), 0, static_cast<std::size_t>(count)) == nullptr;
-        if (!all) std::fill_n(row, cols_, std::uint8_t{0});
-        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) row[columns_[i]] = labels[i];
-        if (!all) bits_.read(y, row);
-        if (!mark_changes(labels.data(), columns_.data(), count, changed_.data())) return;
-        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
-            if (changed_[i])
-                changes.word(y, columns_[i] / kBlock) |= std::uint64_t{1} << (columns_[i] % kBlock);
-    }
-
     int rows_, cols_;
     BitImage bits_;
-    std::vector<std::ptrdiff_t> counts_;    ///< of each row
-    std::vector<std::int32_t> columns_;     ///< of one row
-    std::vector<std::uint8_t> changed_;     ///< of one row
-    Eigen::ArrayXf distances_;              ///< used as far as size_
-    std::ptrdiff_t size_ = 0;
+    std::vector<int> counts_;   ///< of each row; of a whole one all of it
+    Eigen::ArrayXi columns_;    ///< of the pixels that are listed; used as far as listed_
+    Eigen::ArrayXf distances_;  ///< used as far as size_
+    std::ptrdiff_t listed_ = 0, size_ = 0;
 };
 
 void require_arguments(const DepthView& depth, const SearchedPixels& searched, const Divisions& divisions) {

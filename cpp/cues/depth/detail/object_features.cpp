@@ -17,8 +17,7 @@ std::pair<double, double> extend(double middle, double extent, bool cut_before, 
                                  double expected, double size) {
     const double half = (size - extent) / 2;
     if (half <= 0.0 || !(cut_before || cut_after)) return {middle, extent};
-    if (cut_before && cut_after)
-        return {std::min(std::max(expected, middle - half), middle + half), size};
+    if (cut_before && cut_after) return {std::min(std::max(expected, middle - half), middle + half), size};
     return {cut_before ? middle - half : middle + half, size};
 }
 
@@ -48,8 +47,7 @@ void require_objects(const ObjectFeatures& objects) {
     require_rows(objects.columns.rows(), count, "columns");
     require_rows(objects.rows.rows(), count, "rows");
     if (objects.rows.cols() != objects.columns.cols())
-        refuse("rows", std::to_string(objects.columns.cols()) + " bins",
-               std::to_string(objects.rows.cols()));
+        refuse("rows", std::to_string(objects.columns.cols()) + " bins", std::to_string(objects.rows.cols()));
 }
 
 void require_size_above_0(VectorRef size) {
