@@ -68,7 +68,7 @@ def script(
     ids=["native", "reference", "baseline"],
 )
 def bench_complete_body(benchmark: Any, complete_body: Callable[..., Any]) -> None:
-    """All join both pieces, one of which is cut, to the rounding of some ten operations on lengths below 8 m."""
+    """All join both pieces, one of which is cut, to some ten roundings of lengths below 8 m."""
     body = benchmark(complete_body, *ARGUMENTS)
     for one, other in zip(body, reference.complete_body(*ARGUMENTS), strict=True):
         assert_allclose(one, other, rtol=1e-12, atol=1e-13)

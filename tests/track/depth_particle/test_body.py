@@ -28,7 +28,7 @@ def body_of(objects, index, expected=EXPECTED, size=SIZE):
 
 
 def test_one_object_is_a_body(objects_of):
-    """A body of one object has its signature and, where nothing cuts it, its state; it is whole as that is."""
+    """A body of one object has its signature and, where nothing cuts it, its state; it is as whole."""
     objects = objects_of([STRANGER, BODY], [[0, 0, 0, 0], [0, 1, 0, 0]])
     objects.centroid_offset[:] = 0.05, -0.1
     stranger, body = body_of(objects, 0), body_of(objects, 1)
@@ -42,7 +42,7 @@ def test_one_object_is_a_body(objects_of):
 
 
 def test_an_unknown_size_grows_to_what_is_visible(objects_of):
-    """A lower bound is at least the object's size from then on; a known size stays, and so does a larger one."""
+    """A lower bound is at least the object's size. A known size stays, and so does a larger one."""
     objects = objects_of([[0.0, 0.0, 3.0, 0.7, 1.5]])
     sizes = {
         known: complete_body(_core, objects, 0, EXPECTED, motion(SIZE, known))[1].mean_size.tolist()
@@ -117,9 +117,7 @@ def test_pieces_are_joined(objects_of):
     np.testing.assert_allclose(both.state, [0.0, -0.025, 3.0, 0.6, 1.75], atol=1e-12)
     centroid = (0.72 * np.array([0.05, -0.4]) + 0.1 * np.array([0.1, 0.62])) / 0.82
     np.testing.assert_allclose(both.state[:2] + both.signature.centroid_offset, centroid, atol=1e-12)
-    np.testing.assert_array_equal(
-        both.signature.distribution, Signature.from_object(objects, 0).distribution
-    )
+    np.testing.assert_array_equal(both.signature.distribution, Signature.from_object(objects, 0).distribution)
     assert both.signature.distribution[3] == 1
     np.testing.assert_array_equal(objects.states, before)
 
@@ -181,9 +179,7 @@ def test_the_matched_object_is_always_a_piece(objects_of):
 
 
 def test_a_union_is_cut_where_its_pieces_are(objects_of):
-    """A body whole and a leg cut at the bottom make something cut at the bottom: of unknown height, and completed
-    there.
-    """
+    """A body whole and a leg cut at the bottom make something cut at the bottom, which is completed there."""
     objects = objects_of([BODY, LEG], [[0, 0, 0, 0], [0, 0, 0, 1]])
     both = body_of(objects, 0)
     assert both.whole.tolist() == [True, False]

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which of the segmented objects is the target, by its predicted position, its size and its signature; and the
-body of which that object is a part.
-"""
+"""Which of the segmented objects is the target, by predicted position, size and signature, and its body."""
 
 from typing import NamedTuple
 
@@ -91,9 +89,10 @@ def best_match(
 def complete_body(
     k: Kernels, objects: Objects, index: int, expected: Floats, motion: BodyMotion
 ) -> tuple[TargetObject, BodyMotion]:
-    """An object with the pieces of its body, such as arms and legs, that gaps separate from it, completed where
-    it is cut, near the expected state (5,); and the motion, whose mean size has grown where it is a lower
-    bound.
+    """The body of which an object is a part, expected at a state (5,): joined with pieces such as arms and legs
+    that gaps separate from it, and completed where it is cut.
+
+    With it comes the motion, whose mean size has grown where it is a lower bound.
     """
     usual = motion.mean_size, motion.size_known
     state, whole, size, signature = k.complete_body(*objects, index, expected, usual, PIECES)

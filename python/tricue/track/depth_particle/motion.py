@@ -91,8 +91,10 @@ class BodyMotion(NamedTuple):
         be wider.
         """
         if all(whole.tolist()) and all(self.size_known.tolist()):
-            mean_size = self.mean_size + p.size_rate * (size - self.mean_size)
-            return BodyMotion(self.state, self.velocity, mean_size, self.size_known)
+            (width, height), (mean_width, mean_height) = size.tolist(), self.mean_size.tolist()
+            mean_width += p.size_rate * (width - mean_width)
+            mean_height += p.size_rate * (height - mean_height)
+            return BodyMotion(self.state, self.velocity, np.array((mean_width, mean_height)), self.size_known)
         size = np.where(whole, size, self.mean_size)
         known = whole & (whole | self.size_known)[::-1]
         first = whole & ~self.size_known

@@ -45,7 +45,7 @@ def enlarge(box: Box) -> Box:
 
 
 def _region(x: float, y: float, width: float, height: float, shape: tuple[int, ...]) -> Region:
-    """First and end of the columns and rows, x0, y0, x1, y1, of the region around a center x, y in an image."""
+    """First and end of the columns and rows, x0, y0, x1, y1, of the region of a box of this center."""
     width, height = OWN_REGION * width, OWN_REGION * height
     left, top, (rows, columns) = x - width / 2, y - height / 2, shape
     right, bottom = math.ceil(left + width), math.ceil(top + height)

@@ -78,7 +78,7 @@ def find_target(
 def _other_costs(
     k: Kernels, state: State, fg: Foreground, objects: Objects, p: DepthParticleParams
 ) -> Floats:
-    """(C,) nats, of each object: of a depth histogram unlike the target's, and of who isn't a human candidate."""
+    """(C,) nats: of a depth histogram unlike the target's, and of who isn't a human candidate; or none."""
     if not (p.human_filter or p.depth_signature) or len(objects.states) == 0:
         return NO_COSTS
     costs = np.zeros(len(objects.states))

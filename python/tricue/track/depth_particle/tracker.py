@@ -45,7 +45,7 @@ OBJECT_ROOT = np.diag(OBJECT_DEVIATION)  # of the covariance of the proposal at 
 NO_OBJECT: tuple[Floats, Floats, float] = (np.zeros(1), np.eye(1), 0.0)  # no proposal at an object
 
 
-Learned = dict[str, Any]  # what of a state was learned, by its field
+Changes = dict[str, Any]  # of a state, by its field
 
 
 class FilteredTarget(NamedTuple):
@@ -181,38 +181,35 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         k, p = self._k, self.params
         fg, plane = extract_foreground(k, depth, state.camera, state.plane, self._rng, p)
         objects = segment(k, fg, plane, p, others=state.others if p.leave_out_others else NOTHING_KNOWN)
-        before = state.motion
-        prediction = before.predict(p, seconds, state.missed_seconds)
+        prediction = state.motion.predict(p, seconds, state.missed_seconds)
         target, motion, occluder = find_target(k, state, fg, objects, prediction, seconds, p)
-        state = state._replace(
-            plane=plane, objects=objects, motion=motion, occluder=occluder, timestamp=timestamp
-        )
+        changes: Changes = {"plane": plane, "objects": objects, "timestamp": timestamp}
         measured = NOT_MEASURED if target is None else Measurement.create(target.state, p.measurement)
-        found = self._filter(state, fg, prediction, target, measured)
+        found = self._filter(state, motion.mean_size, fg, prediction, target, measured)
         recognized = self._recognized(state, found.observed, target)
         if not recognized and p.coast:
-            return self._coast(state._replace(motion=before), fg, prediction, seconds)
+            return self._coast(state._replace(occluder=occluder, **changes), fg, prediction, seconds)
         visible = state.missed_seconds == 0 and found.observed.front < p.max_covered
         motion = motion.update(found.particles.state, p, seconds, visible)
-        learned: Learned = {}
         if recognized and found.observed.front < MAX_COVERED_TO_LEARN:
-            learned = self._learn(state, found, target)
+            changes |= self._learn(state, found, target)
             if target is not None:
                 motion = motion.learn_size(target.state[3:], target.whole, p)
-        return self._accept(state, fg, found, motion, learned)
+        return self._accept(state, fg, found, motion, changes)
 
     def _filter(
         self,
         state: State,
+        size: Floats,
         fg: Foreground,
         prediction: Prediction,
         target: TargetObject | None,
         measured: Measurement,
     ) -> FilteredTarget:
         """One step of the particle filter: propose by (39) and at the object, weigh (2), estimate (31); then
-        again close to that estimate, as 100 particles are few in five dimensions.
+        again close to that estimate, as 100 particles are few in five dimensions. size: (2,) the usual one.
         """
-        p, before, size = self.params, state.particles, state.motion.mean_size
+        p, before = self.params, state.particles
         width, height = size.tolist()
         offset, noise = self._draw(before.particles.shape)
         detection = NO_OBJECT if target is None else (target.state, OBJECT_ROOT, p.object_share)
@@ -254,9 +251,9 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         )
 
     def _accept(
-        self, state: State, fg: Foreground, found: FilteredTarget, motion: BodyMotion, learned: Learned
+        self, state: State, fg: Foreground, found: FilteredTarget, motion: BodyMotion, changes: Changes
     ) -> State:
-        """The state at the particles' estimate, which is where the target is."""
+        """The state at the particles' estimate, which is where the target is, with other changes."""
         others = remember_others(
             self._k, state.others, fg, found.particles.state, self.params.histogram_reach
         )
@@ -270,10 +267,10 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             hidden=False,
             occluder=None,
             position_spread=None,
-            **learned,
+            **changes,
         )
 
-    def _learn(self, state: State, found: FilteredTarget, target: TargetObject | None) -> Learned:
+    def _learn(self, state: State, found: FilteredTarget, target: TargetObject | None) -> Changes:
         """Of the state the depth model, the running means and the signature, updated."""
         p, signature, observed = self.params, state.signature, found.observed
         if target is not None and all(target.whole.tolist()):

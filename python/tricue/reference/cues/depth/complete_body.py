@@ -71,7 +71,8 @@ def _unite(measured: Floats, cut: Flags, pieces: list[int], z: float) -> _Joined
     middle = (first + last) / 2
     shares = each[:, 7:] / each[:, 7].sum()
     shift = (shares * (each[:, :2] + each[:, 5:7])).sum(axis=0) - middle
-    return _Joined(np.array([*middle, z, *(last - first)]), cut[pieces].any(axis=0), shift)
+    sides = np.logical_or.reduce(cut[pieces])
+    return _Joined(np.array([*middle, z, *(last - first)]), sides, shift)
 
 
 def _share_inside(piece: Floats, expected: Floats, region: float) -> float:

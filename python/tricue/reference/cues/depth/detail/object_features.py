@@ -16,7 +16,7 @@ def complete_rectangle(state: Floats, cut: Flags, expected: Floats, size: Floats
 
     Cut at opposite sides, it is as near to the middle of the expected state as its visible part allows.
     """
-    whole = state.copy()
+    whole: Floats = state.copy()
     for axis in range(2):
         before, after = cut[2 * axis : 2 * axis + 2]
         half = (size[axis] - state[3 + axis]) / 2
