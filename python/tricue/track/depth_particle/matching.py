@@ -89,8 +89,8 @@ def best_match(
 def complete_body(
     k: Kernels, objects: Objects, index: int, expected: Floats, motion: BodyMotion
 ) -> tuple[TargetObject, BodyMotion]:
-    """The body of which an object is a part, expected at a state (5,): joined with pieces such as arms and legs
-    that gaps separate from it, and completed where it is cut.
+    """The body of which an object is a part, expected at a state (5,): joined with pieces, such as arms and
+    legs, that gaps separate from it, and completed where it is cut.
 
     With it comes the motion, whose mean size has grown where it is a lower bound.
     """
