@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "arrays.hpp"
+#include "cues/depth/complete_body.hpp"
 #include "cues/depth/cut_sides.hpp"
 #include "cues/depth/density_extrema.hpp"
 #include "cues/depth/depth_components.hpp"
 #include "cues/depth/depth_contrast.hpp"
 #include "cues/depth/depth_density.hpp"
 #include "cues/depth/depth_distance.hpp"
+#include "cues/depth/match_object.hpp"
 #include "cues/depth/measure_objects.hpp"
 #include "cues/depth/rectangle_histogram.hpp"
 #include "cues/depth/segment_depth.hpp"
@@ -111,6 +113,56 @@ Array<double> measure_objects_arrays(const Array<double>& table, const Array<flo
     }));
 }
 
+/// Views of the caller's arrays.
+ObjectFeatures object_features(const Array<double>& measured, const Array<bool>& cut,
+                               const Array<float>& columns, const Array<float>& rows) {
+    return {states(measured, "measured"), flags(cut, "cut", 4),
+            floats(columns, "columns", {-1, -1}, "float32 (C, bins)"),
+            floats(rows, "rows", {-1, -1}, "float32 (C, bins)")};
+}
+
+/// Of the width and of the height.
+std::pair<bool, bool> known_sizes(const Array<bool>& known) {
+    const auto array = require<bool>(known, "known", 1, "bool (2,)");
+    if (array.shape(0) != 2) throw py::value_error("known: expected bool (2,), got " + describe(array));
+    const bool* each = contiguous<bool>(array, "known");
+    return {each[0], each[1]};
+}
+
+int match_object_arrays(const Array<double>& measured, const Array<bool>& cut, const Array<float>& columns,
+                        const Array<float>& rows, const Array<double>& others, const Array<double>& expected,
+                        std::pair<Array<double>, Array<bool>> usual, const Array<double>& signature,
+                        std::tuple<double, double, double, double, double> deviation,
+                        std::pair<double, double> unknown, double signature_cost,
+                        std::pair<double, double> gate, bool complete) {
+    const auto objects = object_features(measured, cut, columns, rows);
+    const auto more = vector(others, "others");
+    const auto [width_known, height_known] = known_sizes(usual.second);
+    const ExpectedTarget target{vector(expected, "expected"), vector(usual.first, "size"), width_known,
+                                height_known, vector(signature, "signature")};
+    const auto [x, y, z, share, base] = deviation;
+    const auto [center, larger] = unknown;
+    const MatchCosts costs{x, y, z, share, base, center, larger, signature_cost, gate.first, gate.second};
+    const auto work = objects.columns.size() + objects.rows.size();
+    return unlocked(work, [&] { return match_object(objects, more, target, costs, complete); });
+}
+
+std::tuple<Array<double>, Array<bool>, Array<double>, Array<double>> complete_body_arrays(
+    const Array<double>& measured, const Array<bool>& cut, const Array<float>& columns,
+    const Array<float>& rows, int index, const Array<double>& expected,
+    std::pair<Array<double>, Array<bool>> usual, std::tuple<double, double, double, double> pieces) {
+    const auto objects = object_features(measured, cut, columns, rows);
+    const auto [width_known, height_known] = known_sizes(usual.second);
+    const ExpectedBody where{vector(expected, "expected"), vector(usual.first, "size"), width_known,
+                             height_known};
+    const auto [region, inside, joined, depth] = pieces;
+    const PieceLimits limits{region, inside, joined, depth};
+    auto body =
+        unlocked(objects.measured.size(), [&] { return complete_body(objects, index, where, limits); });
+    return {give(std::move(body.state)), give(std::move(body.whole), {2}), give(std::move(body.size)),
+            give(std::move(body.signature))};
+}
+
 Region region_of(const std::tuple<int, int, int, int>& sides) {
     const auto [x0, y0, x1, y1] = sides;
     return {x0, y0, x1, y1};
@@ -143,6 +195,13 @@ std::tuple<Array<double>, Array<bool>, Array<float>, Array<float>> segment_depth
 }  // namespace
 
 void define_depth_objects(py::module_& m) {
+    m.def("complete_body", complete_body_arrays, py::arg("measured"), py::arg("cut"), py::arg("columns"),
+          py::arg("rows"), py::arg("index"), py::arg("expected"), py::arg("usual"), py::arg("pieces"),
+          docs::complete_body);
+    m.def("match_object", match_object_arrays, py::arg("measured"), py::arg("cut"), py::arg("columns"),
+          py::arg("rows"), py::arg("others"), py::arg("expected"), py::arg("usual"), py::arg("signature"),
+          py::arg("deviation"), py::arg("unknown"), py::arg("signature_cost"), py::arg("gate"),
+          py::arg("complete"), docs::match_object);
     m.def("cut_sides", cut_sides_arrays, py::arg("depth"), py::arg("table"), py::arg("camera"),
           py::arg("border"), py::arg("beside"), py::arg("nearer"), py::arg("share"), docs::cut_sides);
     m.def("depth_contrast", depth_contrast_arrays, py::arg("depth"), py::arg("camera"), py::arg("states"),

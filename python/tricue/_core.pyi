@@ -457,6 +457,58 @@ def combine_posteriors(
     Source: Okada, Shirai, Miura 1996, (10), for the two classes target and rest.
     """
 
+def complete_body(
+    measured: numpy.typing.NDArray[numpy.float64],
+    cut: numpy.typing.NDArray[numpy.bool],
+    columns: numpy.typing.NDArray[numpy.float32],
+    rows: numpy.typing.NDArray[numpy.float32],
+    index: int,
+    expected: numpy.typing.NDArray[numpy.float64],
+    usual: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool]],
+    pieces: tuple[float, float, float, float],
+) -> tuple[
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.bool],
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+]:
+    """
+    The body of which an object is a part: joined with the pieces that gaps separate from it, and
+    completed where it is cut.
+
+    A piece, such as an arm or a leg, lies for the most part in the region around the expected
+    rectangle, and near the object's depth. One after the other is joined where the body, then, is more
+    nearly of the usual size, by the sum of the squared logarithms of the ratios, and hardly larger. The
+    joined box is that around all pieces as the camera sees them, at the object's depth; it is cut where
+    one of them is. What is cut is extended to the usual size beyond the sides that are cut; between two
+    of these it is as near to the expected center as its visible part allows.
+
+    Args:
+        measured: float64 (C, 8), as measure_objects gives it, finite, depths, sizes and areas above 0
+        cut: bool (C, 4): whether it may go on at the left, right, top, bottom
+        columns: float32 (C, bins), as depth_components gives them
+        rows: as columns
+        index: of the object, in [0, C)
+        expected: float64 (5,): X, Y, Z, W, H, meters, finite
+        usual: (size, known): float64 (2,), the body's width and height, meters, finite, above 0; bool
+            (2,): whether each was ever visible as a whole; else it is a lower bound
+        pieces: (region, inside, joined, depth): times the expected rectangle, around it; share of a
+            piece's area that is more than inside; times the usual size, of a body with its pieces;
+            meters, from the object's depth to that of a piece
+
+    Returns:
+        state: float64 (5,): X, Y, Z, W, H, completed where it is cut
+        whole: bool (2,): whether the whole width and the whole height are visible
+        size: float64 (2,): the usual size; where it isn't known, at least that of the object
+        signature: float64 (2 bins + 2,): the object's columns and rows; centroid of all pieces less the
+            center, x and y, meters
+
+    Raises:
+        ValueError: on other shapes or values
+
+    Source: ours.
+    """
+
 def correlation_response(
     cells: numpy.typing.NDArray[numpy.float32], filters: numpy.typing.NDArray[numpy.complex64]
 ) -> numpy.typing.NDArray[numpy.float32]:
@@ -1902,6 +1954,62 @@ def log_polar_shift(
         ValueError: on other shapes, or numbers out of range
 
     Source: Reddy and Chatterji 1996; Li, Zhu, Hoi, Song, Wang, Liu 2019 (LDES).
+    """
+
+def match_object(
+    measured: numpy.typing.NDArray[numpy.float64],
+    cut: numpy.typing.NDArray[numpy.bool],
+    columns: numpy.typing.NDArray[numpy.float32],
+    rows: numpy.typing.NDArray[numpy.float32],
+    others: numpy.typing.NDArray[numpy.float64],
+    expected: numpy.typing.NDArray[numpy.float64],
+    usual: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool]],
+    signature: numpy.typing.NDArray[numpy.float64],
+    deviation: tuple[float, float, float, float, float],
+    unknown: tuple[float, float],
+    signature_cost: float,
+    gate: tuple[float, float],
+    complete: bool,
+) -> int:
+    """
+    Which of C objects is the target: that of the least cost against the expected state, by position,
+    size and shape.
+
+    The cost is half the squared Mahalanobis distance of (X, Y, Z, W, H) from the expected state, plus,
+    for an object that nothing cuts, signature_cost times the total variation distance of its
+    distributions from the target's. A size that was never visible as a whole is a lower bound: what
+    exceeds it, and the center along its axis, count less. With `complete`, an object that is cut is
+    extended to the usual size beyond the sides that are cut; between two of these it is as near to the
+    expected center as its visible part allows.
+
+    Args:
+        measured: float64 (C, 8), as measure_objects gives it, finite
+        cut: bool (C, 4): whether it may go on at the left, right, top, bottom
+        columns: float32 (C, bins), as depth_components gives them
+        rows: as columns
+        others: float64 (C,): nats on top of each object's cost; (0,) for none
+        expected: float64 (5,): X, Y, Z, W, H, meters, finite
+        usual: (size, known): float64 (2,), the target's width and height, meters, finite, above 0; bool
+            (2,): whether each was ever visible as a whole
+        signature: float64 (2 bins + 2,): the target's columns and rows, and two numbers that aren't
+            read
+        deviation: (x, y, z, share, base): standard deviations of the position, meters, above 0; and of
+            a size, share x size + base, neither negative and not both 0
+        unknown: (center, larger): weights along an axis on which the size isn't known, finite: of the
+            position, and of a size that exceeds the usual one
+        signature_cost: nats, finite
+        gate: (max_cost, min_area): nats, below which the target's cost is; m², of the visible part, at
+            least
+        complete: whether objects count as completed where they are cut
+
+    Returns:
+        int: the number of the object, the first of equal ones; -1 where none is the target
+
+    Raises:
+        ValueError: on other shapes or values
+
+    Source: Sabeti, Parvizi, Wu 2008, section IV.A, says by what objects are told apart; the cost is
+    ours.
     """
 
 def measure_objects(
@@ -3526,6 +3634,22 @@ class Kernels(Protocol):
     def combine_posteriors(
         self, first: numpy.typing.NDArray[numpy.float32], second: numpy.typing.NDArray[numpy.float32]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def complete_body(
+        self,
+        measured: numpy.typing.NDArray[numpy.float64],
+        cut: numpy.typing.NDArray[numpy.bool],
+        columns: numpy.typing.NDArray[numpy.float32],
+        rows: numpy.typing.NDArray[numpy.float32],
+        index: int,
+        expected: numpy.typing.NDArray[numpy.float64],
+        usual: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool]],
+        pieces: tuple[float, float, float, float],
+    ) -> tuple[
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.bool],
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+    ]: ...
     def correlation_response(
         self, cells: numpy.typing.NDArray[numpy.float32], filters: numpy.typing.NDArray[numpy.complex64]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
@@ -3909,6 +4033,22 @@ class Kernels(Protocol):
         most_down: int,
         penalty: float,
     ) -> tuple[float, float]: ...
+    def match_object(
+        self,
+        measured: numpy.typing.NDArray[numpy.float64],
+        cut: numpy.typing.NDArray[numpy.bool],
+        columns: numpy.typing.NDArray[numpy.float32],
+        rows: numpy.typing.NDArray[numpy.float32],
+        others: numpy.typing.NDArray[numpy.float64],
+        expected: numpy.typing.NDArray[numpy.float64],
+        usual: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool]],
+        signature: numpy.typing.NDArray[numpy.float64],
+        deviation: tuple[float, float, float, float, float],
+        unknown: tuple[float, float],
+        signature_cost: float,
+        gate: tuple[float, float],
+        complete: bool,
+    ) -> int: ...
     def measure_objects(
         self,
         table: numpy.typing.NDArray[numpy.float64],

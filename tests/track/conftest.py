@@ -112,13 +112,12 @@ def objects_of() -> Callable[..., Objects]:
     def make(states: Sequence[Sequence[float]], cut: Sequence[Sequence[int]] | None = None) -> Objects:
         five = np.array(states, np.float64).reshape(-1, 5)
         even = np.full((len(five), DISTRIBUTION_BINS), 1 / DISTRIBUTION_BINS, np.float32)
+        area = 0.55 * five[:, 3:].prod(axis=1)
         return Objects(
-            states=five,
+            measured=np.column_stack([five, np.zeros((len(five), 2)), area]),
             cut=np.zeros((len(five), 4), np.bool_) if cut is None else np.array(cut, np.bool_),
-            centroid_offset=np.zeros((len(five), 2)),
             columns=even,
             rows=even,
-            area=0.55 * five[:, 3:].prod(axis=1),
         )
 
     return make

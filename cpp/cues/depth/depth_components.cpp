@@ -68,6 +68,10 @@ PixelRuns label_runs(const BitImage& labeled, const BitImage& changes, const Ima
     const std::size_t most = static_cast<std::size_t>(labels.cols) + BitImage::kWord;
     std::vector<std::int32_t> begins(most), ends(most);
     for (int y = 0; y < labels.rows; ++y) {
+        if (labeled.is_empty(y)) {
+            runs.end_row();
+            continue;
+        }
         const auto count =
             static_cast<std::size_t>(list_runs(labeled, changes, y, single, begins.data(), ends.data()));
         for (std::size_t i = 0; i < count; ++i) runs.add(begins[i], ends[i], labels.row(y)[begins[i]]);

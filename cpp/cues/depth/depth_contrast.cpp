@@ -207,7 +207,8 @@ States RectangleContrast::measure(StatesRef states, bool with_nearer) {
         const double* state = states.row(first).data();
         for (std::size_t i = 0; i < n; ++i) reader.read(project(camera, state + 5 * i), samples[i]);
         for (std::size_t i = 0; i < n; ++i) histograms[i].read(samples[i].inside.data(), state[5 * i + 2]);
-        for (std::size_t i = 0; i < n; ++i) histograms[i].count();
+        for (std::size_t i = 0; i + 1 < n; i += 2) histograms[i].count_beside(histograms[i + 1]);
+        if (n % 2 == 1) histograms[n - 1].count();
         for (std::size_t i = 0; i < n; ++i) {
             histograms[i].finish();
             const auto& [within, beside] = samples[i];

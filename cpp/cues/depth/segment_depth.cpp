@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -18,46 +17,45 @@
 #include "cues/depth/depth_components.hpp"
 #include "cues/depth/depth_density.hpp"
 #include "cues/depth/depth_edges.hpp"
-#include "cues/depth/detail/bit_image.hpp"
+#include "cues/depth/detail/searched_distances.hpp"
 #include "cues/depth/ground_distance.hpp"
 #include "cues/depth/measure_objects.hpp"
 
 namespace tricue {
 namespace {
 
-constexpr int kBins = 16;
+constexpr int kBins = 16;                 ///< of an object's distributions
 constexpr Eigen::Index kMaxMinima = 254;  // labels have 8 bits
 constexpr float kUnmeasured = std::numeric_limits<float>::infinity();
-
-constexpr int kBlock = 64;  ///< pixels, so that loops over them have no remainder
-/// Of an image's pixels an eighth or fewer are searched, before a camera that doesn't move.
-constexpr int kUsualShare = 8;
-
-/// Neighbors mostly share a level, and reading a count that was just written is slow: so they count in different tables.
-constexpr std::size_t kTables = 4;
 
 inline float smaller(float a, float b) {
     return a < b ? a : b;
 }
 
-/// The distances of a row; and with one more float at either end, infinite where nothing was measured.
+/// The distances of a row; and with one more float at either end, infinite where nothing was measured. Returns whether anything was.
 TRICUE_MULTIVERSION
-void read_ground_row(const float* __restrict depth, const double* __restrict across, int n, double down,
+bool read_ground_row(const float* __restrict depth, const double* __restrict across, int n, double down,
                      float near, float far, float* __restrict distance, float* __restrict padded) {
-    for_overlapping_blocks(n, [=](std::ptrdiff_t u) {
+    std::int32_t any = 0;
+    for_overlapping_blocks(n, [=, &any](std::ptrdiff_t u) {
         const float along = along_ground(depth[u], down + across[u], near, far);
         distance[u] = along;
         padded[u + 1] = has_depth(along) ? along : kUnmeasured;
+        any |= has_depth(along);
     });
+    return any != 0;
 }
 
 TRICUE_MULTIVERSION
-void read_depth_row(const float* __restrict depth, int n, float* __restrict distance,
+bool read_depth_row(const float* __restrict depth, int n, float* __restrict distance,
                     float* __restrict padded) {
-    for_overlapping_blocks(n, [=](std::ptrdiff_t u) {
+    std::int32_t any = 0;
+    for_overlapping_blocks(n, [=, &any](std::ptrdiff_t u) {
         distance[u] = depth[u];
         padded[u + 1] = has_depth(depth[u]) ? depth[u] : kUnmeasured;
+        any |= has_depth(depth[u]);
     });
+    return any != 0;
 }
 
 /// The nearest of each pixel and its neighbors left and right.
@@ -85,48 +83,6 @@ void keep_changed(const float* __restrict depth, const float* __restrict before,
         n, [=](std::ptrdiff_t x) { mask[x] &= has_changed(depth[x], before[x], noise, slope); });
 }
 
-/// A histogram's levels, as depth_histogram finds them.
-struct LevelScale {
-    float least, end, near, scale, top;
-    std::int32_t none;
-
-    explicit LevelScale(const DepthLevels& levels)
-        : least(round_up_to_float(levels.near)),
-          end(round_up_to_float(levels.far)),
-          near(static_cast<float>(levels.near)),
-          scale(static_cast<float>(levels.count / (levels.far - levels.near))),
-          top(static_cast<float>(levels.count - 1)),
-          none(levels.count) {}
-};
-
-/// The levels of a block, `none` where a pixel doesn't count.
-TRICUE_MULTIVERSION
-void find_levels(const float* __restrict distance, const LevelScale& levels, std::int32_t* __restrict level) {
-    const float least = levels.least, end = levels.end, near = levels.near, scale = levels.scale,
-                top = levels.top;
-    const std::int32_t none = levels.none;
-    for (int x = 0; x < kBlock; ++x) {
-        const float z = distance[x], place = (z - near) * scale;
-        const bool counts = (z >= least) & (z < end);
-        const float within = counts & (place < top) ? place : top;
-        level[x] = counts ? static_cast<std::int32_t>(within) : none;
-    }
-}
-
-/// The labels of a block, 0 beyond the dividers. As these ascend, a distance has the label of the last that it has reached.
-TRICUE_MULTIVERSION
-void divide(const float* __restrict distance, const float* __restrict dividers, int divisions,
-            std::uint8_t* __restrict labels) {
-    const float end = dividers[divisions];
-    for (int x = 0; x < kBlock; ++x) labels[x] = 0;
-    for (int k = 0; k < divisions; ++k) {
-        const float least = dividers[k];
-        const auto label = static_cast<std::uint8_t>(k + 1);
-        for (int x = 0; x < kBlock; ++x) labels[x] = distance[x] >= least ? label : labels[x];
-    }
-    for (int x = 0; x < kBlock; ++x) labels[x] = distance[x] < end ? labels[x] : std::uint8_t{0};
-}
-
 /// Reads an image row by row: the distances of one, and the nearest of each pixel's neighborhood in three rows.
 class DistanceRows {
     template <typename Rows>
@@ -142,7 +98,9 @@ public:
         const auto n = static_cast<std::size_t>(depth.cols);
         distance_.fill(std::vector<float>(n));
         padded_.fill(std::vector<float>(n + 2, kUnmeasured));
-        nearest_.fill(std::vector<float>(n, kUnmeasured));
+        nearest_rows_.fill(std::vector<float>(n));
+        unmeasured_.assign(n, kUnmeasured);
+        nearest_.fill(unmeasured_.data());
         read(0);
         read(1);
         reduce(0);
@@ -154,141 +112,37 @@ public:
         reduce(y + 1);
     }
 
+    /// Whether anything was measured in it: in most images some rows are all background.
+    bool is_measured(int y) const { return of(measured_, y); }
     const float* distance(int y) const { return of(distance_, y).data(); }
-    const float* nearest(int y) const { return of(nearest_, y).data(); }
+    const float* nearest(int y) const { return of(nearest_, y); }
 
 private:
     void read(int y) {
+        bool& measured = of(measured_, y);
+        measured = false;
         if (y >= depth_.rows) return;
         float *distance = of(distance_, y).data(), *padded = of(padded_, y).data();
         if (ground_)
-            read_ground_row(depth_.row(y), ground_->across.data(), depth_.cols,
-                            ground_->down[static_cast<std::size_t>(y)], ground_->near, ground_->far, distance,
-                            padded);
+            measured = read_ground_row(depth_.row(y), ground_->across.data(), depth_.cols,
+                                       ground_->down[static_cast<std::size_t>(y)], ground_->near,
+                                       ground_->far, distance, padded);
         else
-            read_depth_row(depth_.row(y), depth_.cols, distance, padded);
+            measured = read_depth_row(depth_.row(y), depth_.cols, distance, padded);
     }
 
     void reduce(int y) {
-        auto& nearest = of(nearest_, y);
-        if (y < depth_.rows)
-            nearest_in_row(of(padded_, y).data(), depth_.cols, nearest.data());
-        else
-            std::fill(nearest.begin(), nearest.end(), kUnmeasured);
+        float* row = of(nearest_rows_, y).data();
+        if (is_measured(y)) nearest_in_row(of(padded_, y).data(), depth_.cols, row);
+        of(nearest_, y) = is_measured(y) ? row : unmeasured_.data();
     }
 
     DepthView depth_;
     std::optional<GroundView> ground_;
-    std::array<std::vector<float>, 3> distance_, padded_, nearest_;  // of three rows, in turn
-};
-
-/// Lists the pixels of a row that are set, the first of which has the number `first`. Returns how many there are.
-TRICUE_MULTIVERSION
-std::ptrdiff_t list_pixels(const BitImage& mask, int y, std::ptrdiff_t first, std::ptrdiff_t* pixels) {
-    std::ptrdiff_t* end = pixels;
-    for (int i = 0; i < mask.words(); ++i, first += kBlock) end = list_bits<8>(mask.word(y, i), first, end);
-    return end - pixels;
-}
-
-/// Whether the label of a pixel isn't that of its left neighbor, which is the one listed before it.
-TRICUE_MULTIVERSION
-void mark_changes(const std::uint8_t* __restrict labels, const std::ptrdiff_t* __restrict pixels,
-                  std::ptrdiff_t n, std::uint8_t* __restrict changes) {
-    for (std::ptrdiff_t i = 1; i < n; ++i)
-        changes[i] = (labels[i] != labels[i - 1]) & (pixels[i] == pixels[i - 1] + 1);
-}
-
-/// The pixels where objects are looked for, in reading order, and their distances. Mostly they are few, and apart.
-class SearchedDistances {
-public:
-    SearchedDistances(int rows, int cols) : rows_(rows), cols_(cols), bits_(rows, cols) {
-        make_room(rows * std::ptrdiff_t{cols} / kUsualShare);
-    }
-
-    /// Those of a row whose mask isn't 0; row after row.
-    void add_row(int y, const float* distance, const std::uint8_t* mask) {
-        bits_.read(y, mask);
-        make_room(size_ + cols_ + kBlock);
-        const std::ptrdiff_t first = y * std::ptrdiff_t{cols_}, *pixels = pixels_.data() + size_;
-        const std::ptrdiff_t count = list_pixels(bits_, y, first, pixels_.data() + size_);
-        float* to = distances_.data() + size_;
-        for (std::ptrdiff_t i = 0; i < count; ++i) to[i] = distance[pixels[i] - first];
-        size_ += count;
-    }
-
-    Vector histogram(const DepthLevels& levels) {
-        const LevelScale scale(levels);
-        const auto bins = static_cast<std::size_t>(levels.count) + 1;
-        std::vector<std::int32_t> counts(kTables * bins);
-        std::array<std::int32_t, kBlock> level;
-        fill_last_block();
-        for (std::ptrdiff_t first = 0; first < size_; first += kBlock) {
-            find_levels(distances_.data() + first, scale, level.data());
-            for (std::size_t i = 0; i < kBlock; ++i)
-                ++counts[(i % kTables) * bins + static_cast<std::size_t>(level[i])];
-        }
-        Vector histogram = Vector::Zero(levels.count);
-        for (std::size_t t = 0; t < kTables; ++t)
-            for (Eigen::Index i = 0; i < histogram.size(); ++i)
-                histogram[i] += static_cast<double>(counts[t * bins + static_cast<std::size_t>(i)]);
-        return histogram;
-    }
-
-    /// The runs of pixels in the same division; without pixels that are alone, unless these count.
-    PixelRuns runs(VectorRef dividers, bool single) {
-        const std::vector<std::uint8_t> labels = label(dividers);
-        const bool all = std::memchr(labels.data(), 0, static_cast<std::size_t>(size_)) == nullptr;
-        Labels image(rows_, cols_);  // read only where a bit is set
-        if (!all) image.setZero();
-        for (std::ptrdiff_t i = 0; i < size_; ++i)
-            image.data()[pixels_[i]] = labels[static_cast<std::size_t>(i)];
-        if (!all)
-            for (int y = 0; y < rows_; ++y) bits_.read(y, image.row(y).data());
-        return label_runs(bits_, find_changes(labels), {image.data(), rows_, cols_, 1, cols_}, single);
-    }
-
-private:
-    /// Memory as it is needed: that of a whole image is fetched from the system anew in every frame.
-    void make_room(std::ptrdiff_t pixels) {
-        if (pixels <= pixels_.size()) return;
-        pixels_.conservativeResize(std::max(pixels, 2 * pixels_.size()));
-        distances_.conservativeResize(pixels_.size());
-    }
-
-    /// Distances that don't count, up to a whole block.
-    void fill_last_block() {
-        make_room(size_ + kBlock);
-        distances_.segment(size_, kBlock) = kUnmeasured;
-    }
-
-    std::vector<std::uint8_t> label(VectorRef dividers) {
-        std::vector<float> limits;
-        for (const double s : dividers) limits.push_back(round_up_to_float(s));
-        std::vector<std::uint8_t> labels(static_cast<std::size_t>(size_) + kBlock);
-        fill_last_block();
-        for (std::ptrdiff_t first = 0; first < size_; first += kBlock)
-            divide(distances_.data() + first, limits.data(), static_cast<int>(limits.size()) - 1,
-                   labels.data() + first);
-        return labels;
-    }
-
-    BitImage find_changes(const std::vector<std::uint8_t>& labels) const {
-        BitImage found(rows_, cols_);
-        std::vector<std::uint8_t> changes(labels.size());
-        mark_changes(labels.data(), pixels_.data(), size_, changes.data());
-        for (auto at = changes.begin(); (at = std::find(at, changes.end(), 1)) != changes.end(); ++at) {
-            const std::ptrdiff_t pixel = pixels_[at - changes.begin()], x = pixel % cols_;
-            found.word(static_cast<int>(pixel / cols_), static_cast<int>(x / kBlock)) |= std::uint64_t{1}
-                                                                                         << (x % kBlock);
-        }
-        return found;
-    }
-
-    int rows_, cols_;
-    BitImage bits_;
-    Eigen::Array<std::ptrdiff_t, Eigen::Dynamic, 1> pixels_;  ///< used as far as size_, like the distances
-    Eigen::ArrayXf distances_;
-    std::ptrdiff_t size_ = 0;
+    std::vector<float> unmeasured_;
+    std::array<std::vector<float>, 3> distance_, padded_, nearest_rows_;  // of three rows, in turn
+    std::array<const float*, 3> nearest_;                                 // one of those, or unmeasured_
+    std::array<bool, 3> measured_{};
 };
 
 void require_arguments(const DepthView& depth, const SearchedPixels& searched, const Divisions& divisions) {
@@ -311,7 +165,8 @@ SearchedDistances find_distances(const DepthView& depth, const SearchedPixels& s
     std::vector<std::uint8_t> mask(static_cast<std::size_t>(depth.cols));
     for (int y = 0; y < depth.rows; ++y) {
         rows.next(y);
-        if (y < searched.region.y0 || y >= searched.region.y1 || x0 >= x1) continue;
+        const bool inside = y >= searched.region.y0 && y < searched.region.y1 && x0 < x1;
+        if (!inside || !rows.is_measured(y)) continue;
         mark_row(rows.distance(y), rows.nearest(y - 1), rows.nearest(y), rows.nearest(y + 1), depth.cols,
                  static_cast<float>(divisions.gap), static_cast<float>(divisions.slope), mask.data());
         if (changing)

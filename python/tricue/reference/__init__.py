@@ -43,6 +43,7 @@ from tricue.reference.cues.color.skin_reference import skin_reference
 from tricue.reference.cues.color.skin_rule import skin_rule
 from tricue.reference.cues.depth.above_floor import above_floor
 from tricue.reference.cues.depth.changed_depth import changed_depth
+from tricue.reference.cues.depth.complete_body import complete_body
 from tricue.reference.cues.depth.cut_sides import cut_sides
 from tricue.reference.cues.depth.density_extrema import density_extrema
 from tricue.reference.cues.depth.depth_components import depth_components
@@ -58,6 +59,7 @@ from tricue.reference.cues.depth.fill_gaps import fill_gaps
 from tricue.reference.cues.depth.find_foreground import find_foreground
 from tricue.reference.cues.depth.floor_plane import floor_plane
 from tricue.reference.cues.depth.ground_distance import ground_distance
+from tricue.reference.cues.depth.match_object import match_object
 from tricue.reference.cues.depth.measure_objects import measure_objects
 from tricue.reference.cues.depth.median_depths import median_depths
 from tricue.reference.cues.depth.plane_support import plane_support
@@ -116,6 +118,7 @@ __all__ = [
     "color_posterior",
     "color_ranks",
     "combine_posteriors",
+    "complete_body",
     "correlation_response",
     "correlation_train",
     "cut_sides",
@@ -155,6 +158,7 @@ __all__ = [
     "learn_size_filter",
     "localize_target",
     "log_polar_shift",
+    "match_object",
     "measure_objects",
     "median_depths",
     "observe_target",

@@ -3,16 +3,12 @@
 
 import numpy as np
 import pytest
-from tricue import Intrinsics
+from tricue import Intrinsics, _core
 from tricue.track.depth_objects.objects import DISTRIBUTION_BINS
 from tricue.track.depth_objects.projection import camera_vector, project_box
-from tricue.track.depth_particle.body import (
-    MAX_PIECE_DEPTH,
-    PIECE_REGION,
-    Body,
-    complete_rectangle,
-    join_pieces,
-)
+from tricue.track.depth_particle.matching import MAX_PIECE_DEPTH, PIECE_REGION, complete_body
+from tricue.track.depth_particle.motion import BodyMotion
+from tricue.track.depth_particle.signature import Signature
 
 CAMERA = camera_vector(Intrinsics.from_fov(176, 144, 47.5, 39.5))
 EXPECTED = np.array([0.0, 0.0, 3.0, 0.6, 1.8])
@@ -21,26 +17,45 @@ BODY, LEG = [0.0, -0.3, 3.0, 0.6, 1.2], [0.1, 0.6, 3.0, 0.2, 0.5]
 STRANGER = [1.5, 0.0, 3.0, 0.5, 1.7]
 
 
+def motion(size, known=(True, True)):
+    """The motion of a target at rest, of a usual size that is known or not."""
+    return BodyMotion.start(np.array([0.0, 0.0, 3.0, *size]), np.array(known))
+
+
+def body_of(objects, index, expected=EXPECTED, size=SIZE):
+    """The body of which an object is a part."""
+    return complete_body(_core, objects, index, expected, motion(size))[0]
+
+
 def test_one_object_is_a_body(objects_of):
-    """A body of one object has its state, its cuts and its signature, and is whole as it is."""
+    """A body of one object has its signature and, where nothing cuts it, its state; it is as whole."""
     objects = objects_of([STRANGER, BODY], [[0, 0, 0, 0], [0, 1, 0, 0]])
-    body = Body.from_object(objects, 1)
-    np.testing.assert_array_equal(body.state, BODY)
-    np.testing.assert_array_equal(body.cut, [False, True, False, False])
-    np.testing.assert_array_equal(body.whole, [False, True])
-    np.testing.assert_array_equal(body.whole, objects.whole[1])
+    objects.centroid_offset[:] = 0.05, -0.1
+    stranger, body = body_of(objects, 0), body_of(objects, 1)
+    np.testing.assert_array_equal(stranger.state, STRANGER)
+    np.testing.assert_array_equal([stranger.whole, body.whole], [[True, True], [False, True]])
+    np.testing.assert_array_equal([stranger.whole, body.whole], objects.whole)
     np.testing.assert_array_equal(
         body.signature.distribution, np.full(2 * DISTRIBUTION_BINS, 1 / DISTRIBUTION_BINS, np.float32)
     )
+    np.testing.assert_array_equal(body.signature.centroid_offset, [0.05, -0.1])
+
+
+def test_an_unknown_size_grows_to_what_is_visible(objects_of):
+    """A lower bound is at least the object's size. A known size stays, and so does a larger one."""
+    objects = objects_of([[0.0, 0.0, 3.0, 0.7, 1.5]])
+    sizes = {
+        known: complete_body(_core, objects, 0, EXPECTED, motion(SIZE, known))[1].mean_size.tolist()
+        for known in ((True, True), (False, True), (False, False))
+    }
+    assert list(sizes.values()) == [[0.6, 1.8], [0.7, 1.8], [0.7, 1.8]]
 
 
 def test_whole_objects_are_complete(objects_of):
     """What nothing cuts stays as it is, however small."""
     objects = objects_of([[0.0, 0.0, 3.0, 0.5, 1.7], [1.0, 0.0, 3.0, 0.5, 0.9]])
     for i in range(2):
-        np.testing.assert_array_equal(
-            Body.from_object(objects, i).complete(EXPECTED, SIZE), objects.states[i]
-        )
+        np.testing.assert_array_equal(body_of(objects, i).state, objects.states[i])
 
 
 @pytest.mark.parametrize(
@@ -51,7 +66,7 @@ def test_cut_objects_are_completed_on_the_side_that_is_cut(side, axis, sense, ob
     half = EXPECTED.copy()
     half[3 + axis] /= 2
     cut = [[int(i == side) for i in range(4)]]
-    state = Body.from_object(objects_of([half], cut), 0).complete(EXPECTED, SIZE)
+    state = body_of(objects_of([half], cut), 0).state
     assert state[3 + axis] == pytest.approx(EXPECTED[3 + axis])
     free = half[axis] - sense * half[3 + axis] / 2
     assert state[axis] - sense * state[3 + axis] / 2 == pytest.approx(free)
@@ -67,7 +82,7 @@ def test_objects_cut_on_both_sides_are_where_they_are_expected(axis, expected, m
     part[3 + axis] -= 0.3
     place[axis] += expected
     cut = [[1, 1, 0, 0], [0, 0, 1, 1]][axis]
-    state = Body.from_object(objects_of([part], [cut]), 0).complete(place, SIZE)
+    state = body_of(objects_of([part], [cut]), 0, place).state
     assert state[axis] == pytest.approx(middle)
     assert state[3 + axis] == pytest.approx(EXPECTED[3 + axis])
 
@@ -77,17 +92,15 @@ def test_larger_cut_objects_stay(objects_of):
     large = [0.0, 0.0, 3.0, 0.9, 2.0]
     objects = objects_of([large, [0.0, 0.0, 3.0, 0.2, 1.7]], [[1, 0, 1, 0], [1, 0, 0, 0]])
     before = objects.states.copy()
-    np.testing.assert_array_equal(Body.from_object(objects, 0).complete(EXPECTED, SIZE), large)
-    assert Body.from_object(objects, 1).complete(EXPECTED, SIZE)[3] == SIZE[0]
+    np.testing.assert_array_equal(body_of(objects, 0).state, large)
+    assert body_of(objects, 1).state[3] == SIZE[0]
     np.testing.assert_array_equal(objects.states, before)
 
 
 def test_each_axis_is_completed_by_itself(objects_of):
     """An object cut in a corner grows in both directions, as the one and the other cut alone."""
-    part = [0.1, 0.2, 3.0, 0.3, 1.0]
-    x, y, z, width, height = complete_rectangle(
-        part, [True, False, False, True], EXPECTED.tolist(), SIZE.tolist()
-    )
+    part = objects_of([[0.1, 0.2, 3.0, 0.3, 1.0]], [[1, 0, 0, 1]])
+    x, y, z, width, height = body_of(part, 0).state
     assert (z, width, height) == (3.0, 0.6, 1.8)
     assert (x + width / 2, y - height / 2) == pytest.approx((0.1 + 0.15, 0.2 - 0.5))
 
@@ -98,15 +111,13 @@ def test_pieces_are_joined(objects_of):
     """
     objects = objects_of([BODY, LEG, STRANGER])
     objects.columns[0] = np.eye(DISTRIBUTION_BINS, dtype=np.float32)[3]
-    objects = objects._replace(centroid_offset=np.array([[0.05, -0.1], [0.0, 0.02], [0.0, 0.0]]))
+    objects.centroid_offset[:] = [[0.05, -0.1], [0.0, 0.02], [0.0, 0.0]]
     before = objects.states.copy()
-    both = join_pieces(objects, 0, EXPECTED, SIZE)
+    both = body_of(objects, 0)
     np.testing.assert_allclose(both.state, [0.0, -0.025, 3.0, 0.6, 1.75], atol=1e-12)
     centroid = (0.72 * np.array([0.05, -0.4]) + 0.1 * np.array([0.1, 0.62])) / 0.82
     np.testing.assert_allclose(both.state[:2] + both.signature.centroid_offset, centroid, atol=1e-12)
-    np.testing.assert_array_equal(
-        both.signature.distribution, Body.from_object(objects, 0).signature.distribution
-    )
+    np.testing.assert_array_equal(both.signature.distribution, Signature.from_object(objects, 0).distribution)
     assert both.signature.distribution[3] == 1
     np.testing.assert_array_equal(objects.states, before)
 
@@ -117,7 +128,7 @@ def test_a_union_is_the_box_around_its_pieces_as_the_camera_sees_them(z, x, obje
     its depth is the body's.
     """
     body, leg = [0.8, -0.3, 3.0, 0.6, 1.2], [x, 0.6, z, 0.1, 0.5]
-    both = join_pieces(objects_of([body, leg]), 0, np.array([0.8, 0, 3, 0.6, 1.8]), SIZE)
+    both = body_of(objects_of([body, leg]), 0, np.array([0.8, 0, 3, 0.6, 1.8]), SIZE)
     corners = np.array([project_box(np.array(each), CAMERA).xyxy for each in (body, leg)])
     expected = [*corners[:, :2].min(axis=0), *corners[:, 2:].max(axis=0)]
     np.testing.assert_allclose(project_box(both.state, CAMERA).xyxy, expected, rtol=1e-12)
@@ -130,7 +141,7 @@ def test_many_pieces_are_joined_from_any_of_them(objects_of):
     arm = [-0.32, -0.2, 3.0, 0.1, 0.6]
     objects = objects_of([BODY, LEG, arm])
     for i in range(3):
-        both = join_pieces(objects, i, EXPECTED, np.array([0.67, 1.8]))
+        both = body_of(objects, i, EXPECTED, np.array([0.67, 1.8]))
         np.testing.assert_allclose(both.state, [-0.035, -0.025, 3.0, 0.67, 1.75], atol=1e-12)
 
 
@@ -144,7 +155,7 @@ def test_other_objects_are_not_joined(other, objects_of):
     stays as it is.
     """
     objects = objects_of([BODY, other])
-    alone = join_pieces(objects, 0, EXPECTED, SIZE)
+    alone = body_of(objects, 0)
     np.testing.assert_array_equal(alone.state, BODY)
     np.testing.assert_array_equal(alone.signature.centroid_offset, objects.centroid_offset[0])
 
@@ -157,22 +168,22 @@ def test_a_piece_is_near_in_depth_and_mostly_in_the_region(by, is_joined, object
     behind = [0.0, 0.6, 3.0 + MAX_PIECE_DEPTH + by, 0.2, 0.5]
     aside = [PIECE_REGION * SIZE[0] / 2 - 0.3 * 0.1 + by * 0.2, 0.6, 3.0, 0.1, 0.5]
     for piece in (behind, aside):
-        both = join_pieces(objects_of([BODY, piece]), 0, EXPECTED, np.array([0.75, 1.8]))
+        both = body_of(objects_of([BODY, piece]), 0, EXPECTED, np.array([0.75, 1.8]))
         assert (both.state[4] > 1.2) == is_joined
 
 
 def test_the_matched_object_is_always_a_piece(objects_of):
     """The matched object is the body wherever it was expected; what is in the expected region joins it."""
     far = np.array([9.0, 0.0, 3.0, 0.6, 1.8])
-    np.testing.assert_array_equal(join_pieces(objects_of([BODY, LEG]), 0, far, SIZE).state, BODY)
+    np.testing.assert_array_equal(body_of(objects_of([BODY, LEG]), 0, far, SIZE).state, BODY)
 
 
 def test_a_union_is_cut_where_its_pieces_are(objects_of):
-    """A body whole and a leg cut at the bottom make something cut at the bottom."""
+    """A body whole and a leg cut at the bottom make something cut at the bottom, which is completed there."""
     objects = objects_of([BODY, LEG], [[0, 0, 0, 0], [0, 0, 0, 1]])
-    both = join_pieces(objects, 0, EXPECTED, SIZE)
-    assert both.cut.tolist() == [False, False, False, True]
+    both = body_of(objects, 0)
     assert both.whole.tolist() == [True, False]
+    np.testing.assert_allclose(both.state, [0.0, 0.0, 3.0, *SIZE], atol=1e-12)
 
 
 def test_what_makes_a_body_larger_than_usual_is_no_piece(objects_of):
@@ -181,7 +192,7 @@ def test_what_makes_a_body_larger_than_usual_is_no_piece(objects_of):
     """
     sideways, chair = [0.0, 0.0, 3.0, 0.35, 1.7], [0.45, 0.3, 3.0, 0.2, 0.8]
     wide = np.array([0.2, 0.0, 3.0, 0.9, 1.8])
-    alone = join_pieces(objects_of([sideways, chair]), 0, wide, SIZE)
+    alone = body_of(objects_of([sideways, chair]), 0, wide, SIZE)
     np.testing.assert_array_equal(alone.state, sideways)
     usual = [0.0, 0.0, 3.0, *SIZE]
-    np.testing.assert_array_equal(join_pieces(objects_of([usual, chair]), 0, wide, SIZE).state, usual)
+    np.testing.assert_array_equal(body_of(objects_of([usual, chair]), 0, wide, SIZE).state, usual)

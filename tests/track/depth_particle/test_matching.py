@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+from tricue import _core
 from tricue.track.depth_particle.matching import MAX_COST, best_match
 from tricue.track.depth_particle.motion import BodyMotion
 from tricue.track.depth_particle.signature import Signature
@@ -22,7 +23,7 @@ def moved(*by: float) -> list[float]:
 
 def match(objects, motion=KNOWN, seconds=FRAME, max_cost=MAX_COST, signature=EVEN, **options):
     """The best match among objects."""
-    return best_match(objects, EXPECTED, motion, signature, seconds, max_cost, **options)
+    return best_match(_core, objects, EXPECTED, motion, signature, seconds, max_cost, **options)
 
 
 def test_nothing_matches_nothing(objects_of):
@@ -110,8 +111,8 @@ def test_other_costs_come_on_top(objects_of):
     """The nearest object isn't the target where it costs more otherwise; an infinite cost excludes it."""
     two = objects_of([TARGET, moved(0.1)])
     assert match(two) == 0
-    assert match(two, other_costs=[1.0, 0.0]) == 1
-    assert match(two, other_costs=[np.inf, np.inf]) is None
+    assert match(two, other_costs=np.array([1.0, 0.0])) == 1
+    assert match(two, other_costs=np.array([np.inf, np.inf])) is None
 
 
 def test_what_is_cut_may_count_as_it_is(objects_of):

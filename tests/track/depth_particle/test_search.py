@@ -45,7 +45,7 @@ def test_the_human_filter_excludes_furniture(state, objects_of):
     """
     cupboard, person = beside(state, 0.0), beside(state, 0.2)
     objects = objects_of([cupboard, person])
-    objects = objects._replace(area=objects.area * [1.5, 1.0])
+    objects.area[:] *= [1.5, 1.0]
     alone = type(objects)(*(each[:1] for each in objects))
     assert found(state, objects) == pytest.approx(cupboard)
     assert found(state, objects, human_filter=True) == pytest.approx(person)

@@ -27,6 +27,13 @@ public:
     std::uint64_t& word(int y, int i) { return row(y)[i]; }
     TRICUE_INLINE std::uint64_t word(int y, int i) const { return row(y)[i]; }
 
+    bool is_empty(int y) const {
+        const std::uint64_t* first = row(y);
+        return std::all_of(first, first + words_, [](std::uint64_t each) { return each == 0; });
+    }
+
+    void set(int y, int x) { word(y, x / kWord) |= std::uint64_t{1} << (x % kWord); }
+
     /// Sets the bits of the row's bytes that aren't 0.
     void read(int y, const std::uint8_t* bytes) {
         int i = 0;

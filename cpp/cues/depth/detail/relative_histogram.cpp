@@ -89,6 +89,18 @@ void RelativeHistogram::count() {
         for (std::size_t lane = 0; lane < kLanes; ++lane) ++counts[level[k + lane]];
 }
 
+void RelativeHistogram::count_beside(RelativeHistogram& other) {
+    std::fill(counts_.begin(), counts_.end(), 0);
+    std::fill(other.counts_.begin(), other.counts_.end(), 0);
+    std::int32_t *counts = counts_.data(), *others = other.counts_.data();
+    const std::int32_t *level = level_.data(), *other_level = other.level_.data();
+    for (std::size_t k = 0; k < level_.size(); k += kLanes)
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            ++counts[level[k + lane]];
+            ++others[other_level[k + lane]];
+        }
+}
+
 void RelativeHistogram::finish() {
     add_tables(counts_.data(), table_);
 }

@@ -28,6 +28,9 @@ public:
     void count();
     void finish();
 
+    /// Two at once, of as many samples: neighbors mostly share a level, and a count that was just written is read late.
+    void count_beside(RelativeHistogram& other);
+
     Vector shares() const;  ///< (levels,) of sum 1; all 0 where nothing counts
     /// How many samples count.
     double total() const {

@@ -30,22 +30,33 @@ EVERYWHERE: Region = (0, 0, 2**31 - 1, 2**31 - 1)
 
 
 class Objects(NamedTuple):
-    """C objects, largest first.
+    """C objects, largest first, as the kernel segment_depth gives them.
 
-    states: (C, 5) X, Y, Z of the box's center, width and height, meters; Z is the mean depth.
+    measured: (C, 8) what ``states``, ``centroid_offset`` and ``area`` are parts of.
     cut: (C, 4) whether it may continue beyond its left, right, top, bottom: at the edge of what was measured
         or behind an occluder.
-    centroid_offset: (C, 2) from the box's center to the centroid, meters.
     columns, rows: (C, DISTRIBUTION_BINS) horizontal and vertical distribution, each of sum 1.
-    area: (C,) square meters.
     """
 
-    states: Floats
+    measured: Floats
     cut: NDArray[np.bool_]
-    centroid_offset: Floats
     columns: Singles
     rows: Singles
-    area: Floats
+
+    @property
+    def states(self) -> Floats:
+        """(C, 5) X, Y, Z of the box's center, width and height, meters; Z is the mean depth."""
+        return self.measured[:, :5]
+
+    @property
+    def centroid_offset(self) -> Floats:
+        """(C, 2) from the box's center to the centroid, meters."""
+        return self.measured[:, 5:7]
+
+    @property
+    def area(self) -> Floats:
+        """(C,) square meters."""
+        return self.measured[:, 7]
 
     @property
     def whole(self) -> NDArray[np.bool_]:
@@ -75,7 +86,7 @@ def segment(
     """
     fx, fy = fg.camera[:2].tolist()
     far_pixels = p.min_area * fx * fy / p.far**2
-    measured, cut, columns, rows = k.segment_depth(
+    found = k.segment_depth(
         fg.depth,
         others,
         (SAME_DEPTH, SAME_DEPTH_SLOPE),
@@ -90,4 +101,4 @@ def segment(
         (BORDER, OCCLUDER_DISTANCE, p.occluder_margin, MAX_SIDE_COVERED),
         (MAX_FEET_HEIGHT, LEGS_FILL),
     )
-    return Objects(measured[:, :5], cut, measured[:, 5:7], columns, rows, measured[:, 7])
+    return Objects(*found)

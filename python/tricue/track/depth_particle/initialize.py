@@ -41,8 +41,7 @@ def initialize_on_person(objects: Objects, p: DepthParticleParams) -> TargetObje
         raise TargetNotFoundError(
             f"box: expected (x, y, width, height), as nobody was found in this frame{empty}"
         )
-    index = int(people[0])
-    return TargetObject(objects.states[index], objects.whole[index], Signature.from_object(objects, index))
+    return TargetObject.from_object(objects, int(people[0]))
 
 
 def initialize_in_box(box: Box, objects: Objects, fg: Foreground, p: DepthParticleParams) -> TargetObject:

@@ -64,11 +64,13 @@ class BodyMotion(NamedTuple):
         """Move to a new estimate; its step updates the velocity where both positions were ``visible``."""
         velocity = self.velocity
         if visible:
-            positions = zip(state[:3].tolist(), self.state[:3].tolist(), strict=True)
-            step = [(now - before) / seconds for now, before in positions]
-            share = min(1.0, p.max_speed / max(math.hypot(*step), 1e-9))
-            both = zip(velocity.tolist(), step, strict=True)
-            velocity = np.array([old + p.velocity_rate * (each * share - old) for old, each in both])
+            # Numbers one by one, as above.
+            (x, y, z, _, _), (x0, y0, z0, _, _) = state.tolist(), self.state.tolist()
+            vx, vy, vz = (x - x0) / seconds, (y - y0) / seconds, (z - z0) / seconds
+            share, rate = min(1.0, p.max_speed / max(math.hypot(vx, vy, vz), 1e-9)), p.velocity_rate
+            x, y, z = velocity.tolist()
+            smoothed = x + rate * (vx * share - x), y + rate * (vy * share - y), z + rate * (vz * share - z)
+            velocity = np.array(smoothed)
         return BodyMotion(state, velocity, self.mean_size, self.size_known)
 
     def coast(self, state: Floats, velocity_kept: float) -> "BodyMotion":
@@ -89,8 +91,10 @@ class BodyMotion(NamedTuple):
         be wider.
         """
         if all(whole.tolist()) and all(self.size_known.tolist()):
-            mean_size = self.mean_size + p.size_rate * (size - self.mean_size)
-            return BodyMotion(self.state, self.velocity, mean_size, self.size_known)
+            (width, height), (mean_width, mean_height) = size.tolist(), self.mean_size.tolist()
+            mean_width += p.size_rate * (width - mean_width)
+            mean_height += p.size_rate * (height - mean_height)
+            return BodyMotion(self.state, self.velocity, np.array((mean_width, mean_height)), self.size_known)
         size = np.where(whole, size, self.mean_size)
         known = whole & (whole | self.size_known)[::-1]
         first = whole & ~self.size_known

@@ -14,7 +14,7 @@ from tricue.camera.box import Box
 from tricue.kernels import Kernels
 from tricue.track.depth_objects.foreground import Foreground
 from tricue.track.depth_objects.objects import Region
-from tricue.track.depth_objects.projection import project_box
+from tricue.track.depth_objects.projection import project_rectangle
 
 Floats = NDArray[np.float64]
 Depth = NDArray[np.float32]
@@ -24,7 +24,8 @@ OWN_REGION = 1.1  # times the target's rectangle, which may be off by that, or m
 
 def region_in(box: Box, fg: Foreground) -> Region:
     """The columns and rows of the foreground, x0, y0, x1, y1, in which the target in a box is, pixels."""
-    return _region(Box(*(each / fg.step for each in box)), fg.depth.shape)
+    seen = Box(*(each / fg.step for each in box))
+    return _region(*seen.center, seen.width, seen.height, fg.depth.shape)
 
 
 def remember_others(k: Kernels, others: Depth, fg: Foreground, target: Floats, reach: float) -> Depth:
@@ -33,8 +34,8 @@ def remember_others(k: Kernels, others: Depth, fg: Foreground, target: Floats, r
     Its own are the pixels in the region of its rectangle, state (5,), whose depth is within ``reach`` of its
     own, meters.
     """
-    region = _region(project_box(target, fg.camera), fg.depth.shape)
-    return k.remember_depth(fg.depth, others, region, float(target[2]), reach)
+    x, y, width, height, z = project_rectangle(target, fg.camera)
+    return k.remember_depth(fg.depth, others, _region(x, y, width, height, fg.depth.shape), z, reach)
 
 
 def enlarge(box: Box) -> Box:
@@ -43,13 +44,10 @@ def enlarge(box: Box) -> Box:
     return Box(x - width / 2, y - height / 2, width, height)
 
 
-def _region(box: Box, shape: tuple[int, ...]) -> Region:
-    """First and end of the columns and rows, x0, y0, x1, y1, of the region of a box in an image."""
-    left, top, right, bottom = enlarge(box).xyxy
-    (height, width), floor, ceil = shape, math.floor, math.ceil
-    first = _inside(floor(left), width), _inside(floor(top), height)
-    return *first, _inside(ceil(right), width), _inside(ceil(bottom), height)
-
-
-def _inside(pixel: int, size: int) -> int:
-    return min(max(pixel, 0), size)
+def _region(x: float, y: float, width: float, height: float, shape: tuple[int, ...]) -> Region:
+    """First and end of the columns and rows, x0, y0, x1, y1, of the region of a box of this center."""
+    width, height = OWN_REGION * width, OWN_REGION * height
+    left, top, (rows, columns) = x - width / 2, y - height / 2, shape
+    right, bottom = math.ceil(left + width), math.ceil(top + height)
+    x0, y0 = min(max(math.floor(left), 0), columns), min(max(math.floor(top), 0), rows)
+    return x0, y0, min(max(right, 0), columns), min(max(bottom, 0), rows)

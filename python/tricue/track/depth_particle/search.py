@@ -10,14 +10,15 @@ from tricue.kernels import Kernels
 from tricue.track.base.prediction import Prediction
 from tricue.track.depth_objects.foreground import Foreground
 from tricue.track.depth_objects.objects import Objects
-from tricue.track.depth_particle.body import Body, join_pieces
 from tricue.track.depth_particle.initialize import find_people
 from tricue.track.depth_particle.matching import (
     MAX_COST,
     MAX_COST_MISSED,
+    NO_COSTS,
     SIGNATURE_COST,
     TargetObject,
     best_match,
+    complete_body,
 )
 from tricue.track.depth_particle.motion import MAX_NOISE_TIME, BodyMotion
 from tricue.track.depth_particle.occluder import follow_occluder, remove_occluder
@@ -56,6 +57,7 @@ def find_target(
     candidates, occluder = _candidates(state, objects, seconds, p)
     max_cost = MAX_COST if state.missed_seconds == 0 else MAX_COST_MISSED
     best = best_match(
+        k,
         candidates,
         expected,
         state.motion,
@@ -67,21 +69,18 @@ def find_target(
     )
     if best is None:
         return SearchResult(None, state.motion, occluder)
-    motion = state.motion.grow(candidates.states[best, 3:])
     if not p.complete:
-        body = Body.from_object(candidates, best)
-        return SearchResult(TargetObject(body.state, body.whole, body.signature), motion, occluder)
-    body = join_pieces(candidates, best, expected, state.motion.mean_size)
-    completed = body.complete(expected, motion.mean_size)
-    return SearchResult(TargetObject(completed, body.whole, body.signature), motion, occluder)
+        motion = state.motion.grow(candidates.states[best, 3:])
+        return SearchResult(TargetObject.from_object(candidates, best), motion, occluder)
+    return SearchResult(*complete_body(k, candidates, best, expected, state.motion), occluder)
 
 
 def _other_costs(
     k: Kernels, state: State, fg: Foreground, objects: Objects, p: DepthParticleParams
-) -> list[float] | None:
-    """Nats, of each object: of a depth histogram unlike the target's, and of who isn't a human candidate."""
+) -> Floats:
+    """(C,) nats: of a depth histogram unlike the target's, and of who isn't a human candidate; or none."""
     if not (p.human_filter or p.depth_signature) or len(objects.states) == 0:
-        return None
+        return NO_COSTS
     costs = np.zeros(len(objects.states))
     if p.depth_signature:
         costs += SIGNATURE_COST * state.model.distance(k, fg, np.ascontiguousarray(objects.states))
@@ -89,7 +88,7 @@ def _other_costs(
         others = np.ones(len(costs), np.bool_)
         others[find_people(objects, p)] = False
         costs[others] = np.inf
-    return [float(cost) for cost in costs]
+    return costs
 
 
 def _candidates(

@@ -43,15 +43,6 @@ class Signature(NamedTuple):
         parts = objects.columns[index], objects.rows[index], objects.centroid_offset[index]
         return cls(np.concatenate(parts, dtype=np.float64))
 
-    def distance(self, objects: Objects, index: int) -> float:
-        """The total variation distance to an object's distributions, their mean, in [0, 1]."""
-        distribution = np.concatenate((objects.columns[index], objects.rows[index]), dtype=np.float64)
-        return float(np.add.reduce(np.abs(distribution - self.distribution))) / 4
-
     def learn(self, new: "Signature") -> "Signature":
         """Blend in another signature."""
         return Signature(self.values + SIGNATURE_RATE * (new.values - self.values))
-
-    def with_centroid(self, offset: Floats) -> "Signature":
-        """The same distribution with another offset (2,) of the centroid, meters."""
-        return Signature(np.concatenate((self.distribution, offset)))

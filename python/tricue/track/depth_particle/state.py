@@ -52,7 +52,7 @@ class State(NamedTuple):
     timestamp: float | None
     missed_seconds: float = 0.0
     hidden: bool = False  # whether the target is missed because something is in front of it
-    position_spread: Floats | float = 0.0  # (3,) meters, standard deviation of X, Y, Z of a missed target
+    position_spread: Floats | None = None  # (3,) meters, standard deviation of X, Y, Z of a missed target
     occluder: Floats | None = None  # (3,) meters, position of what hides the target, while it is missed
 
     def lost(self, p: DepthParticleParams) -> bool:

@@ -40,13 +40,12 @@ MEAN_RATE = 0.1  # per frame, of the running means
 MAX_COVERED_TO_LEARN = 0.1  # of the target, by what is in front of it
 LOG_SIZE_DEVIATION = np.array([0.25, 0.2])  # of width and height against their running means
 NO_SIZE_PRIOR = np.full(2, 1e100)  # deviations that no size feels
-MIN_POSITION_DEVIATION = 0.01  # meters, of a track's position
-IDENTITY = np.eye(3)
+MIN_POSITION_VARIANCE = 0.01**2 * np.eye(3)  # square meters, of a track's position
 OBJECT_ROOT = np.diag(OBJECT_DEVIATION)  # of the covariance of the proposal at an object
 NO_OBJECT: tuple[Floats, Floats, float] = (np.zeros(1), np.eye(1), 0.0)  # no proposal at an object
 
 
-Learned = dict[str, Any]  # what of a state was learned, by its field
+Changes = dict[str, Any]  # of a state, by its field
 
 
 class FilteredTarget(NamedTuple):
@@ -173,44 +172,44 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         depth, timestamp = validation.depth_image(frame, before.shape)
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
         self._random.resume(before.random)
-        state = self._follow(before, depth, seconds)
-        return self._keep(state._replace(random=self._random.save(), timestamp=timestamp), frame)
+        return self._keep(self._follow(before, depth, timestamp, seconds), frame)
 
-    def _follow(self, state: State, depth: NDArray[np.float32], seconds: float) -> State:
+    def _follow(
+        self, state: State, depth: NDArray[np.float32], timestamp: float | None, seconds: float
+    ) -> State:
         """Segment, predict, measure, weigh, estimate; learn, or coast where the target is missed."""
         k, p = self._k, self.params
         fg, plane = extract_foreground(k, depth, state.camera, state.plane, self._rng, p)
         objects = segment(k, fg, plane, p, others=state.others if p.leave_out_others else NOTHING_KNOWN)
-        before = state.motion
-        prediction = before.predict(p, seconds, state.missed_seconds)
+        prediction = state.motion.predict(p, seconds, state.missed_seconds)
         target, motion, occluder = find_target(k, state, fg, objects, prediction, seconds, p)
-        state = state._replace(plane=plane, objects=objects, motion=motion, occluder=occluder)
+        changes: Changes = {"plane": plane, "objects": objects, "timestamp": timestamp}
         measured = NOT_MEASURED if target is None else Measurement.create(target.state, p.measurement)
-        found = self._filter(state, fg, prediction, target, measured)
+        found = self._filter(state, motion.mean_size, fg, prediction, target, measured)
         recognized = self._recognized(state, found.observed, target)
         if not recognized and p.coast:
-            return self._coast(state._replace(motion=before), fg, prediction, seconds)
+            return self._coast(state._replace(occluder=occluder, **changes), fg, prediction, seconds)
         visible = state.missed_seconds == 0 and found.observed.front < p.max_covered
         motion = motion.update(found.particles.state, p, seconds, visible)
-        learned: Learned = {}
         if recognized and found.observed.front < MAX_COVERED_TO_LEARN:
-            learned = self._learn(state, found, target)
+            changes |= self._learn(state, found, target)
             if target is not None:
                 motion = motion.learn_size(target.state[3:], target.whole, p)
-        return self._accept(state, fg, found, motion, learned)
+        return self._accept(state, fg, found, motion, changes)
 
     def _filter(
         self,
         state: State,
+        size: Floats,
         fg: Foreground,
         prediction: Prediction,
         target: TargetObject | None,
         measured: Measurement,
     ) -> FilteredTarget:
         """One step of the particle filter: propose by (39) and at the object, weigh (2), estimate (31); then
-        again close to that estimate, as 100 particles are few in five dimensions.
+        again close to that estimate, as 100 particles are few in five dimensions. size: (2,) the usual one.
         """
-        p, before, size = self.params, state.particles, state.motion.mean_size
+        p, before = self.params, state.particles
         width, height = size.tolist()
         offset, noise = self._draw(before.particles.shape)
         detection = NO_OBJECT if target is None else (target.state, OBJECT_ROOT, p.object_share)
@@ -252,13 +251,14 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         )
 
     def _accept(
-        self, state: State, fg: Foreground, found: FilteredTarget, motion: BodyMotion, learned: Learned
+        self, state: State, fg: Foreground, found: FilteredTarget, motion: BodyMotion, changes: Changes
     ) -> State:
-        """The state at the particles' estimate, which is where the target is."""
+        """The state at the particles' estimate, which is where the target is, with other changes."""
         others = remember_others(
             self._k, state.others, fg, found.particles.state, self.params.histogram_reach
         )
         return state._replace(
+            random=self._random.save(),
             particles=found.particles,
             others=others,
             motion=motion,
@@ -266,11 +266,11 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             missed_seconds=0.0,
             hidden=False,
             occluder=None,
-            position_spread=0.0,
-            **learned,
+            position_spread=None,
+            **changes,
         )
 
-    def _learn(self, state: State, found: FilteredTarget, target: TargetObject | None) -> Learned:
+    def _learn(self, state: State, found: FilteredTarget, target: TargetObject | None) -> Changes:
         """Of the state the depth model, the running means and the signature, updated."""
         p, signature, observed = self.params, state.signature, found.observed
         if target is not None and all(target.whole.tolist()):
@@ -293,6 +293,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             index = find_occluder(state.objects, expected, p.occluder_margin)
             occluder = None if index is None else state.objects.states[index, :3]
         return state._replace(
+            random=self._random.save(),
             motion=state.motion.coast(expected, VELOCITY_KEPT_HIDDEN if hidden else VELOCITY_KEPT),
             particles=ParticleSet.at_state(expected, p.particles),
             score=0.0,
@@ -308,11 +309,12 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             status = Status.TRACKED
         else:
             status = Status.LOST if state.lost(self.params) else Status.OCCLUDED
-        x, y, depth, *_ = state.motion.state.tolist()  # its depth is the same before any camera
+        x, y, depth, _, _ = state.motion.state.tolist()  # its depth is the same before any camera
         if self.intrinsics is None:
             return Track(box, state.score, status, depth=depth)
-        variance = MIN_POSITION_DEVIATION**2 + state.position_spread**2
-        covariance = state.particles.covariance[:3, :3] + variance * IDENTITY
+        covariance = state.particles.covariance[:3, :3] + MIN_POSITION_VARIANCE
+        if state.position_spread is not None:
+            covariance += np.diag(state.position_spread**2)
         right, down = state.signature.centroid_offset.tolist()
         position = np.array((x + right, y + down, depth))
         return Track(box, state.score, status, position, covariance, depth)

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "base/arrays.hpp"
+#include "cues/depth/cut_sides.hpp"
+
+namespace tricue {
+
+/// What segment_depth tells of C objects.
+struct ObjectFeatures {
+    StatesRef measured;
+    Eigen::Ref<const Flags> cut;
+    FloatsRef columns, rows;
+};
+
+/// A rectangle in meters: X, Y, Z of its center, width and height.
+using RectangleState = std::array<double, 5>;
+
+/// An object's rectangle.
+RectangleState rectangle_of(const ObjectFeatures& objects, Eigen::Index index);
+
+/// A rectangle as if nothing cut it: extended to the size (2,) beyond the sides (4) that are cut. Cut at opposite sides, it is as
+/// near to the middle of the expected state as its visible part allows.
+RectangleState complete_rectangle(const RectangleState& state, const bool* cut, VectorRef expected,
+                                  VectorRef size);
+
+/// Arguments of kernels that compare objects with a target.
+void require_objects(const ObjectFeatures& objects);
+void require_size_above_0(VectorRef size);
+
+}  // namespace tricue

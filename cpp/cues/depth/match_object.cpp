@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "cues/depth/match_object.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "base/check.hpp"
+
+namespace tricue {
+namespace {
+
+using Index = Eigen::Index;
+
+/// The total variation distance of an object's distributions from the target's, their mean, in [0, 1].
+double signature_distance(const ObjectFeatures& objects, Index index, VectorRef signature) {
+    const Index bins = objects.columns.cols();
+    double sum = 0.0;
+    for (Index i = 0; i < bins; ++i) sum += std::abs(double{objects.columns(index, i)} - signature[i]);
+    for (Index i = 0; i < bins; ++i) sum += std::abs(double{objects.rows(index, i)} - signature[bins + i]);
+    return sum / 4;
+}
+
+class Matcher {
+public:
+    Matcher(const ExpectedTarget& expected, const MatchCosts& by)
+        : expected_(expected),
+          by_(by),
+          deviation_{by.x, by.y, by.z, by.share * expected.size[0] + by.base,
+                     by.share * expected.size[1] + by.base} {}
+
+    /// Of the distance along the camera's axis alone, which most objects exceed.
+    double depth_cost(const RectangleState& state) const {
+        const double off = std::abs(state[2] - expected_.state[2]) / deviation_[2];
+        return off * off / 2;
+    }
+
+    double cost(const RectangleState& state) const {
+        RectangleState off;
+        for (std::size_t i = 0; i < off.size(); ++i)
+            off[i] = (state[i] - expected_.state[static_cast<Index>(i)]) / deviation_[i];
+        if (!expected_.width_known) weigh_unknown(off[0], off[3]);
+        if (!expected_.height_known) weigh_unknown(off[1], off[4]);
+        double sum = 0.0;
+        for (const double each : off) sum += each * each;
+        return sum / 2;
+    }
+
+private:
+    void weigh_unknown(double& position, double& size) const {
+        position *= by_.center;
+        if (size > 0.0) size *= by_.larger;
+    }
+
+    const ExpectedTarget& expected_;
+    const MatchCosts& by_;
+    RectangleState deviation_;
+};
+
+void require_arguments(const ObjectFeatures& objects, VectorRef others, const ExpectedTarget& expected,
+                       const MatchCosts& costs) {
+    require_objects(objects);
+    if (others.size() > 0) require_size(others, objects.measured.rows(), "others");
+    require_size(expected.state, 5, "expected");
+    require_finite(expected.state, "expected");
+    require_size_above_0(expected.size);
+    require_size(expected.signature, 2 * objects.columns.cols() + 2, "signature");
+    for (const auto& [value, name] :
+         {std::pair{costs.x, "x"}, std::pair{costs.y, "y"}, std::pair{costs.z, "z"}})
+        if (!(value > 0.0 && std::isfinite(value))) refuse(name, "a finite number above 0", value);
+    for (const auto& [value, name] : {std::pair{costs.share, "share"}, std::pair{costs.base, "base"}})
+        if (!(value >= 0.0 && std::isfinite(value))) refuse(name, "a finite number, not negative", value);
+    if (!(costs.share + costs.base > 0.0)) refuse("base", "a number above 0 where share is 0", costs.base);
+    for (const auto& [value, name] : {std::pair{costs.center, "center"}, std::pair{costs.larger, "larger"},
+                                      std::pair{costs.signature, "signature_cost"}})
+        if (!std::isfinite(value)) refuse(name, "a finite number", value);
+}
+
+}  // namespace
+
+int match_object(const ObjectFeatures& objects, VectorRef others, const ExpectedTarget& expected,
+                 const MatchCosts& costs, bool complete) {
+    require_arguments(objects, others, expected, costs);
+    const Matcher matcher(expected, costs);
+    Index best = -1;
+    double least = costs.max_cost;
+    for (Index i = 0; i < objects.measured.rows(); ++i) {
+        const RectangleState state = rectangle_of(objects, i);
+        if (matcher.depth_cost(state) >= least || state[3] * state[4] < costs.min_area) continue;
+        const bool* cut = objects.cut.row(i).data();
+        double cost =
+            matcher.cost(complete ? complete_rectangle(state, cut, expected.state, expected.size) : state);
+        if (cost >= least) continue;
+        if (std::none_of(cut, cut + 4, [](bool each) { return each; }))
+            cost += costs.signature * signature_distance(objects, i, expected.signature);
+        if (others.size() > 0) cost += others[i];
+        if (cost < least) {
+            least = cost;
+            best = i;
+        }
+    }
+    return static_cast<int>(best);
+}
+
+}  // namespace tricue

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: MIT
+"""Segmented objects as rectangles in meters that something may cut."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.base.checks import refuse, require_finite, require_shape
+
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+Shares = NDArray[np.float32]
+
+
+def complete_rectangle(state: Floats, cut: Flags, expected: Floats, size: Floats) -> Floats:
+    """A state (5,) as if nothing cut it: extended to ``size`` (2,) beyond the sides (4,) that are cut.
+
+    Cut at opposite sides, it is as near to the middle of the expected state as its visible part allows.
+    """
+    whole: Floats = state.copy()
+    for axis in range(2):
+        before, after = cut[2 * axis : 2 * axis + 2]
+        half = (size[axis] - state[3 + axis]) / 2
+        if half <= 0 or not (before or after):
+            continue
+        low, high = state[axis] - half, state[axis] + half
+        if before and after:
+            whole[axis] = np.clip(expected[axis], low, high)
+        else:
+            whole[axis] = low if before else high
+        whole[3 + axis] = size[axis]
+    return whole
+
+
+def require_objects(measured: Floats, cut: Flags, columns: Shares, rows: Shares) -> None:
+    """Refuse objects of other shapes, or that aren't finite."""
+    count = len(measured)
+    require_shape("measured", measured, (count, 8))
+    require_finite("measured", measured)
+    for name, values in (("cut", cut), ("columns", columns), ("rows", rows)):
+        if len(values) != count:
+            refuse(name, f"{count} rows", len(values))
+    if rows.shape[1] != columns.shape[1]:
+        refuse("rows", f"{columns.shape[1]} bins", rows.shape[1])
+
+
+def require_expected(expected: Floats, size: Floats) -> None:
+    """Refuse an expected state (5,) that isn't finite, and a size (2,) that isn't above 0."""
+    require_shape("expected", expected, (5,))
+    require_finite("expected", expected)
+    require_shape("size", size, (2,))
+    require_finite("size", size)
+    if not size.min() > 0:
+        refuse("size", "numbers above 0", float(size.min()))

@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: MIT
+"""Which of the segmented objects is the target. What the tracker makes of it is in
+tests/track/depth_particle/test_matching.py.
+"""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from scipy.spatial.distance import mahalanobis
+from tricue import _core, reference
+from tricue.kernels import Kernels
+
+Floats = NDArray[np.float64]
+Case = dict[str, Any]
+TARGET = np.array([0.2, -0.1, 3.0, 0.6, 1.7])
+DEVIATION = np.array([0.2, 0.4, 0.2, 0.2 * 0.6 + 0.05, 0.2 * 1.7 + 0.05])
+BINS = 4
+FAR_APART = 1e9
+
+
+def case(states: Floats, **changes: Any) -> Case:
+    """All arguments: whole objects of these states and an even distribution, and a target of known size."""
+    count = len(states)
+    even = np.full((count, BINS), 1 / BINS, np.float32)
+    usual: Case = {
+        "measured": np.column_stack([states, np.zeros((count, 2)), np.ones(count)]),
+        "cut": np.zeros((count, 4), np.bool_),
+        "columns": even,
+        "rows": even.copy(),
+        "others": np.empty(0),
+        "expected": TARGET,
+        "usual": (TARGET[3:].copy(), np.array([True, True])),
+        "signature": np.append(np.full(2 * BINS, 1 / BINS), [0.0, 0.0]),
+        "deviation": (0.2, 0.4, 0.2, 0.2, 0.05),
+        "unknown": (0.5, 0.3),
+        "signature_cost": 3.0,
+        "gate": (8.0, 0.2),
+        "complete": True,
+    }
+    return usual | changes
+
+
+def random_case(seed: int) -> Case:
+    """Objects around the target, some of them cut, some far off or small, by any distribution."""
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(0, 12))
+    states = TARGET + rng.normal(0, rng.choice([0.05, 0.3, 2.0]), (count, 5))
+    states[:, 2:] = np.maximum(states[:, 2:], 0.1)
+    return case(
+        states,
+        cut=rng.random((count, 4)) < 0.3,
+        columns=rng.dirichlet(np.ones(BINS), count).astype(np.float32).reshape(count, BINS),
+        rows=rng.dirichlet(np.ones(BINS), count).astype(np.float32).reshape(count, BINS),
+        others=rng.choice([0.0, 0.5, np.inf], count) if seed % 2 else np.empty(0),
+        usual=(rng.uniform(0.3, 2, 2), rng.random(2) < 0.5),
+        gate=(float(rng.choice([1.0, 8.0, np.inf])), float(rng.choice([0.0, 0.5]))),
+        complete=bool(rng.random() < 0.7),
+    )
+
+
+@given(st.integers(0, 2**32))
+def test_twin_finds_the_same(seed: int) -> None:
+    """Native and reference take the same object, whatever is cut, known or costs more."""
+    values = random_case(seed)
+    assert _core.match_object(**values) == reference.match_object(**values)
+
+
+def test_those_cases_have_both(kernels: Kernels) -> None:
+    """In some of these cases an object is the target, in others none is."""
+    found = [kernels.match_object(**random_case(seed)) for seed in range(40)]
+    assert min(found) == -1
+    assert max(found) > 1
+
+
+def test_agrees_with_scipy(kernels: Kernels) -> None:
+    """The object of the least Mahalanobis distance is the target, where it is below what the gate says."""
+    rng = np.random.default_rng(1)
+    inverse = np.diag(1 / DEVIATION**2)
+    for _ in range(20):
+        states = TARGET + rng.normal(0, 0.15, (9, 5))
+        distances = np.array([mahalanobis(each, TARGET, inverse) for each in states])
+        best, least = int(distances.argmin()), float(distances.min()) ** 2 / 2
+        assert kernels.match_object(**case(states, gate=(FAR_APART, 0.0))) == best
+        assert kernels.match_object(**case(states, gate=(least * (1 + 1e-9), 0.0))) == best
+        assert kernels.match_object(**case(states, gate=(least * (1 - 1e-9), 0.0))) == -1
+
+
+def test_another_distribution_costs_more(kernels: Kernels) -> None:
+    """Half of the columns elsewhere are a quarter of the greatest distance, and cost as much; of what is cut
+    none of it counts.
+    """
+    values = case(TARGET[None])
+    values["columns"] = np.array([[0.5, 0.5, 0, 0]], np.float32)
+    for limit, index in ((3.0 / 4 * (1 + 1e-9), 0), (3.0 / 4, -1)):
+        assert kernels.match_object(**values | {"gate": (limit, 0.0)}) == index
+    cut = np.array([[False, False, False, True]])
+    assert kernels.match_object(**values | {"gate": (1e-9, 0.0), "cut": cut}) == 0
+
+
+def test_the_first_of_equals_is_taken(kernels: Kernels) -> None:
+    """Of equal objects the first, which is the largest, is the target; without objects none is."""
+    assert kernels.match_object(**case(np.array([TARGET, TARGET]))) == 0
+    assert kernels.match_object(**case(np.empty((0, 5)))) == -1
+
+
+BAD: list[tuple[Case, str]] = [
+    ({"measured": np.ones((1, 7))}, r"measured: expected shape \(1, 8\), got \(1, 7\)"),
+    ({"measured": np.full((1, 8), np.nan)}, "measured: expected finite numbers, got nan"),
+    ({"cut": np.zeros((2, 4), np.bool_)}, "cut: expected 1 rows, got 2"),
+    ({"columns": np.ones((2, BINS), np.float32)}, "columns: expected 1 rows, got 2"),
+    ({"rows": np.ones((2, BINS), np.float32)}, "rows: expected 1 rows, got 2"),
+    ({"rows": np.ones((1, 3), np.float32)}, "rows: expected 4 bins, got 3"),
+    ({"others": np.ones(2)}, r"others: expected shape \(1,\), got \(2,\)"),
+    ({"expected": np.ones(4)}, r"expected: expected shape \(5,\), got \(4,\)"),
+    ({"expected": np.full(5, np.inf)}, "expected: expected finite numbers, got inf"),
+    ({"usual": (np.ones(3), np.array([True, True]))}, r"size: expected shape \(2,\), got \(3,\)"),
+    ({"usual": (np.array([1.0, 0.0]), np.array([True, True]))}, "size: expected numbers above 0, got 0"),
+    ({"signature": np.ones(9)}, r"signature: expected shape \(10,\), got \(9,\)"),
+    ({"deviation": (0.0, 1.0, 1.0, 1.0, 1.0)}, "x: expected a finite number above 0, got 0"),
+    ({"deviation": (1.0, 1.0, np.nan, 1.0, 1.0)}, "z: expected a finite number above 0, got nan"),
+    ({"deviation": (1.0, 1.0, 1.0, -1.0, 1.0)}, "share: expected a finite number, not negative, got -1"),
+    ({"deviation": (1.0, 1.0, 1.0, 0.0, 0.0)}, "base: expected a number above 0 where share is 0, got 0"),
+    ({"unknown": (np.inf, 1.0)}, "center: expected a finite number, got inf"),
+    ({"unknown": (1.0, np.inf)}, "larger: expected a finite number, got inf"),
+    ({"signature_cost": np.inf}, "signature_cost: expected a finite number, got inf"),
+]
+
+
+@pytest.mark.parametrize(("changes", "message"), BAD)
+def test_refuses(kernels: Kernels, changes: Case, message: str) -> None:
+    """What it can't work with is named."""
+    with pytest.raises(ValueError, match=message):
+        kernels.match_object(**case(TARGET[None]) | changes)
+
+
+WRONG: list[tuple[Case, type[Exception], str]] = [
+    ({"measured": np.ones((1, 8), np.float32)}, TypeError, "measured: expected float64"),
+    ({"cut": np.zeros((1, 4))}, TypeError, "cut: expected bool"),
+    ({"columns": np.ones((1, BINS))}, TypeError, "columns: expected float32"),
+    ({"usual": (np.ones(2), np.ones(2))}, TypeError, r"known: expected bool \(2,\)"),
+    ({"usual": (np.ones(2), np.ones(3, np.bool_))}, ValueError, r"known: expected bool \(2,\)"),
+]
+
+
+@pytest.mark.parametrize(("changes", "error", "message"), WRONG)
+def test_native_refuses_other_arrays(changes: Case, error: type[Exception], message: str) -> None:
+    """Another type is named, not converted."""
+    with pytest.raises(error, match=message):
+        _core.match_object(**case(TARGET[None]) | changes)
