@@ -36,7 +36,8 @@ def locate(
     points, covariances = k.back_project(measured, variances, state.geometry.camera, state.geometry.baseline)
     covariance = covariances[0]
     if state.missed:
-        covariance.ravel()[::4] += (p.acceleration_noise * state.missed**2 / 2) ** 2  # its diagonal
+        diagonal = covariance.ravel()[::4]
+        diagonal += (p.acceleration_noise * state.missed**2 / 2) ** 2
     return points[0], covariance
 
 
