@@ -142,7 +142,8 @@ TRICUE_INLINE void place_four(const HistogramRow& row, int x, const CountedColum
     load(row.bin + x, bins);
     load_labels(row.target + x, target);
     load_labels(row.counted + x, counts);
-    const Ints4 columns = x + Ints4{0, 1, 2, 3}, inside = (columns >= counted.begin) & (columns < counted.end);
+    const Ints4 columns = x + Ints4{0, 1, 2, 3},
+                inside = (columns >= counted.begin) & (columns < counted.end);
     const Ints4 valid = (weights > 0.0F) & (weights <= kMaxFloat);
     const Ints4 known = (readings >= -kMaxReading) & (readings < kMaxReading);
     const Ints4 table = (target & ((columns - counted.begin) & 3)) | (~target & (4 + (columns & 3)));

@@ -43,8 +43,12 @@ def cells_of(rectangle: Rectangle, shape: tuple[int, ...]) -> Region:
 
 def _cells_between(low: float, high: float, count: int) -> tuple[int, int]:
     """The first of ``count`` cells that an interval touches, and the one after the last."""
-    # Comparisons, as min and max, which are called, take several times as long.
     first, end = math.floor(low), math.ceil(high)
-    first = 0 if first < 0 else count if first > count else first
-    end = count if end > count else end
-    return first, first if end < first else end
+    # Comparisons: min and max are calls, which take several times as long.
+    if first < 0:
+        first = 0
+    elif first > count:
+        first = count
+    if end > count:
+        end = count
+    return (first, end) if end > first else (first, first)
