@@ -81,8 +81,8 @@ TRICUE_INLINE void warp_block(const QuadPlace& place, float x0, float y, const f
 /// Between the four pixels of each quad, and compared with those of this frame.
 TRICUE_INLINE void interpolate_block(const std::int32_t* quads, const WarpedBlock& warped,
                                      const std::uint8_t* now, float* means, float* changes) {
-    float after
-        [kRowBlock];  // on its own: with bytes in it the compiler would make the other loop of four lanes
+    // On its own: with bytes in it the compiler would make the other loop of four lanes.
+    float after[kRowBlock];
     RowBlock pixels;
     load_bytes(now, pixels);
     store(pixels, after);
