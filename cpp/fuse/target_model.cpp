@@ -95,9 +95,10 @@ Labels depth_mask(const std::optional<DepthLimit>& depth, const PlaneView& dispa
     return near;
 }
 
-/// A row of an observation, and which of its pixels are the target's and count for it.
+/// A row of an observation, the bins of its readings, and which of its pixels are the target's and count for it.
 struct HistogramRow {
     const float *readings, *weights;
+    const std::int32_t* bin;
     const std::uint8_t *target, *counted;
 };
 
@@ -108,25 +109,87 @@ struct WeightRow {
     float *kept, *around;
 };
 
-/// From the bins of a row, in `slot`, their places in all tables: those of the target where begin <= x < end, counted from begin.
+/// Where the weights of a row count for the target: begin <= x < end.
+struct CountedColumns {
+    int begin, end;
+};
+
+using Floats4 = Pack<float, kTables>;
+using Ints4 = Pack<std::int32_t, kTables>;
+
+/// The numbers where the mask is all ones, 0 where it is 0.
+TRICUE_INLINE void keep_where(const Ints4& mask, const Floats4& numbers, float* out) {
+    Ints4 bits;
+    load(&numbers, bits);
+    bits &= mask;
+    store(bits, out);
+}
+
+TRICUE_INLINE void load_labels(const std::uint8_t* labels, Ints4& set) {
+    Pack<std::uint8_t, kTables> bytes;
+    load(labels, bytes);
+    convert(bytes, set);
+    set = set != 0;
+}
+
+/// The places of the bins of four pixels from column x on in all tables: those of the target by their columns, counted from `begin`.
+TRICUE_INLINE void place_four(const HistogramRow& row, int x, const CountedColumns& counted,
+                              std::int32_t size, const WeightRow& to) {
+    Floats4 readings, weights;
+    Ints4 bins, target, counts;
+    load(row.readings + x, readings);
+    load(row.weights + x, weights);
+    load(row.bin + x, bins);
+    load_labels(row.target + x, target);
+    load_labels(row.counted + x, counts);
+    const Ints4 columns = x + Ints4{0, 1, 2, 3},
+                inside = (columns >= counted.begin) & (columns < counted.end);
+    const Ints4 valid = (weights > 0.0F) & (weights <= kMaxFloat);
+    const Ints4 known = (readings >= -kMaxReading) & (readings < kMaxReading);
+    const Ints4 table = (target & ((columns - counted.begin) & 3)) | (~target & (4 + (columns & 3)));
+    store(bins + table * size, to.slot + x);
+    keep_where(valid & (~target | (inside & counts)), weights, to.kept + x);
+    keep_where(valid & known & ~target, weights, to.around + x);
+}
+
+/// The same of fewer than four, which are copied to where there is room to read.
+TRICUE_INLINE void place_few(const HistogramRow& row, int n, const CountedColumns& counted, std::int32_t size,
+                             const WeightRow& to) {
+    float readings[kTables] = {}, weights[kTables] = {};
+    std::int32_t bins[kTables] = {};
+    std::uint8_t target[kTables] = {}, counts[kTables] = {};
+    std::copy_n(row.readings, n, readings);
+    std::copy_n(row.weights, n, weights);
+    std::copy_n(row.bin, n, bins);
+    std::copy_n(row.target, n, target);
+    std::copy_n(row.counted, n, counts);
+    place_four({readings, weights, bins, target, counts}, 0, counted, size, to);
+}
+
+/// n pixels; the last four begin sooner. The results have room for a number of fours.
 TRICUE_MULTIVERSION
-void place_weights(const HistogramRow& row, int n, int begin, int end, std::int32_t size,
+void place_weights(const HistogramRow& row, int n, const CountedColumns& counted, std::int32_t size,
                    const WeightRow& to) {
-    const float *readings = row.readings, *weights = row.weights;
-    const std::uint8_t *targets = row.target, *counts = row.counted;
-    std::int32_t* slots = to.slot;
-    float *kept = to.kept, *around = to.around;
-    // no row is another
-    TRICUE_INDEPENDENT
-    for (int x = 0; x < n; ++x) {
-        const float weight = (weights[x] > 0.0F) & (weights[x] <= kMaxFloat) ? weights[x] : 0.0F;
-        const bool target = targets[x] != 0, inside = (x >= begin) & (x < end);
-        const bool known = (readings[x] >= -kMaxReading) & (readings[x] < kMaxReading);
-        const std::int32_t table = target ? (x - begin) & 3 : 4 + (x & 3);
-        slots[x] += table * size;
-        kept[x] = (!target) | (inside & (counts[x] != 0)) ? weight : 0.0F;
-        around[x] = (!target) & known ? weight : 0.0F;
+    constexpr int kFour = kTables;
+    const HistogramRow from = row;
+    const WeightRow out = to;
+    const CountedColumns columns = counted;
+    if (n < kFour) return place_few(from, n, columns, size, out);
+    for (int x = 0; x < n; x += kFour) place_four(from, std::min(x, n - kFour), columns, size, out);
+}
+
+/// Adds a row to totals, column by column of four; n is a number of fours.
+TRICUE_MULTIVERSION
+void add_row(const float* numbers, std::size_t n, Lanes& totals) {
+    Lanes sums = totals;
+    for (std::size_t x = 0; x < n; x += kTables) {
+        Floats4 four;
+        Lanes wide;
+        load(numbers + x, four);
+        convert(four, wide);
+        sums += wide;
     }
+    totals = sums;
 }
 
 /// Sums of weights: in each bin of the target's window and of its surround, and in all of the surround.
@@ -141,26 +204,20 @@ Histograms histograms(const CueMap& map, const ValueRange& range, const Region& 
     const int cols = map.readings.cols;
     const auto size = static_cast<std::size_t>(range.bins) + 1;
     const auto padded = (static_cast<std::size_t>(cols) + kTables - 1) / kTables * kTables;
-    std::vector<std::int32_t> slot(padded, range.bins);
+    std::vector<std::int32_t> bin(static_cast<std::size_t>(cols)), slot(padded, range.bins);
     std::vector<float> kept(padded), around(padded);
     std::vector<double> sums(2 * kTables * size);
     Lanes totals{};
     for (int y = 0; y < map.readings.rows; ++y) {
         const float* readings = map.readings.row(y);
-        find_value_bins(readings, cols, range, slot.data());
+        find_value_bins(readings, cols, range, bin.data());
         const bool inside = y >= window.y0 && y < window.y1;
-        place_weights({readings, map.weights.row(y), target.row(y).data(), counted.row(y).data()}, cols,
-                      window.x0, inside ? window.x1 : window.x0, static_cast<std::int32_t>(size),
+        place_weights({readings, map.weights.row(y), bin.data(), target.row(y).data(), counted.row(y).data()},
+                      cols, {window.x0, inside ? window.x1 : window.x0}, static_cast<std::int32_t>(size),
                       {slot.data(), kept.data(), around.data()});
-        for (std::size_t x = 0; x < padded; x += kTables) {
-            Pack<float, kTables> four;
-            Lanes wide;
-            load(around.data() + x, four);
-            convert(four, wide);
-            totals += wide;
-            for (std::size_t t = x; t < x + kTables; ++t)
-                sums[static_cast<std::size_t>(slot[t])] += static_cast<double>(kept[t]);
-        }
+        add_row(around.data(), padded, totals);
+        for (std::size_t x = 0; x < padded; ++x)
+            sums[static_cast<std::size_t>(slot[x])] += static_cast<double>(kept[x]);
     }
     Histograms found{Vector(range.bins), Vector(range.bins), sum(totals)};
     for (std::size_t i = 0; i + 1 < size; ++i) {

@@ -18,9 +18,19 @@ namespace {
 
 using Counts = std::vector<std::int64_t>;
 
+/// Calls body for n pixels in large blocks, or in small ones in a small image, whose rows have no large one.
+template <typename Body>
+TRICUE_INLINE void for_row(int n, Body body) {
+    constexpr int kLarge = 64, kSmall = 16;
+    if (n < kLarge)
+        for_overlapping_blocks<kSmall>(n, body);
+    else
+        for_overlapping_blocks<kLarge>(n, body);
+}
+
 TRICUE_MULTIVERSION
 void mark_row(const std::uint8_t* __restrict mask, int n, std::uint8_t* __restrict set) {
-    for_overlapping_blocks(n, [=](std::ptrdiff_t x) { set[x] = mask[x] != 0; });
+    for_row(n, [=](std::ptrdiff_t x) { set[x] = mask[x] != 0; });
 }
 
 /// Pixels [0, n) of `here`, 1 where set, that have enough neighbors; rows have one more pixel on either side.
@@ -28,7 +38,7 @@ TRICUE_MULTIVERSION
 void keep_row(const std::uint8_t* __restrict above, const std::uint8_t* __restrict here,
               const std::uint8_t* __restrict below, int n, std::uint8_t neighbors,
               std::uint8_t* __restrict kept) {
-    for_overlapping_blocks(n, [=](std::ptrdiff_t x) {
+    for_row(n, [=](std::ptrdiff_t x) {
         const auto count = static_cast<std::uint8_t>(above[x - 1] + above[x] + above[x + 1] + here[x - 1] +
                                                      here[x + 1] + below[x - 1] + below[x] + below[x + 1]);
         kept[x] = here[x] & static_cast<std::uint8_t>(count >= neighbors);

@@ -66,6 +66,18 @@ def test_twin_gives_the_same(seed: int, cues: int, blocks: bool, depth: bool, be
         assert_allclose(one, other, rtol=1e-9, atol=1e-10)
 
 
+@pytest.mark.parametrize("width", [1, 2, 3, 4, 5, 7, 23])
+def test_twin_gives_the_same_in_rows_of_any_length(width: int) -> None:
+    """They agree as above on rows shorter than four pixels, as long, and longer, cut from wider planes."""
+    arguments = case(width, before=former(width, 3))
+    arguments["maps"] = [tuple(plane[:, 18 : 18 + width] for plane in each) for each in arguments["maps"]]
+    arguments["blocks"] = (BLOCKS, (1.0, 120.0, 60.0, 118.0, 50.0), *arguments["blocks"][2:])
+    arguments["window"] = (2.0, 10.0, 22.0, 30.0)
+    ours, theirs = (each.target_model(**arguments) for each in (_core, reference))
+    for one, other in zip(ours, theirs, strict=True):
+        assert_allclose(one, other, rtol=1e-9, atol=1e-10)
+
+
 @pytest.mark.parametrize("window", [(23.0, 11.0, 38.0, 29.0), (-5.0, -5.0, 99.0, 99.0)])
 def test_histograms_are_those_of_the_kernel(window: Any, kernels: Kernels) -> None:
     """Without memory the density is the target_distribution of the weighted_histogram of the target's pixels,

@@ -46,7 +46,7 @@ def test_twin_leaves_the_same(mask: Mask, neighbors: int, share: float, trim: fl
     assert_same(mask, neighbors, share, trim)
 
 
-@pytest.mark.parametrize("cols", [1, 7, 8, 9, 63, 64, 65, 200])
+@pytest.mark.parametrize("cols", [1, 7, 8, 9, 15, 16, 17, 41, 63, 64, 65, 200])
 @pytest.mark.parametrize("density", [0.1, 0.5, 0.9])
 def test_twin_leaves_the_same_in_rows_of_any_length(cols: int, density: float) -> None:
     """They agree on rows shorter than a vector, as long, and longer, cut from a wider mask."""

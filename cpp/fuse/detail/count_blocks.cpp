@@ -56,6 +56,7 @@ TRICUE_INLINE std::uint32_t count_set(const std::uint8_t* mask, std::uint32_t sk
 TRICUE_INLINE void add_columns(const Pixels& pixels, int x, int skipped, Totals& totals) {
     Doubles4 sums = {};
     Ints4 readings = {}, similar = {};
+    std::uint32_t targets = 0;  // not in `totals`, which would be stored at each row
     const Ints4 counted = skipped <= Ints4{0, 1, 2, 3};
     const std::uint32_t skipped_bytes = first_bytes(skipped);
     const float* disparity = pixels.disparity + x;
@@ -74,11 +75,12 @@ TRICUE_INLINE void add_columns(const Pixels& pixels, int x, int skipped, Totals&
         Doubles4 wide;
         convert(values, wide);
         sums += wide;
-        totals.targets += count_set(mask, skipped_bytes);
+        targets += count_set(mask, skipped_bytes);
         disparity += pixels.disparity_stride;
         mask += pixels.mask_stride;
     }
     totals.sum += sum(sums);
+    totals.targets += targets;
     totals.readings += readings[0] + readings[1] + readings[2] + readings[3];
     totals.similar += similar[0] + similar[1] + similar[2] + similar[3];
 }

@@ -305,7 +305,8 @@ def test_blocks_move_and_grow_round_their_anchor():
     """
     blocks = Blocks.of((10.0, 20.0, 40.0, 80.0), P)
     np.testing.assert_allclose(blocks.moved(3.5, -2).rectangles, blocks.rectangles + [3.5, -2, 3.5, -2])
-    larger = blocks._replace(size=1.5)
+    larger = blocks.resized(1.5)
+    np.testing.assert_array_equal(larger.states, blocks.states)
     assert larger.window == pytest.approx((2.5, 5.0, 47.5, 95.0))
 
 

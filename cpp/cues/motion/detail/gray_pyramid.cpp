@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <iterator>
 
 #include "base/overlapping_blocks.hpp"
 #include "base/row_block.hpp"
@@ -48,41 +50,80 @@ struct QuadPlace {
     int last_column, last_row;
 };
 
-/// n is a number of blocks.
-TRICUE_MULTIVERSION
-void compare(const std::uint32_t* __restrict quads, const QuadPlace& place, int x0, int y,
-             const FlowPointers& flow, const std::uint8_t* __restrict now, int n, const ComparedRow& out) {
-    const auto right = static_cast<float>(place.last_column), bottom = static_cast<float>(place.last_row);
-    const auto row = static_cast<float>(y);
+/// Where in the quads the block from column x0 on is in the frame before, and by which shares between the pixels there.
+struct WarpedBlock {
+    std::int32_t at[kRowBlock];
+    float right[kRowBlock], down[kRowBlock];
+};
+
+TRICUE_INLINE void warp_block(const QuadPlace& place, float x0, float y, const float* u, const float* v,
+                              WarpedBlock& out) {
+    constexpr float kColumns[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    static_assert(std::size(kColumns) == kRowBlock);
+    const auto last = static_cast<float>(place.last_column), bottom = static_cast<float>(place.last_row);
     const int first_column = place.part.x0, first_row = place.part.y0, cols = place.part.x1 - first_column;
     const int columns = cols - 1, rows = place.part.y1 - first_row - 1;
+    for (int i = 0; i < kRowBlock; ++i) {
+        float x = (x0 + kColumns[i]) - u[i], down = y - v[i];
+        x = x > 0 ? x : 0;  // NaN becomes 0, too
+        x = x > last ? last : x;
+        down = down > 0 ? down : 0;
+        down = down > bottom ? bottom : down;
+        const int left = static_cast<int>(x), top = static_cast<int>(down);
+        out.right[i] = x - static_cast<float>(left);
+        out.down[i] = down - static_cast<float>(top);
+        const int j = std::min(std::max(left - first_column, 0), columns);
+        const int k = std::min(std::max(top - first_row, 0), rows);
+        out.at[i] = k * cols + j;
+    }
+}
+
+/// Between the four pixels of each quad, and compared with those of this frame.
+TRICUE_INLINE void interpolate_block(const std::int32_t* quads, const WarpedBlock& warped,
+                                     const std::uint8_t* now, float* means, float* changes) {
+    // On its own: with bytes in it the compiler would make the other loop of four lanes.
+    float after[kRowBlock];
+    RowBlock pixels;
+    load_bytes(now, pixels);
+    store(pixels, after);
+    // no row is another
+    TRICUE_INDEPENDENT
+    for (int i = 0; i < kRowBlock; ++i) {
+        const std::int32_t quad = quads[i];
+        const auto p = static_cast<float>(quad & 255), q = static_cast<float>(quad >> 8 & 255);
+        const auto r = static_cast<float>(quad >> 16 & 255), s = static_cast<float>(quad >> 24 & 255);
+        const float upper = p + warped.right[i] * (q - p), lower = r + warped.right[i] * (s - r);
+        const float before = upper + warped.down[i] * (lower - upper);
+        means[i] = 0.5F * (before + after[i]);
+        changes[i] = after[i] - before;
+    }
+}
+
+/// Blocks that take a step before the next: what it stores isn't there at once.
+constexpr int kTogether = 4;
+
+/// n is a number of blocks. The quads are loaded one by one, which is faster than to gather them.
+TRICUE_MULTIVERSION
+void compare(const std::uint32_t* __restrict all, const QuadPlace& all_place, int x0, int y,
+             const FlowPointers& flow, const std::uint8_t* __restrict now, int n, const ComparedRow& out) {
+    const QuadPlace place = all_place;
     const float *u = flow.u, *v = flow.v;
     float *means = out.mean, *changes = out.change;
-    for (int block = 0; block < n; block += kRowBlock) {
-        float after
-            [kRowBlock];  // on its own: with bytes in it the compiler would make the other loop of four lanes
-        RowBlock pixels;
-        load_bytes(now + block, pixels);
-        store(pixels, after);
-        // no row is another
-        TRICUE_INDEPENDENT
-        for (int i = block; i < block + kRowBlock; ++i) {
-            float x = static_cast<float>(x0 + i) - u[i], down = row - v[i];
-            x = x > 0 ? x : 0;  // NaN becomes 0, too
-            x = x > right ? right : x;
-            down = down > 0 ? down : 0;
-            down = down > bottom ? bottom : down;
-            const int left = static_cast<int>(x), top = static_cast<int>(down);
-            const float a = x - static_cast<float>(left), b = down - static_cast<float>(top);
-            const int j = std::min(std::max(left - first_column, 0), columns);
-            const int k = std::min(std::max(top - first_row, 0), rows);
-            const auto quad = static_cast<std::int32_t>(quads[k * cols + j]);
-            const auto p = static_cast<float>(quad & 255), q = static_cast<float>(quad >> 8 & 255);
-            const auto r = static_cast<float>(quad >> 16 & 255), s = static_cast<float>(quad >> 24 & 255);
-            const float upper = p + a * (q - p), lower = r + a * (s - r);
-            const float before = upper + b * (lower - upper);
-            means[i] = 0.5F * (before + after[i - block]);
-            changes[i] = after[i - block] - before;
+    const auto row = static_cast<float>(y);
+    WarpedBlock warped[kTogether];
+    std::int32_t quads[kTogether * kRowBlock];
+    for (int x = 0; x < n; x += kTogether * kRowBlock) {
+        const int count = std::min((n - x) / kRowBlock, kTogether);
+        for (int k = 0; k < count; ++k) {
+            const int at = x + k * kRowBlock;
+            warp_block(place, static_cast<float>(x0 + at), row, u + at, v + at, warped[k]);
+        }
+        for (int k = 0; k < count; ++k)
+            for (int i = 0; i < kRowBlock; ++i)
+                std::memcpy(quads + k * kRowBlock + i, all + warped[k].at[i], sizeof *quads);
+        for (int k = 0; k < count; ++k) {
+            const int at = x + k * kRowBlock;
+            interpolate_block(quads + k * kRowBlock, warped[k], now + at, means + at, changes + at);
         }
     }
 }

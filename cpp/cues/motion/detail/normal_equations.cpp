@@ -24,9 +24,28 @@ TRICUE_INLINE void average_down_by(const WindowColumns* rows, int count, int any
     }
 }
 
+/// The same of a whole batch, which loads each row once.
+template <int kSide>
+TRICUE_INLINE void average_batch_down(const WindowColumns* windows, int n) {
+    constexpr float kShare = 1 / static_cast<float>(kSide);
+    for (int x = 0; x < n; x += kRowBlock) {
+        RowBlock rows[kRowBatch + kSide - 1];
+        for (int i = 0; i < kRowBatch; ++i) load(windows[i].rows[0] + x, rows[i]);
+        for (int k = 1; k < kSide; ++k) load(windows[kRowBatch - 1].rows[k] + x, rows[kRowBatch - 1 + k]);
+        for (int i = 0; i < kRowBatch; ++i) {
+            RowBlock sum{}, mean{};
+            for (int k = 0; k < kSide; ++k) add(1, rows[i + k], sum);
+            add(kShare, sum, mean);
+            store(mean, windows[i].means + x);
+        }
+    }
+}
+
 TRICUE_MULTIVERSION
 void average_columns(const WindowColumns* rows, int count, int side, int n) {
-    if (side == kUsualSide)
+    if (side == kUsualSide && count == kRowBatch)
+        average_batch_down<kUsualSide>(rows, n);
+    else if (side == kUsualSide)
         average_down_by<kUsualSide>(rows, count, side, n);
     else
         average_down_by<0>(rows, count, side, n);

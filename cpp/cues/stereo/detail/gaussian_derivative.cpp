@@ -41,9 +41,29 @@ TRICUE_INLINE void smooth_by(const float* const* rows, const GaussianDerivative&
         }
 }
 
+/// The same of a whole batch, which loads each row once.
+template <int kReach>
+TRICUE_INLINE void smooth_batch(const float* const* rows, const GaussianDerivative& filter, int n,
+                                const BatchRows& to) {
+    const BatchRows out = to;
+    const float* weights = filter.smooth.data();
+    for (int x = 0; x < n; x += kRowBlock) {
+        RowBlock around[kRowBatch + 2 * kReach];
+        for (int i = 0; i < kRowBatch + 2 * kReach; ++i) load(rows[i] + x, around[i]);
+        for (int i = 0; i < kRowBatch; ++i) {
+            RowBlock sum = weights[0] * around[i + kReach];
+            for (int k = 1; k <= kReach; ++k)
+                add(weights[k], around[i + kReach - k] + around[i + kReach + k], sum);
+            store(sum, out.data + i * out.stride + x);
+        }
+    }
+}
+
 TRICUE_MULTIVERSION
 void smooth_down(const float* const* rows, const GaussianDerivative& filter, int n, const BatchRows& out) {
-    if (filter.reach == kUsualReach)
+    if (filter.reach == kUsualReach && out.count == kRowBatch)
+        smooth_batch<kUsualReach>(rows, filter, n, out);
+    else if (filter.reach == kUsualReach)
         smooth_by<kUsualReach>(rows, filter, n, out);
     else
         smooth_by<0>(rows, filter, n, out);

@@ -90,9 +90,26 @@ TRICUE_INLINE void sum_down_by(const SummedRows* sums, int count, int any_side, 
     }
 }
 
+/// The same of a whole batch, which loads each row once.
+template <int kSide>
+TRICUE_INLINE void sum_batch_down(const SummedRows* sums, int n) {
+    for (int x = 0; x < n; x += kRowBlock) {
+        RowBlock rows[kRowBatch + kSide - 1];
+        for (int i = 0; i < kRowBatch; ++i) load(sums[i].rows[0] + x, rows[i]);
+        for (int k = 1; k < kSide; ++k) load(sums[kRowBatch - 1].rows[k] + x, rows[kRowBatch - 1 + k]);
+        for (int i = 0; i < kRowBatch; ++i) {
+            RowBlock sum = rows[i];
+            for (int k = 1; k < kSide; ++k) sum += rows[i + k];
+            store(sum, sums[i].sum + x);
+        }
+    }
+}
+
 TRICUE_MULTIVERSION
 void sum_down(const SummedRows* sums, int count, int side, int n) {
-    if (side == kUsualSide)
+    if (side == kUsualSide && count == kRowBatch)
+        sum_batch_down<kUsualSide>(sums, n);
+    else if (side == kUsualSide)
         sum_down_by<kUsualSide>(sums, count, side, n);
     else
         sum_down_by<0>(sums, count, side, n);

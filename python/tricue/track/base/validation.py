@@ -31,14 +31,19 @@ def color_image(
     """
     channels = as_frame(frame)
     channels.require("color")
-    image: Any = channels.color
+    return _bgr(channels.color, shape), channels.timestamp
+
+
+def _bgr(image: Any, shape: tuple[int, ...] | None) -> NDArray[np.uint8]:
+    """The image itself. ValueError for a gray one, and for a shape other than the first frame's."""
     if image.ndim != 3:
         hint = "cv2.cvtColor(image, cv2.COLOR_GRAY2BGR) makes one"
         raise ValueError(f"frame.color: expected BGR (H, W, 3), got gray {image.shape}; {hint}")
     if shape is not None and image.shape != shape:
         hint = "init starts again on another size"
         raise ValueError(f"frame.color: expected the first frame's shape {shape}, got {image.shape}; {hint}")
-    return image, channels.timestamp
+    bgr: NDArray[np.uint8] = image
+    return bgr
 
 
 def seed(value: int) -> int:
@@ -102,8 +107,7 @@ def stereo_pair(
     channels = as_frame(frame)
     channels.require("color", "right")
     right: Any = channels.right
-    left, timestamp = color_image(channels, shape)
-    return left, right, timestamp
+    return _bgr(channels.color, shape), right, channels.timestamp
 
 
 class CueInput(NamedTuple):

@@ -116,7 +116,11 @@ class Blocks(NamedTuple):
     def moved(self, right: float, down: float) -> "Blocks":
         """The grid, moved."""
         x, y = self.anchor
-        return self._replace(anchor=(x + right, y + down))
+        return Blocks(self.corners, (x + right, y + down), *self[2:])
+
+    def resized(self, size: float) -> "Blocks":
+        """The grid, grown to a size around its anchor."""
+        return Blocks(self.corners, self.anchor, size, *self[3:])
 
     @property
     def rectangles(self) -> Floats:
@@ -130,7 +134,7 @@ class Blocks(NamedTuple):
     @property
     def window(self) -> Rectangle | None:
         """The rectangle around target and occluded blocks; None where there are none."""
-        mine = self.corners[self.states != NOT_TARGET_BLOCK]
+        mine = self.corners.take(self.states.nonzero()[0], axis=0)  # all states but NOT_TARGET_BLOCK
         if len(mine) == 0:
             return None
         (left, top, _, _), (_, _, right, bottom) = mine.min(axis=0).tolist(), mine.max(axis=0).tolist()

@@ -4,7 +4,7 @@
 import numpy as np
 
 from tricue.kernels import Kernels
-from tricue.track.flow_depth.blocks import NOT_TARGET_BLOCK, OCCLUDED_BLOCK, Blocks
+from tricue.track.flow_depth.blocks import OCCLUDED_BLOCK, TARGET_BLOCK, Blocks
 from tricue.track.flow_depth.cues import Cues
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Rectangle, around, moved
@@ -22,19 +22,21 @@ def learn(
     k: Kernels, state: FlowDepthState, cues: Cues, verdict: Verdict, p: FlowDepthParams
 ) -> FlowDepthState:
     """The state after a frame in which the target was found."""
-    model = verdict.model
+    model, velocity, disparity = verdict.model, state.velocity, state.disparity
     if not state.missed:
-        window = verdict.temporal_window
-        measured = (model.peaks[0], model.peaks[1]) if cues.flow else _follow_center(state, window)
+        velocity = (model.peaks[0], model.peaks[1]) if cues.flow else _follow_center(state, verdict)
         disparity = state.disparity if cues.disparity is None else model.peaks[-1]
         if p.velocity_smoothing:
-            measured = state.smooth_velocity(measured, verdict.pixel_count)
-        state = state._replace(velocity=measured, disparity=disparity)
+            velocity = state.smooth_velocity(velocity, verdict.pixel_count)
     blocks = state.blocks
     if p.block_rules == "adaptive":
-        blocks = blocks._replace(size=_estimate_size(state))
+        blocks = blocks.resized(_estimate_size(state, disparity))
     blocks = blocks.voted(k, verdict.observed, verdict.limits, p)
     state = state._replace(
+        region=cues.region,
+        pixels=verdict.pixels,
+        velocity=velocity,
+        disparity=disparity,
         model=model,
         temporal_window=verdict.temporal_window,
         missed=0.0,
@@ -54,12 +56,13 @@ def _target_window(blocks: Blocks, verdict: Verdict, p: FlowDepthParams) -> Rect
     return verdict.temporal_window if window is None else around(window, verdict.temporal_window)
 
 
-def _estimate_size(state: FlowDepthState) -> float:
-    """The factor by which the target has grown: that of its disparity for parallel cameras.
+def _estimate_size(state: FlowDepthState, disparity: float) -> float:
+    """The factor by which the target has grown: that of its new disparity for parallel cameras.
 
     The size stays where that disparity is so small that its noise would decide.
     """
-    now, first = (each + state.disparity_offset for each in (state.disparity, state.first_disparity))
+    offset = state.disparity_offset
+    now, first = disparity + offset, state.first_disparity + offset
     return now / first if min(now, first) >= MIN_SIZE_DISPARITY else state.blocks.size
 
 
@@ -67,9 +70,9 @@ def _learn_unoccluded(
     k: Kernels, state: FlowDepthState, cues: Cues, verdict: Verdict, p: FlowDepthParams
 ) -> FlowDepthState:
     """The outline and the running means, learned where few blocks are occluded."""
-    states = state.blocks.states
-    mine = int(np.count_nonzero(states != NOT_TARGET_BLOCK))
-    occluded = int(np.count_nonzero(states == OCCLUDED_BLOCK)) / max(mine, 1)
+    states, outline = state.blocks.states, state.outline
+    counts = np.bincount(states, minlength=OCCLUDED_BLOCK + 1).tolist()
+    occluded = counts[OCCLUDED_BLOCK] / max(counts[TARGET_BLOCK] + counts[OCCLUDED_BLOCK], 1)
     if occluded <= MAX_OCCLUDED_FOR_OUTLINE and cues.disparity is not None:
         blocks, (disparity, tolerance, _) = state.blocks, disparity_limits(state, state.disparity, p)
         box, count = k.target_outline(
@@ -82,18 +85,17 @@ def _learn_unoccluded(
             tolerance,
         )
         if count:
-            outline = state.outline.learned(moved(box, *cues.region[:2]), state.blocks)
-            state = state._replace(outline=outline)
+            outline = outline.learned(moved(box, *cues.region[:2]), blocks)
     is_first = state.learned_frames < FIRST_MEANS
     if occluded <= (MAX_OCCLUDED_FOR_FIRST_MEANS if is_first else MAX_OCCLUDED_FOR_MEANS):
-        state = state.with_means(verdict.pixel_count)
-    return state
+        return state.with_means(verdict.pixel_count, outline)
+    return state._replace(outline=outline)
 
 
-def _follow_center(state: FlowDepthState, window: Rectangle) -> Velocity:
+def _follow_center(state: FlowDepthState, verdict: Verdict) -> Velocity:
     """The velocity of the target pixels' center, where there is no flow; ours, the paper has none."""
     (x, y), (new_x, new_y) = (
-        ((x0 + x1) / 2, (y0 + y1) / 2) for x0, y0, x1, y1 in (state.temporal_window, window)
+        ((x0 + x1) / 2, (y0 + y1) / 2) for x0, y0, x1, y1 in (state.temporal_window, verdict.temporal_window)
     )
     u, v = state.velocity
     return u + CENTER_VELOCITY_RATE * (new_x - x), v + CENTER_VELOCITY_RATE * (new_y - y)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The target's position in meters, with its covariance, from the center of its box and its disparity."""
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,7 +13,6 @@ from tricue.track.flow_depth.state import FlowDepthState
 
 Floats = NDArray[np.float64]
 
-IDENTITY = np.eye(3)
 MIN_POSITION_DISPARITY = 1e-3  # pixels, of parallel cameras
 
 
@@ -31,7 +32,16 @@ def locate(
     scale = step * state.reduced.scale
     place_noise, disparity_noise = scale * p.place_noise, scale * p.disparity_noise
     measured = np.array([[x - 0.5, y - 0.5, disparity]])
-    variances = np.array([place_noise**2, place_noise**2, disparity_noise**2])
+    variances = _variances(place_noise, disparity_noise)
     points, covariances = k.back_project(measured, variances, state.geometry.camera, state.geometry.baseline)
-    drift = (p.acceleration_noise * state.missed**2 / 2) ** 2
-    return points[0], covariances[0] + drift * IDENTITY
+    covariance = covariances[0]
+    if state.missed:
+        diagonal = covariance.ravel()[::4]
+        diagonal += (p.acceleration_noise * state.missed**2 / 2) ** 2
+    return points[0], covariance
+
+
+@lru_cache(maxsize=16)
+def _variances(place: float, disparity: float) -> Floats:
+    """(3,) of x, y and disparity, square pixels, of their standard deviations."""
+    return np.array([place**2, place**2, disparity**2])

@@ -36,6 +36,19 @@ def cells_of(rectangle: Rectangle, shape: tuple[int, ...]) -> Region:
     """The whole cells of an image (H, W) that a rectangle touches; empty where it touches none."""
     x0, y0, x1, y1 = rectangle
     height, width = shape
-    left, top = min(max(math.floor(x0), 0), width), min(max(math.floor(y0), 0), height)
-    right, bottom = max(min(math.ceil(x1), width), left), max(min(math.ceil(y1), height), top)
+    left, right = _cells_between(x0, x1, width)
+    top, bottom = _cells_between(y0, y1, height)
     return left, top, right, bottom
+
+
+def _cells_between(low: float, high: float, count: int) -> tuple[int, int]:
+    """The first of ``count`` cells that an interval touches, and the one after the last."""
+    first, end = math.floor(low), math.ceil(high)
+    # Comparisons: min and max are calls, which take several times as long.
+    if first < 0:
+        first = 0
+    elif first > count:
+        first = count
+    if end > count:
+        end = count
+    return (first, end) if end > first else (first, first)

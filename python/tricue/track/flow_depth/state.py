@@ -67,8 +67,10 @@ class FlowDepthState(NamedTuple):
         (u, v), (mean_u, mean_v) = measured, self.mean_velocity
         return mean_u + weight * (u - mean_u), mean_v + weight * (v - mean_v)
 
-    def with_means(self, count: int) -> "FlowDepthState":
-        """The state with a frame of ``count`` target pixels in its running means; few count less."""
+    def with_means(self, count: int, outline: PixelOutline) -> "FlowDepthState":
+        """The state with a new outline, and a frame of ``count`` target pixels in its running means; few
+        count less.
+        """
         frames = self.learned_frames + 1
         rate = max(MEAN_RATE, 1 / frames)
         if frames > MIN_LEARNED_FRAMES:
@@ -76,7 +78,9 @@ class FlowDepthState(NamedTuple):
         (u, v), (mean_u, mean_v) = self.velocity, self.mean_velocity
         velocity = mean_u + rate * (u - mean_u), mean_v + rate * (v - mean_v)
         pixels = self.mean_pixels + rate * (count - self.mean_pixels)
-        return self._replace(learned_frames=frames, mean_velocity=velocity, mean_pixels=pixels)
+        return self._replace(
+            outline=outline, learned_frames=frames, mean_velocity=velocity, mean_pixels=pixels
+        )
 
     def status(self, p: FlowDepthParams) -> Status:
         """OCCLUDED behind something nearer; LOST after a while, sooner where nothing hides the target."""

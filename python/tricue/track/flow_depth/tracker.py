@@ -112,7 +112,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         reduced = reduce_frame(self._k, checked.frame, before.geometry, self.params, wanted)
         region = cells_of(state.candidate, reduced.gray.shape)
         if min(region[2] - region[0], region[3] - region[1]) < MIN_REGION_SIDE:
-            state = _coast(state._replace(pixels=np.zeros_like(state.pixels)), seconds)
+            state = _coast(state, seconds, pixels=np.zeros_like(state.pixels))
         else:
             cues = measure(self._k, before.reduced, reduced, region, expected, self.params)
             by_disparity = self.params.complete_occlusion == "disparity" and cues.disparity is not None
@@ -142,13 +142,19 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         """Sections 4.2 to 4.5: verify that the target is there, and learn; or coast while it is missed."""
         p, k = self.params, self._k
         verdict = verify(k, state, cues, p)
-        found = verdict.found(state, p)
-        state = state._replace(region=cues.region, pixels=verdict.pixels)
-        if found:
+        if verdict.found(state, p):
             return learn(k, state, cues, verdict, p)
+        blocks = state.blocks
         if not state.missed:
-            state = state._replace(blocks=state.blocks.voted(k, verdict.observed, verdict.limits, p))
-        return _coast(state._replace(occluded=verdict.occluded_share >= MIN_OCCLUDED_SHARE), seconds)
+            blocks = blocks.voted(k, verdict.observed, verdict.limits, p)
+        return _coast(
+            state,
+            seconds,
+            region=cues.region,
+            pixels=verdict.pixels,
+            blocks=blocks,
+            occluded=verdict.occluded_share >= MIN_OCCLUDED_SHARE,
+        )
 
     def _follow_by_disparity(self, state: FlowDepthState, cues: Cues, seconds: float) -> FlowDepthState:
         """The same with complete occlusion as section 4.5 prints it."""
@@ -157,18 +163,17 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         if _waits(state):
             disparity = disparity_in_window(k, state, cues, p)
             if not is_back(state, disparity, p):
-                return _coast(state._replace(occluder_disparity=disparity), seconds)
+                return _coast(state, seconds, occluder_disparity=disparity)
             state = state._replace(
                 disparity=disparity, occluder_disparity=math.nan, temporal_window=state.window
             )
         verdict = verify_by(k, state, cues, None, p)
         if is_occluded(k, state, verdict, p):
             disparity = disparity_in_window(k, state._replace(occluded=False), cues, p)
-            return _coast(state._replace(occluded=True, occluder_disparity=disparity), seconds)
-        state = state._replace(pixels=verdict.pixels)
+            return _coast(state, seconds, occluded=True, occluder_disparity=disparity)
         if verdict.has_pixels(state, p.min_pixels):
             return learn(k, state._replace(missed=0.0), cues, verdict, p)
-        return _coast(state._replace(occluded=False), seconds)
+        return _coast(state, seconds, pixels=verdict.pixels, occluded=False)
 
     def _for_next(
         self, reduced: ReducedFrame, wanted: WantedCells, candidate: Rectangle, frame: Frame
@@ -245,6 +250,6 @@ def _look_ahead(state: FlowDepthState, p: FlowDepthParams) -> Rectangle:
     return candidate_region(moved(state.window, *_velocity(state, p)), state, p)
 
 
-def _coast(state: FlowDepthState, seconds: float) -> FlowDepthState:
-    """The state after a frame without the target; nothing is learned."""
-    return state._replace(missed=state.missed + seconds, score=0.0)
+def _coast(state: FlowDepthState, seconds: float, **changes: Any) -> FlowDepthState:
+    """The state with changes after a frame without the target; nothing is learned."""
+    return state._replace(missed=state.missed + seconds, score=0.0, **changes)

@@ -60,20 +60,21 @@ def predict(k: Kernels, state: HeadFilter, seconds: float, p: StereoHeadParams) 
     limit = p.max_speed if p.motion == "constant" else p.acceleration_noise
     dynamics = _dynamics(len(state.mean), seconds, limit, p.color_drift)
     mean, covariance = k.kalman_predict(state.mean, state.covariance, *dynamics)
-    mean[2] = min(max(float(mean[2]), p.near), p.far)
+    mean[2] = min(max(mean.item(2), p.near), p.far)
     return HeadFilter(mean, covariance)
 
 
 def mahalanobis_distance(predicted: HeadFilter, measured: Point, noise: Floats) -> float:
     """The distance of a measured position from the predicted one, in standard deviations."""
-    (xx, xy, xz), (_, yy, yz), (_, _, zz) = (predicted.covariance[:3, :3] + noise[:3, :3]).tolist()
+    (xx, xy, xz), (_, yy, yz), (_, _, zz) = predicted.position_covariance.tolist()
+    (noise_xx, noise_xy, noise_xz), (_, noise_yy, noise_yz), (_, _, noise_zz) = noise[:3, :3].tolist()
     (x, y, z), (there_x, there_y, there_z) = measured, predicted.position
-    # The three steps of Cholesky written out: numpy.linalg takes longer than the whole correction.
-    a = math.sqrt(xx)
-    b, c = xy / a, xz / a
-    d = math.sqrt(yy - b * b)
-    e = (yz - b * c) / d
-    f = math.sqrt(zz - c * c - e * e)
+    # The sum and the three steps of Cholesky written out: NumPy takes longer than the whole correction.
+    a = math.sqrt(xx + noise_xx)
+    b, c = (xy + noise_xy) / a, (xz + noise_xz) / a
+    d = math.sqrt(yy + noise_yy - b * b)
+    e = (yz + noise_yz - b * c) / d
+    f = math.sqrt(zz + noise_zz - c * c - e * e)
     u = (x - there_x) / a
     v = (y - there_y - b * u) / d
     w = (z - there_z - c * u - e * v) / f

@@ -214,7 +214,11 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
             shifted = self._k.shift_histogram(learned, p.bins, p.max_chroma, head.color)
             learned, model, _ = self._mix(shifted, shifted, 0.0, first)
         off = 0.0 if unlike else match.intersection - state.mean_intersection
-        return state._replace(
+        return HeadState(
+            shape=state.shape,
+            geometry=state.geometry,
+            size=state.size,
+            first_histogram=first,
             learned_histogram=learned,
             model=model,
             filter=head,
@@ -223,8 +227,8 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
             mean_score=state.mean_score + MEAN_RATE * (match.score - state.mean_score),
             mean_intersection=state.mean_intersection + MEAN_RATE * off,
             mean_share=state.mean_share + MEAN_RATE * (measured.depth.share - state.mean_share),
+            first_mean=state.first_mean,
             timestamp=timestamp,
-            missed=0.0,
         )
 
     def _mix(
@@ -249,5 +253,5 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         score = min(max(state.score, 0.0), 1.0)
         if self.rig is None:
             return Track(box, score, status)
-        covariance = state.filter.position_covariance.copy()
-        return Track(box, score, status, np.array(position), covariance, position[2])
+        mean, covariance = state.filter.mean[:3].copy(), state.filter.position_covariance.copy()
+        return Track(box, score, status, mean, covariance, position[2])
