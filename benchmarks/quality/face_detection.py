@@ -105,9 +105,8 @@ def _noise() -> Iterator[Answer]:
     for _ in range(NOISE):
         noise = rng.integers(0, 256, (240, 320, 3), np.uint8)
         yield _answer("noise", noise, None)
-        yield _answer(
-            "smooth noise", cv2.normalize(cv2.blur(noise, (9, 9)), noise, 0, 255, cv2.NORM_MINMAX), None
-        )
+        smooth = cv2.normalize(cv2.blur(noise, (9, 9)), noise, 0, 255, cv2.NORM_MINMAX)
+        yield _answer("smooth noise", smooth.astype(np.uint8), None)
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ A window that passes is a hit. A face has many, at neighboring places and sizes,
 the mirrored image, too. In a color image it has the color of skin.
 """
 
+from collections.abc import Callable
 from functools import cache
 from typing import Any
 
@@ -31,7 +32,7 @@ def find_square(image: Image, smallest: int) -> Box | None:
 
     smallest: side of the smallest face, pixels. ImportError without scikit-image.
     """
-    gray = image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
+    gray: Any = image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
     hits = _find_hits(gray, smallest)
     if not len(_faces(image, hits, 0.5)):  # which spares the mirror image
         return None
@@ -106,7 +107,8 @@ def _has_skin_color(image: Image, square: NDArray[np.float64]) -> bool:
 
 @cache
 def _load_cascade() -> Any:
-    from skimage.data import lbp_frontal_face_cascade_filename
+    from skimage import data
     from skimage.feature import Cascade
 
-    return Cascade(lbp_frontal_face_cascade_filename())
+    locate: Callable[[], str] = data.lbp_frontal_face_cascade_filename
+    return Cascade(locate())
