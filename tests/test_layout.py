@@ -212,6 +212,7 @@ def test_only_the_command_line_parses_arguments() -> None:
 CV2_OF_SCENES = {"imwrite", "FileStorage", "FILE_STORAGE_WRITE", "inpaint", "INPAINT_TELEA"}
 """Files, and what every version of cv2 does alike."""
 CV2_OF_TRACKERS = {
+    "face_cascade": {"cvtColor", "COLOR_BGR2GRAY", "resize", "INTER_LINEAR"},  # of the first frame
     "face_detection": {"cvtColor", "COLOR_BGR2GRAY", "__version__"},  # of the first frame
     "overlay": {"resize", "INTER_NEAREST", "copyMakeBorder", "BORDER_CONSTANT"},  # for the eye
     "head_in_disparities": {  # of the first frame

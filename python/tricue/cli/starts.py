@@ -8,7 +8,13 @@ from tricue.camera.frame import Frame
 from tricue.camera.rig import StereoRig
 from tricue.cli.steps import Start
 from tricue.data.open_source import Source
-from tricue.errors import BoxError, MissingChannelError, NoDepthInBoxError, UnregisteredDepthError
+from tricue.errors import (
+    BoxError,
+    BoxNeededError,
+    MissingChannelError,
+    NoDepthInBoxError,
+    UnregisteredDepthError,
+)
 from tricue.kernels import Kernels, load
 from tricue.track.base.registry import names, traits
 from tricue.track.base.track import Tracker
@@ -56,6 +62,8 @@ def start_hint(error: ValueError, source: Source, tracker: Tracker) -> str:
     if isinstance(error, NoDepthInBoxError) and tracker.traits.disparity_range is not None:
         near, far = tracker.traits.disparity_range
         return f"; --set {near}=METERS and --set {far}=METERS change the range of the search"
+    if isinstance(error, BoxNeededError) and tracker.traits.detects:
+        return ""
     if isinstance(error, BoxError):
         return f"; {BOX_HINT}" if tracker.traits.detects else f"; {BOX_HINT} or {FACE_HINT}"
     if isinstance(error, UnregisteredDepthError):

@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Detection of a face to start on, by OpenCV's cascade classifier (Viola and Jones 2001)."""
+"""Detection of a frontal face to start on, by a cascade of classifiers (Viola and Jones 2001).
+
+It is cv2's, of Haar features, or, where cv2 has none, as 5.x, scikit-image's.
+"""
 
 from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -10,21 +14,56 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
+from tricue.errors import BoxNeededError, TargetNotFoundError
+from tricue.track.base import face_cascade
+
+Image = NDArray[np.uint8]
 
 # Size of the head relative to the detected square, as in hand-drawn boxes of faces.
 HEAD_WIDTH_RATIO, HEAD_HEIGHT_RATIO = 0.75, 0.95
+MIN_SIDE, MIN_SHARE = 20, 10  # of the smallest face: pixels, and 1 / the share of the image's shorter side
 
 
-def find_face(image: NDArray[np.uint8]) -> Box | None:
-    """The largest frontal face in a BGR or gray image, or None. ImportError if cv2 has no cascade, as 5.x."""
+def find_face(image: Image) -> Box | None:
+    """The largest frontal face in a BGR or gray image, or None.
+
+    ImportError if neither cv2 has a cascade, which 5.x hasn't, nor scikit-image is installed.
+    """
+    smallest = max(MIN_SIDE, min(image.shape[:2]) // MIN_SHARE)
+    classifier = _load_cascade()
+    if classifier is None:
+        if not _has_scikit_image():
+            raise ImportError(
+                f"box: can't detect faces, because cv2 {cv2.__version__} has no cascade and scikit-image is "
+                'missing; pip install "tricue[face]" or "opencv-python-headless<5", or give a box '
+                "(--box x,y,width,height)"
+            )
+        square = face_cascade.find_square(image, smallest)
+    else:
+        square = _find_square(classifier, image, smallest)
+    return None if square is None else _crop_to_head(square)
+
+
+def face_to_start_on(image: Image) -> Box:
+    """The largest frontal face, for trackers that got no box.
+
+    TargetNotFoundError without one, BoxNeededError where nothing is installed that detects faces.
+    """
+    try:
+        face = find_face(image)
+    except ImportError as error:
+        raise BoxNeededError(str(error)) from error
+    if face is None:
+        raise TargetNotFoundError("box: expected (x, y, width, height), as no face was found in this frame")
+    return face
+
+
+def _find_square(classifier: Any, image: Image, smallest: int) -> Box | None:
+    """The square of the largest face, by cv2's cascade of Haar features."""
     gray = image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
-    smallest = max(20, min(gray.shape) // 10)
-    found = _load_cascade().detectMultiScale(
-        gray, scaleFactor=1.1, minNeighbors=5, minSize=(smallest, smallest)
-    )
+    found = classifier.detectMultiScale(gray, scaleFactor=1.1, minNeighbors=5, minSize=(smallest, smallest))
     squares = [Box(*map(float, square)) for square in found]
-    largest = max(squares, key=lambda square: square.area, default=None)
-    return None if largest is None else _crop_to_head(largest)
+    return max(squares, key=lambda square: square.area, default=None)
 
 
 def _crop_to_head(square: Box) -> Box:
@@ -35,12 +74,16 @@ def _crop_to_head(square: Box) -> Box:
 
 @cache
 def _load_cascade() -> Any:  # cv2 5's types don't know it
+    """cv2's cascade; None if it has none."""
     folder = getattr(getattr(cv2, "data", None), "haarcascades", None)
     classifier = getattr(cv2, "CascadeClassifier", None)
     file = Path(folder or "", "haarcascade_frontalface_default.xml")
-    if folder is None or classifier is None or not file.is_file():
-        raise ImportError(
-            f"box: can't detect faces, because cv2 {cv2.__version__} has no cascade; "
-            "give a box (--box x,y,width,height), or pip install 'opencv-python-headless<5'"
-        )
-    return classifier(str(file))
+    return None if folder is None or classifier is None or not file.is_file() else classifier(str(file))
+
+
+@cache
+def _has_scikit_image() -> bool:
+    try:
+        return find_spec("skimage") is not None
+    except ValueError:  # sys.modules holds None in its place
+        return False

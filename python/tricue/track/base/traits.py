@@ -44,7 +44,7 @@ class Traits:
 
     channels: tuple[Channels, ...]
     camera: frozenset[Literal["intrinsics", "rig"]] = frozenset()
-    detects: Literal["head", "person"] | None = None
+    detects: Literal["face", "head", "person"] | None = None
     random: bool = False
     disparity_range: tuple[str, str] | None = None
     shows: frozenset[Literal["particles", "objects", "mask", "blocks"]] = frozenset()

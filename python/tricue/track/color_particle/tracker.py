@@ -10,6 +10,7 @@ from tricue import kernels as kernel_sets
 from tricue.camera.box import Box, BoxLike
 from tricue.camera.frame import FrameLike
 from tricue.track.base import validation
+from tricue.track.base.face_detection import face_to_start_on
 from tricue.track.base.random_source import RandomSource
 from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase, read_only
@@ -54,6 +55,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
     Params = ColorParticleParams
     traits = Traits(
         channels=(Channels.of("color"),),
+        detects="face",
         random=True,
         shows=frozenset({"particles"}),
         follows="colors by their ranks, through changes of light",
@@ -87,10 +89,13 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
         """Start, or restart, on the target in ``box``: (x, y, width, height), pixels.
 
-        The box may extend beyond the image. ValueError without a box, or where no part of it is inside.
+        The box may extend beyond the image. Without a box it starts on the largest frontal face. ValueError
+        where no part of the box is inside, and, without a box, where no face is found (TargetNotFoundError)
+        or nothing is installed that detects faces (BoxNeededError).
         """
         image, timestamp = validation.color_image(frame)
-        k, ellipse = self._k, validation.initial_box(box, image.shape).ellipse
+        given = face_to_start_on(image) if box is None else box
+        k, ellipse = self._k, validation.initial_box(given, image.shape).ellipse
         window = np.array(ellipse)
         appearance = Appearance.create(self.params)
         seen = appearance.observe(k, image, window)

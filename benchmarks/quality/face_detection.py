@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: MIT
+"""Frontal faces that are found without a box in video of one color camera: rates, false starts and times.
+
+    python -m benchmarks.quality.face_detection [--every 5] [DATA]
+
+"found" is the share of frames whose box overlaps the true one by 0.5 or more, "elsewhere" that of boxes
+without any overlap, "overlap" the median where there is some. In sequences without frontal faces, in which at
+most walkers and riders are seen, each box is a false start; so it is in noise. In photographs of people, not
+all of them frontal, a box is right where the inner half is skin by a hand-drawn mask. It uses what is
+installed: cv2 4's cascade, or, without it, scikit-image's. All frames (--every 1) take it half an hour.
+"""
+
+import argparse
+import sys
+from collections.abc import Callable, Iterator
+from functools import partial
+from pathlib import Path
+from time import process_time
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from tricue.camera.box import Box
+from tricue.data.open_source import open_source
+from tricue.track.base.face_detection import find_face
+
+from benchmarks.quality.common.sequences import data_folder
+from benchmarks.quality.common.tables import markdown
+
+MIN_OVERLAP = 0.5
+FRONTAL = {
+    "David": [(0, 127), (196, 291), (308, 388), (408, 470)],
+    "FaceOcc2": [(0, 75), (99, 128), (187, 240), (290, 318), (546, 560), (644, 672), (742, 811)],
+    "Girl": [(0, 76), (122, 160), (260, 300), (340, 418), (470, 499)],
+    "Jumping": [(0, 312)],
+}
+"""First and last frames, looked over, in which the target's face is frontal and free."""
+OTHER_FACES = {"Football1"}  # behind the helmets' bars
+PHOTOGRAPHS = "photographs"
+MIN_SKIN = 0.5  # share of the inner half of a box on a face
+NOISE = 20  # images
+
+
+class Answer(NamedTuple):
+    """What was found in a frame. overlap: with the true box, 0 where nothing was found, None without a true
+    box.
+    """
+
+    source: str
+    found: bool
+    overlap: float | None
+    milliseconds: float
+
+
+def main() -> int:
+    """Print the table."""
+    command = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    command.add_argument("--every", type=int, default=5, help="of so many frames one is looked at")
+    command.add_argument("data", nargs="?", type=Path, default=data_folder(), help="recordings")
+    options = command.parse_args()
+    cv2.setNumThreads(1)
+    answers = [*_recorded(options.data, options.every), *_photographs(options.data), *_noise()]
+    rows = [
+        _row(source, [each for each in answers if each.source == source])
+        for source in dict.fromkeys(each.source for each in answers)
+    ]
+    print(markdown(["frames", "number", "found", "elsewhere", "overlap", "ms a frame"], rows))
+    return 0
+
+
+def _row(source: str, answers: list[Answer]) -> list[str]:
+    time = f"{np.median([each.milliseconds for each in answers]):.0f}"
+    overlaps = [each.overlap for each in answers if each.overlap is not None]
+    if not overlaps:
+        false = np.mean([each.found for each in answers])
+        return [source, str(len(answers)), "", f"{false:.1%}", "", time]
+    right = np.mean([overlap >= MIN_OVERLAP for overlap in overlaps])
+    elsewhere = np.mean([each.found and each.overlap == 0 for each in answers])
+    overlapping = [overlap for overlap in overlaps if overlap > 0 and source != PHOTOGRAPHS]
+    median = f"{np.median(overlapping):.2f}" if overlapping else ""
+    return [source, str(len(answers)), f"{right:.1%}", f"{elsewhere:.1%}", median, time]
+
+
+def _answer(source: str, image: NDArray[np.uint8], judge: Callable[[Box], float] | None) -> Answer:
+    """judge: the overlap of a box with the true one."""
+    before = process_time()
+    found = find_face(image)
+    seconds = process_time() - before
+    overlap = None if judge is None else 0.0 if found is None else judge(found)
+    return Answer(source, found is not None, overlap, 1000 * seconds)
+
+
+def _recorded(data: Path, every: int) -> Iterator[Answer]:
+    folders = sorted(each for each in (data / "color").iterdir() if each.name not in OTHER_FACES)
+    for folder in sorted(folders, key=lambda each: each.name not in FRONTAL):
+        source, ranges = open_source(folder), FRONTAL.get(folder.name)
+        for index, frame in enumerate(source):
+            if index % every:
+                continue
+            assert frame.color is not None
+            if ranges is None:
+                yield _answer("without faces", frame.color, None)
+            elif any(first <= index <= last for first, last in ranges):
+                true = source.true_box(index)
+                assert true is not None
+                yield _answer(folder.name, frame.color, true.iou)
+
+
+def _photographs(data: Path) -> Iterator[Answer]:
+    for path in sorted((data / "skin" / "image").iterdir()):
+        mask = next((data / "skin" / "mask").glob(f"{path.stem}.*"), None)
+        if mask is None:
+            continue
+        skin = np.asarray(cv2.imread(str(mask), cv2.IMREAD_GRAYSCALE)) > 0
+        if skin.any():
+            image = np.asarray(cv2.imread(str(path)), np.uint8)
+            yield _answer(PHOTOGRAPHS, image, partial(_on_skin, skin))
+
+
+def _on_skin(skin: NDArray[np.bool_], box: Box) -> float:
+    """1 for a box on skin, 0 for one elsewhere."""
+    x, y, half_width, half_height = box.ellipse
+    rows = slice(max(int(y - half_height / 2), 0), int(y + half_height / 2) + 1)
+    columns = slice(max(int(x - half_width / 2), 0), int(x + half_width / 2) + 1)
+    return float(skin[rows, columns].mean() >= MIN_SKIN)
+
+
+def _noise() -> Iterator[Answer]:
+    rng = np.random.default_rng(0)
+    for _ in range(NOISE):
+        noise = rng.integers(0, 256, (240, 320, 3), np.uint8)
+        yield _answer("noise", noise, None)
+        smooth = cv2.normalize(cv2.blur(noise, (9, 9)), noise, 0, 255, cv2.NORM_MINMAX)
+        yield _answer("smooth noise", smooth.astype(np.uint8), None)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
