@@ -28,6 +28,11 @@ OBSERVATION_MODELS: dict[str, type[Any]] = {
 }
 MIN_LINEAR_LIKELIHOOD = 1e-12  # in its logarithm
 LOG_ODDS, LOG_ODDS_PER_NAT = 2.9, 0.07  # fitted on the 30 recorded color sequences
+LOG_ODDS_OF_LEAD = 0.0  # per nat of the lead over the windows beside it
+STEP_BESIDE = 1.5  # semi-axes: windows beside the target share a seventh of their union with it
+BESIDE = np.tile(np.eye(4), (4, 1, 1))
+BESIDE[range(4), [2, 2, 3, 3], [0, 0, 1, 1]] = [-STEP_BESIDE, STEP_BESIDE, -STEP_BESIDE, STEP_BESIDE]
+BESIDE = np.ascontiguousarray(BESIDE.transpose(1, 0, 2)).reshape(4, 16)  # an ellipse times it: those windows
 
 
 class Appearance(NamedTuple):
@@ -65,6 +70,11 @@ class Appearance(NamedTuple):
             return self.model.observe(k, image, ellipse, self.grid)
         return self.sample(k, image, ellipse[None])
 
+    @property
+    def comparable(self) -> bool:
+        """Whether log-likelihoods are those of color ranks and contrast, for which thresholds are known."""
+        return self.contrast is not None and not self.linear and isinstance(self.model, RankSpatial)
+
     def rank_look(self, searching: bool) -> tuple[Any, ...] | None:
         """The arguments by which ``rank_likelihood`` and ``rank_filter`` measure; None where they can't."""
         model, contrast = self.model, self.contrast
@@ -100,14 +110,13 @@ class Appearance(NamedTuple):
         """How much, in [0, 1], what was seen is like the target; about 0 in noise and flat windows."""
         return self.model.recognition(k, seen, searching)
 
-    def probability(self, k: Kernels, image: Image, ellipse: Floats) -> float | None:
-        """That an ellipse (4,) shows the target, by logistic regression on the log-likelihood of color ranks
-        and contrast. None for other models, whose log-likelihoods mean something else.
+    def lead(self, k: Kernels, image: Image, ellipse: Floats, log_likelihood: float) -> float:
+        """By how much an ellipse (4,) of this log-likelihood is above the best of the four beside it, nats.
+
+        A target differs from what is beside it. Background that was learned by mistake seldom does.
         """
-        if self.rank_look(searching=False) is None:
-            return None
-        log_likelihood = float(self.log_likelihood(k, image, ellipse[None])[0])
-        return 1 / (1 + math.exp(-(LOG_ODDS + LOG_ODDS_PER_NAT * log_likelihood)))
+        beside = self.log_likelihood(k, image, (ellipse @ BESIDE).reshape(4, 4))
+        return log_likelihood - max(beside.tolist())
 
     def learn(
         self, k: Kernels, image: Image, ellipse: Floats, seen: Any, rate: float, color_rate: float
@@ -116,3 +125,10 @@ class Appearance(NamedTuple):
         contrast = self.contrast and self.contrast.learn(k, image, ellipse, color_rate)
         model = self.model.learn(k, seen, rate)
         return Appearance(model, contrast, self.grid, self.ring, self.linear, self.sharpness)
+
+
+def probability(log_likelihood: float, lead: float) -> float:
+    """That a window shows the target, by logistic regression on its log-likelihood under the first frame's
+    appearance and on the mean of its lead, both of color ranks and contrast, nats.
+    """
+    return 1 / (1 + math.exp(-(LOG_ODDS + LOG_ODDS_PER_NAT * log_likelihood + LOG_ODDS_OF_LEAD * lead)))
