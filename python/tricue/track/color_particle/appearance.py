@@ -27,8 +27,8 @@ OBSERVATION_MODELS: dict[str, type[Any]] = {
     "rank-spatial": RankSpatial,
 }
 MIN_LINEAR_LIKELIHOOD = 1e-12  # in its logarithm
-LOG_ODDS, LOG_ODDS_PER_NAT = 2.9, 0.07  # fitted on the 30 recorded color sequences
-LOG_ODDS_OF_LEAD = 0.0  # per nat of the lead over the windows beside it
+LOG_ODDS, PER_NAT, PER_NAT_OF_LEAD = -0.82, 0.036, 0.124  # fitted on the 30 recorded color sequences
+MAX_LEAD = 60.0  # nats: more says no more
 STEP_BESIDE = 1.5  # semi-axes: windows beside the target share a seventh of their union with it
 BESIDE = np.tile(np.eye(4), (4, 1, 1))
 BESIDE[range(4), [2, 2, 3, 3], [0, 0, 1, 1]] = [-STEP_BESIDE, STEP_BESIDE, -STEP_BESIDE, STEP_BESIDE]
@@ -113,10 +113,16 @@ class Appearance(NamedTuple):
     def lead(self, k: Kernels, image: Image, ellipse: Floats, log_likelihood: float) -> float:
         """By how much an ellipse (4,) of this log-likelihood is above the best of the four beside it, nats.
 
-        A target differs from what is beside it. Background that was learned by mistake seldom does.
+        Only those with a center in the image count. A target differs from what is beside it. Background that was learned by mistake seldom does.
         """
-        beside = self.log_likelihood(k, image, (ellipse @ BESIDE).reshape(4, 4))
-        return log_likelihood - max(beside.tolist())
+        windows = (ellipse @ BESIDE).reshape(4, 4)
+        beside = self.log_likelihood(k, image, windows).tolist()
+        height, width = image.shape[:2]
+        (left, *_), (right, *_), (_, top, *_), (_, bottom, *_) = windows.tolist()
+        if left < 0 or top < 0 or right > width or bottom > height:  # beyond the edge is what is on the edge
+            inside = left >= 0, right <= width, top >= 0, bottom <= height
+            beside = [each for each, is_in in zip(beside, inside, strict=True) if is_in]
+        return min(log_likelihood - max(beside, default=-MAX_LEAD), MAX_LEAD)
 
     def learn(
         self, k: Kernels, image: Image, ellipse: Floats, seen: Any, rate: float, color_rate: float
@@ -131,4 +137,4 @@ def probability(log_likelihood: float, lead: float) -> float:
     """That a window shows the target, by logistic regression on its log-likelihood under the first frame's
     appearance and on the mean of its lead, both of color ranks and contrast, nats.
     """
-    return 1 / (1 + math.exp(-(LOG_ODDS + LOG_ODDS_PER_NAT * log_likelihood + LOG_ODDS_OF_LEAD * lead)))
+    return 1 / (1 + math.exp(-(LOG_ODDS + PER_NAT * log_likelihood + PER_NAT_OF_LEAD * lead)))

@@ -132,15 +132,14 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         self._random.resume(before.random)
         state = self._redetect(before, image) if before.lost(self.params) else self._follow(before, image)
         appearance = state.appearance
-        tracked = state.tracked(self.params)
-        if tracked and state.recognition >= self.params.min_score_to_learn:
+        if state.tracked(self.params) and state.recognition >= self.params.min_score_to_learn:
             appearance = self._learn(state, image, self.params.learning_rate)
         state = state._replace(
             appearance=appearance,
             random=self._random.save(),
             timestamp=timestamp,
             missed_seconds=before.missed_seconds + seconds if state.missed_frames else 0.0,
-            doubted_seconds=0.0 if tracked else before.doubted_seconds + seconds,
+            doubted_seconds=before.doubted_seconds + seconds if state.doubtful(self.params) else 0.0,
             frames=before.frames + 1,
         )
         return self._keep(state, frame)
