@@ -96,7 +96,7 @@ def test_a_lost_face_is_not_detected_in_a_background(background, stage, follow):
 @pytest.mark.parametrize("background", ["coffee", "motorcycle"])
 def test_a_target_that_is_gone_is_not_tracked(background, stage, follow):
     """Where the face has left and only the background stays, it isn't TRACKED after a second, and in the end
-    LOST. (The cat has a face of its own, which is followed.)
+    LOST. The cat isn't one of them: it has a face of its own, which is followed.
     """
     tracker = ColorParticleTracker(seed=0)
     follow(tracker, stage(HERE, background), START)

@@ -113,7 +113,8 @@ class Appearance(NamedTuple):
     def lead(self, k: Kernels, image: Image, ellipse: Floats, log_likelihood: float) -> float:
         """By how much an ellipse (4,) of this log-likelihood is above the best of the four beside it, nats.
 
-        Only those with a center in the image count. A target differs from what is beside it. Background that was learned by mistake seldom does.
+        A target differs from what is beside it. Background that was learned by mistake seldom does. Only
+        windows with a center in the image count.
         """
         windows = (ellipse @ BESIDE).reshape(4, 4)
         beside = self.log_likelihood(k, image, windows).tolist()

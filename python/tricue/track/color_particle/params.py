@@ -220,9 +220,7 @@ class ColorParticleParams(Params):
         low=0,
         doc="of the log-likelihood over that of the windows beside the target, below which it isn't TRACKED",
     )
-    max_doubt: float = parameter(
-        2.0, unit="s", source=OURS, low=0, doc="time below min_lead until LOST"
-    )
+    max_doubt: float = parameter(2.0, unit="s", source=OURS, low=0, doc="time below min_lead until LOST")
     min_score_to_redetect: float = parameter(
         0.6,
         unit="recognition",
@@ -269,7 +267,7 @@ class ColorParticleParams(Params):
 
         There is no wide search (``likelihood_drop``) and no re-detection (``lost_after``): several hypotheses
         are all that the paper recovers by. OCCLUDED still says that little is recognized, and that alone
-        (``max_likelihood_drop``).
+        (``max_likelihood_drop``); a likelihood as printed has no lead (``min_lead``), nor a look back.
         """
         return cls(
             particles=100,

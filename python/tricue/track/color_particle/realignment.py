@@ -26,7 +26,7 @@ GAIN_TO_FORGET = 10.0  # nats: so much better than the estimate, what was learne
 
 
 def _patterns(closer: float) -> list[Floats]:
-    """BLOCKS of (4, 4 n): a row x, y, minor, major times one of them gives n windows, first the row itself."""
+    """BLOCKS of (4, 4 n): an ellipse (4,) times one of them gives n windows, first the ellipse itself."""
     normal = np.random.default_rng(0).standard_normal((BLOCKS, WINDOWS, 3))  # any numbers do: drawn once
     spread = 2 * closer * np.repeat([NEAR, FAR], WINDOWS // 2)[:, None]  # semi-axes
     linear = np.tile(np.eye(4), (BLOCKS, WINDOWS + 1, 1, 1))
