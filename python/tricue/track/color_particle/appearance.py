@@ -116,12 +116,12 @@ class Appearance(NamedTuple):
         A target differs from what is beside it. Background that was learned by mistake seldom does. Only
         windows with a center in the image count.
         """
-        windows = (ellipse @ BESIDE).reshape(4, 4)
-        beside = self.log_likelihood(k, image, windows).tolist()
+        beside = self.log_likelihood(k, image, (ellipse @ BESIDE).reshape(4, 4)).tolist()
+        x, y, minor, major = ellipse.tolist()
+        across, down = STEP_BESIDE * minor, STEP_BESIDE * major
         height, width = image.shape[:2]
-        (left, *_), (right, *_), (_, top, *_), (_, bottom, *_) = windows.tolist()
-        if left < 0 or top < 0 or right > width or bottom > height:  # beyond the edge is what is on the edge
-            inside = left >= 0, right <= width, top >= 0, bottom <= height
+        if x < across or y < down or x + across > width or y + down > height:
+            inside = x >= across, x + across <= width, y >= down, y + down <= height
             beside = [each for each, is_in in zip(beside, inside, strict=True) if is_in]
         return min(log_likelihood - max(beside, default=-MAX_LEAD), MAX_LEAD)
 

@@ -73,6 +73,6 @@ def _look(
 ) -> tuple[Floats, float, float]:
     """The window that is most like the first frame's target, its log-likelihood, and that of the ellipse."""
     windows = (ellipse @ pattern).reshape(-1, 4)
-    log_likelihood = first.log_likelihood(k, image, windows)
-    index = int(log_likelihood.argmax())
-    return windows[index], float(log_likelihood[index]), float(log_likelihood[0])
+    log_likelihood = first.log_likelihood(k, image, windows).tolist()
+    most = max(log_likelihood)
+    return windows[log_likelihood.index(most)], most, log_likelihood[0]
