@@ -4,10 +4,9 @@
 import numpy as np
 import pytest
 from tricue import Box, ColorParticleTracker, kernels
-from tricue.camera.box import Box as AnyBox
 from tricue.evaluation import metrics
 from tricue.track.color_particle.appearance import Appearance
-from tricue.track.color_particle.realignment import BLOCKS, WINDOWS, moved, realign
+from tricue.track.color_particle.realignment import BLOCKS, FIRST_LOOK, WINDOWS, moved, realign
 
 START = Box(100, 90, 50, 63)
 K = kernels.load("native")
@@ -30,7 +29,7 @@ def first(frame):
 
 def overlap(ellipse):
     """Of an ellipse's box with the face."""
-    box = AnyBox.from_ellipse(*ellipse.tolist())
+    box = Box.from_ellipse(*ellipse.tolist())
     return metrics.overlaps([box], np.array([[START.x, START.y, START.width, START.height]]))[0]
 
 
@@ -73,8 +72,6 @@ def test_all_particles_move_with_their_estimate(frame, follow):
 
 def test_blocks_differ():
     """Looks one after the other are at other windows."""
-    from tricue.track.color_particle.realignment import FIRST_LOOK
-
     windows = np.stack([(ELLIPSE @ each).reshape(-1, 4) for each in FIRST_LOOK])
     assert windows.shape == (BLOCKS, WINDOWS + 1, 4)
     assert len(np.unique(windows[:, 1:].reshape(-1, 4), axis=0)) == BLOCKS * WINDOWS
