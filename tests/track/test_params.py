@@ -53,6 +53,8 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "min_score_to_learn": (-0.1, 1.1),
         "min_score": (-0.1, 1.1),
         "lost_after": (-0.1,),
+        "min_lead": (-0.1,),
+        "max_doubt": (-0.1,),
         "min_score_to_redetect": (-0.1, 1.1),
         "rate": (0, -1),
     },

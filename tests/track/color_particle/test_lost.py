@@ -93,6 +93,38 @@ def test_a_lost_face_is_not_detected_in_a_background(background, stage, follow):
     assert statuses == {Status.LOST}
 
 
+@pytest.mark.parametrize("background", ["coffee", "motorcycle"])
+def test_a_target_that_is_gone_is_not_tracked(background, stage, follow):
+    """Where the face has left and only the background stays, it isn't TRACKED after a second, and in the end
+    LOST. The cat isn't one of them: it has a face of its own, which is followed.
+    """
+    tracker = ColorParticleTracker(seed=0)
+    follow(tracker, stage(HERE, background), START)
+    tracks = [tracker.update(frame) for frame in stage(150 * [None], background)]
+    statuses = [track.status for track in tracks]
+    assert Status.TRACKED not in statuses[30:]
+    assert statuses[-1] is Status.LOST
+
+
+@pytest.mark.parametrize(("min_lead", "expected"), [(0.0, Status.TRACKED), (80.0, Status.OCCLUDED)])
+def test_tracked_only_with_a_lead_over_what_is_beside(min_lead, expected, stage, follow):
+    """No lead is as large as the highest min_lead asks."""
+    tracker = ColorParticleTracker(seed=0, min_lead=min_lead)
+    tracks = follow(tracker, stage(HERE), START)
+    assert tracks[-1].status is expected
+
+
+def test_what_is_doubtful_is_not_learned(stage, follow):
+    """Nor is it LOST before max_doubt."""
+    frames = stage(HERE)
+    tracker = ColorParticleTracker(seed=0, min_lead=1000.0, max_doubt=5 / 30 - 0.001)
+    follow(tracker, frames[:1], START)
+    learned = tracker._state.appearance
+    statuses = [tracker.update(frame).status for frame in frames[1:6]]
+    assert statuses == 4 * [Status.OCCLUDED] + [Status.LOST]
+    np.testing.assert_array_equal(tracker._state.appearance.model.maps, learned.model.maps)
+
+
 def test_the_box_of_a_lost_target_stays(stage, follow):
     """While the target is searched, the box stays where it was last estimated."""
     tracker = ColorParticleTracker(seed=0)

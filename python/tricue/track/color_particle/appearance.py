@@ -27,7 +27,12 @@ OBSERVATION_MODELS: dict[str, type[Any]] = {
     "rank-spatial": RankSpatial,
 }
 MIN_LINEAR_LIKELIHOOD = 1e-12  # in its logarithm
-LOG_ODDS, LOG_ODDS_PER_NAT = 2.9, 0.07  # fitted on the 30 recorded color sequences
+LOG_ODDS, PER_NAT, PER_NAT_OF_LEAD = -0.82, 0.036, 0.124  # fitted on the 30 recorded color sequences
+MAX_LEAD = 60.0  # nats: more says no more
+STEP_BESIDE = 1.5  # semi-axes: windows beside the target share a seventh of their union with it
+BESIDE = np.tile(np.eye(4), (4, 1, 1))
+BESIDE[range(4), [2, 2, 3, 3], [0, 0, 1, 1]] = [-STEP_BESIDE, STEP_BESIDE, -STEP_BESIDE, STEP_BESIDE]
+BESIDE = np.ascontiguousarray(BESIDE.transpose(1, 0, 2)).reshape(4, 16)  # an ellipse times it: those windows
 
 
 class Appearance(NamedTuple):
@@ -65,6 +70,11 @@ class Appearance(NamedTuple):
             return self.model.observe(k, image, ellipse, self.grid)
         return self.sample(k, image, ellipse[None])
 
+    @property
+    def comparable(self) -> bool:
+        """Whether log-likelihoods are those of color ranks and contrast, for which thresholds are known."""
+        return self.contrast is not None and not self.linear and isinstance(self.model, RankSpatial)
+
     def rank_look(self, searching: bool) -> tuple[Any, ...] | None:
         """The arguments by which ``rank_likelihood`` and ``rank_filter`` measure; None where they can't."""
         model, contrast = self.model, self.contrast
@@ -100,14 +110,20 @@ class Appearance(NamedTuple):
         """How much, in [0, 1], what was seen is like the target; about 0 in noise and flat windows."""
         return self.model.recognition(k, seen, searching)
 
-    def probability(self, k: Kernels, image: Image, ellipse: Floats) -> float | None:
-        """That an ellipse (4,) shows the target, by logistic regression on the log-likelihood of color ranks
-        and contrast. None for other models, whose log-likelihoods mean something else.
+    def lead(self, k: Kernels, image: Image, ellipse: Floats, log_likelihood: float) -> float:
+        """By how much an ellipse (4,) of this log-likelihood is above the best of the four beside it, nats.
+
+        A target differs from what is beside it. Background that was learned by mistake seldom does. Only
+        windows with a center in the image count.
         """
-        if self.rank_look(searching=False) is None:
-            return None
-        log_likelihood = float(self.log_likelihood(k, image, ellipse[None])[0])
-        return 1 / (1 + math.exp(-(LOG_ODDS + LOG_ODDS_PER_NAT * log_likelihood)))
+        beside = self.log_likelihood(k, image, (ellipse @ BESIDE).reshape(4, 4)).tolist()
+        x, y, minor, major = ellipse.tolist()
+        across, down = STEP_BESIDE * minor, STEP_BESIDE * major
+        height, width = image.shape[:2]
+        if x < across or y < down or x + across > width or y + down > height:
+            inside = x >= across, x + across <= width, y >= down, y + down <= height
+            beside = [each for each, is_in in zip(beside, inside, strict=True) if is_in]
+        return min(log_likelihood - max(beside, default=-MAX_LEAD), MAX_LEAD)
 
     def learn(
         self, k: Kernels, image: Image, ellipse: Floats, seen: Any, rate: float, color_rate: float
@@ -116,3 +132,10 @@ class Appearance(NamedTuple):
         contrast = self.contrast and self.contrast.learn(k, image, ellipse, color_rate)
         model = self.model.learn(k, seen, rate)
         return Appearance(model, contrast, self.grid, self.ring, self.linear, self.sharpness)
+
+
+def probability(log_likelihood: float, lead: float) -> float:
+    """That a window shows the target, by logistic regression on its log-likelihood under the first frame's
+    appearance and on the mean of its lead, both of color ranks and contrast, nats.
+    """
+    return 1 / (1 + math.exp(-(LOG_ODDS + PER_NAT * log_likelihood + PER_NAT_OF_LEAD * lead)))

@@ -213,6 +213,14 @@ class ColorParticleParams(Params):
     lost_after: float = parameter(
         0.15, unit="s", source=OURS, low=0, doc="time missed until LOST, at least five frames"
     )
+    min_lead: float = parameter(
+        15.0,
+        unit="nats",
+        source=OURS,
+        low=0,
+        doc="of the log-likelihood over that of the windows beside the target, below which it isn't TRACKED",
+    )
+    max_doubt: float = parameter(2.0, unit="s", source=OURS, low=0, doc="time below min_lead until LOST")
     min_score_to_redetect: float = parameter(
         0.6,
         unit="recognition",
@@ -259,7 +267,7 @@ class ColorParticleParams(Params):
 
         There is no wide search (``likelihood_drop``) and no re-detection (``lost_after``): several hypotheses
         are all that the paper recovers by. OCCLUDED still says that little is recognized, and that alone
-        (``max_likelihood_drop``).
+        (``max_likelihood_drop``); a likelihood as printed has no lead (``min_lead``), nor a look back.
         """
         return cls(
             particles=100,

@@ -46,9 +46,21 @@ class State(NamedTuple):
     recognized_mean: float  # the same over the frames in which it was recognized
     random: dict[str, Any]  # state of the random number generator
     timestamp: float | None
+    lead: float  # running mean of its lead over the windows beside it, nats
     missed_frames: int = 0  # in a row
     missed_seconds: float = 0.0
+    doubted_seconds: float = 0.0
+    frames: int = 0  # since the first
 
     def lost(self, p: ColorParticleParams) -> bool:
         """Whether the target is LOST, and is searched for in the whole frame."""
-        return self.missed_frames >= MIN_MISSED_FRAMES and self.missed_seconds >= p.lost_after
+        missed = self.missed_frames >= MIN_MISSED_FRAMES and self.missed_seconds >= p.lost_after
+        return missed or self.doubted_seconds >= p.max_doubt
+
+    def doubtful(self, p: ColorParticleParams) -> bool:
+        """Whether the target is hardly more like itself than what is beside it."""
+        return self.lead < p.min_lead
+
+    def tracked(self, p: ColorParticleParams) -> bool:
+        """Whether the target is TRACKED."""
+        return self.missed_frames == 0 and not self.doubtful(p)

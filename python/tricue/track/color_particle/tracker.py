@@ -15,10 +15,11 @@ from tricue.track.base.random_source import RandomSource
 from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase, read_only
 from tricue.track.base.traits import Channels, Traits
-from tricue.track.color_particle.appearance import Appearance
+from tricue.track.color_particle.appearance import Appearance, probability
 from tricue.track.color_particle.filter_step import filter_step
 from tricue.track.color_particle.motion import EllipseMotion, EllipsePrediction, size_correlation
-from tricue.track.color_particle.params import ColorParticleParams
+from tricue.track.color_particle.params import NEVER, ColorParticleParams
+from tricue.track.color_particle.realignment import GAIN_TO_FORGET, moved, realign
 from tricue.track.color_particle.skin_detection import (
     NO_DETECTION,
     SkinDetection,
@@ -32,8 +33,11 @@ Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
 
 MEAN_RATE = 0.05  # per frame, of the running means of the log-likelihood
+CHECK_EVERY = 4  # frames: the lead is measured in one of them, the first frame is looked for in another
+LEAD_RATE = 0.7  # of the lead's running mean, each time that it is measured
 REDETECTION_RATE = 0.5  # learning rate, once, where a lost target is detected again
 REDETECTION_SHARE = 0.85  # of the way from the median likelihood of the frame to the target's: detected again
+REDETECTION_LEAD = 1.5  # of min_lead, where a lost target is detected again: background has it by chance
 NO_DRIFT = 0.0, 0.0, 0.0, 0.0
 
 
@@ -72,7 +76,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
     ) -> None:
         super().__init__(params, seed, kernels, parameters)
 
-    _derived = ("_k", "_random", "_rng", "_correlation", "_equal")
+    _derived = ("_k", "_random", "_rng", "_correlation", "_equal", "_comparable")
 
     def _derive(self) -> None:
         super()._derive()
@@ -80,6 +84,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         self._rng = self._random.generator
         self._correlation = size_correlation(self.params)
         self._equal = np.ones(self.params.particles)  # weights
+        self._comparable = Appearance.create(self.params).comparable
 
     @property
     def particles(self) -> Floats:
@@ -114,6 +119,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             score=1.0,
             mean_log_likelihood=log_likelihood,
             recognized_mean=log_likelihood,
+            lead=self._lead(appearance, image, window, log_likelihood),
             random=RandomSource(self.seed).save(),
             timestamp=timestamp,
         )
@@ -131,13 +137,15 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         self._random.resume(before.random)
         state = self._redetect(before, image) if before.lost(self.params) else self._follow(before, image)
         appearance = state.appearance
-        if state.missed_frames == 0 and state.recognition >= self.params.min_score_to_learn:
+        if state.tracked(self.params) and state.recognition >= self.params.min_score_to_learn:
             appearance = self._learn(state, image, self.params.learning_rate)
         state = state._replace(
             appearance=appearance,
             random=self._random.save(),
             timestamp=timestamp,
             missed_seconds=before.missed_seconds + seconds if state.missed_frames else 0.0,
+            doubted_seconds=before.doubted_seconds + seconds if state.doubtful(self.params) else 0.0,
+            frames=before.frames + 1,
         )
         return self._keep(state, frame)
 
@@ -152,7 +160,17 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         particles = self._filter(state, image, last.particles, last.weights, prediction, detection, offset)
         if particles.log_likelihood < state.mean_log_likelihood - p.likelihood_drop:
             particles = self._search_wide(state, image, particles, prediction)
-        return self._accept(state, image, particles, motion.update(tuple(particles.ellipse.tolist()), p))
+        first_log_likelihood = None
+        if state.frames % CHECK_EVERY == 1 and self._comparable:
+            seen = realign(k, image, state.first, particles.ellipse, state.frames // CHECK_EVERY)
+            first_log_likelihood = seen.log_likelihood
+            if seen.gain > 0:
+                if seen.gain > GAIN_TO_FORGET:
+                    state = state._replace(appearance=state.first)
+                bounds = np.array([prediction.lower, prediction.upper])
+                particles = moved(k, image, state.appearance, particles, seen.ellipse, bounds)
+        motion = motion.update(tuple(particles.ellipse.tolist()), p)
+        return self._accept(state, image, particles, motion, first_log_likelihood)
 
     def _filter(
         self,
@@ -197,29 +215,45 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         recognized = appearance.recognition(k, particles.seen, searching=True) >= p.min_score_to_redetect
         background = float(np.median(log_likelihood))
         required = background + REDETECTION_SHARE * (state.recognized_mean - background)
-        if not recognized or particles.log_likelihood < required:
+        lead = self._lead(appearance, image, particles.ellipse, particles.log_likelihood)
+        if not recognized or particles.log_likelihood < required or lead < REDETECTION_LEAD * p.min_lead:
             return state._replace(score=0.0)
+        state = state._replace(lead=lead)
         motion = motion.restart_at(tuple(particles.ellipse.tolist()))
         redetected = self._accept(state, image, particles, motion)
         return redetected._replace(appearance=self._learn(redetected, image, REDETECTION_RATE))
 
-    def _accept(self, state: State, image: Image, particles: ParticleSet, motion: EllipseMotion) -> State:
+    def _accept(
+        self,
+        state: State,
+        image: Image,
+        particles: ParticleSet,
+        motion: EllipseMotion,
+        first_log_likelihood: float | None = None,
+    ) -> State:
         """The state with these particles; what is recognized in them, and their likelihood, tell whether they
         are on the target.
 
         By chance the ranks of some place are a little like those of a covered target. Its likelihood, to
         which colors add, isn't; were it learned, the tracker would stay there. What is learned beside the
-        target is recognized there, too, so the score is told by what was learned from the first frame.
+        target is recognized there, too, so the score is told by what was learned from the first frame, and by
+        the lead over what is beside it. first_log_likelihood: by the former, where it is known.
         """
         k, p, log_likelihood = self._k, self.params, particles.log_likelihood
         recognition = state.appearance.recognition(k, particles.seen)
-        probability = state.first.probability(k, image, particles.ellipse)
         missed, recognized_mean = state.missed_frames + 1, state.recognized_mean
         if recognition >= p.min_score and log_likelihood >= recognized_mean - p.max_likelihood_drop:
             missed, recognized_mean = 0, recognized_mean + MEAN_RATE * (log_likelihood - recognized_mean)
-        score = recognition
-        if probability is not None:
-            score = probability if recognition >= p.min_score else min(probability, recognition)
+        score, lead = recognition, state.lead
+        if self._comparable:
+            if state.frames % CHECK_EVERY == 3:
+                measured = state.appearance.lead(k, image, particles.ellipse, log_likelihood)
+                lead += LEAD_RATE * (measured - lead)
+            if first_log_likelihood is None:
+                first_log_likelihood = float(state.first.log_likelihood(k, image, particles.ellipse[None])[0])
+            score = probability(first_log_likelihood, lead)
+            if recognition < p.min_score:
+                score = min(score, recognition)
         mean = state.mean_log_likelihood
         return state._replace(
             particles=particles,
@@ -228,8 +262,13 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             score=score,
             mean_log_likelihood=mean + MEAN_RATE * (log_likelihood - mean),
             recognized_mean=recognized_mean,
+            lead=lead,
             missed_frames=missed,
         )
+
+    def _lead(self, appearance: Appearance, image: Image, ellipse: Floats, log_likelihood: float) -> float:
+        """The lead over what is beside an ellipse (4,); NEVER where its likelihood doesn't tell."""
+        return appearance.lead(self._k, image, ellipse, log_likelihood) if self._comparable else NEVER
 
     def _learn(self, state: State, image: Image, rate: float) -> Appearance:
         """The appearance with the estimated window blended in."""
@@ -241,7 +280,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         return np.repeat(ellipse[None], self.params.particles, axis=0), self._equal
 
     def _track(self, state: State) -> Track:
-        if state.missed_frames == 0:
+        if state.tracked(self.params):
             status = Status.TRACKED
         else:
             status = Status.LOST if state.lost(self.params) else Status.OCCLUDED

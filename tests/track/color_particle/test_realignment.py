@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: MIT
+"""The first frame's appearance is looked for near the estimate, so that errors of learning don't add up."""
+
+import numpy as np
+import pytest
+from tricue import Box, ColorParticleTracker, kernels
+from tricue.evaluation import metrics
+from tricue.track.color_particle.appearance import Appearance
+from tricue.track.color_particle.realignment import BLOCKS, FIRST_LOOK, WINDOWS, moved, realign
+
+START = Box(100, 90, 50, 63)
+K = kernels.load("native")
+PARAMS = ColorParticleTracker.Params()
+ELLIPSE = np.array(START.ellipse)
+
+
+@pytest.fixture(scope="module")
+def frame(stage):
+    """A face at START."""
+    return stage([(START.x, START.y)])[0]
+
+
+@pytest.fixture(scope="module")
+def first(frame):
+    """The appearance of that face."""
+    empty = Appearance.create(PARAMS)
+    return empty.learn(K, frame, ELLIPSE, empty.observe(K, frame, ELLIPSE), 1.0, 1.0)
+
+
+def overlap(ellipse):
+    """Of an ellipse's box with the face."""
+    box = Box.from_ellipse(*ellipse.tolist())
+    return metrics.overlaps([box], np.array([[START.x, START.y, START.width, START.height]]))[0]
+
+
+@pytest.mark.parametrize("offset", [(8, 0), (0, -10), (-9, 9)])
+def test_an_estimate_that_is_off_comes_back(offset, frame, first):
+    """One look after the other finds the face, never a place that is less like it."""
+    ellipse, before = ELLIPSE + [*offset, 0, 0], -np.inf
+    start = overlap(ellipse)
+    for block in range(2 * BLOCKS):
+        found = realign(K, frame, first, ellipse, block)
+        assert found.gain >= 0
+        assert found.log_likelihood >= before
+        ellipse, before = found.ellipse, found.log_likelihood
+    assert start < 0.8
+    assert overlap(ellipse) > 0.9
+
+
+def test_the_estimate_stays_where_the_face_is_not(stage, first):
+    """In clutter nothing is better, however often it is looked for."""
+    clutter = stage([None])[0]
+    for block in range(BLOCKS):
+        found = realign(K, clutter, first, ELLIPSE, block)
+        assert found.gain == 0
+        np.testing.assert_array_equal(found.ellipse, ELLIPSE)
+
+
+def test_all_particles_move_with_their_estimate(frame, follow):
+    """By the same step, but not out of their bounds."""
+    tracker = ColorParticleTracker(seed=0)
+    follow(tracker, [frame, frame], START)
+    particles, appearance = tracker._state.particles, tracker._state.appearance
+    step = np.array([6.0, -4.0, 1.0, 1.0])
+    bounds = np.array([np.zeros(4), [particles.ellipse[0] + 6.0, 240, 100, 100]])
+    after = moved(K, frame, appearance, particles, particles.ellipse + step, bounds)
+    np.testing.assert_array_equal(after.ellipse, particles.ellipse + step)
+    np.testing.assert_allclose(after.particles[:, 1:], particles.particles[:, 1:] + step[1:])
+    assert after.particles[:, 0].max() == bounds[1, 0]
+    assert after.log_likelihood == appearance.log_likelihood(K, frame, after.ellipse[None])[0]
+
+
+def test_blocks_differ():
+    """Looks one after the other are at other windows."""
+    windows = np.stack([(ELLIPSE @ each).reshape(-1, 4) for each in FIRST_LOOK])
+    assert windows.shape == (BLOCKS, WINDOWS + 1, 4)
+    assert len(np.unique(windows[:, 1:].reshape(-1, 4), axis=0)) == BLOCKS * WINDOWS
+    np.testing.assert_array_equal(windows[:, 0], np.tile(ELLIPSE, (BLOCKS, 1)))
