@@ -4,9 +4,9 @@
 import gc
 import os
 import signal
-import threading
 import subprocess
 import sys
+import threading
 import time
 import weakref
 from pathlib import Path
