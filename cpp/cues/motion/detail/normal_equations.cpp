@@ -2,6 +2,7 @@
 #include "cues/motion/detail/normal_equations.hpp"
 
 #include <array>
+#include <cstddef>
 
 namespace tricue {
 namespace {
@@ -28,8 +29,9 @@ TRICUE_INLINE void average_down_by(const WindowColumns* rows, int count, int any
 template <int kSide>
 TRICUE_INLINE void average_batch_down(const WindowColumns* windows, int n) {
     constexpr float kShare = 1 / static_cast<float>(kSide);
+    constexpr auto kRows = static_cast<std::size_t>(kRowBatch + kSide - 1);
     for (int x = 0; x < n; x += kRowBlock) {
-        RowBlock rows[kRowBatch + kSide - 1];
+        RowBlock rows[kRows];
         for (int i = 0; i < kRowBatch; ++i) load(windows[i].rows[0] + x, rows[i]);
         for (int k = 1; k < kSide; ++k) load(windows[kRowBatch - 1].rows[k] + x, rows[kRowBatch - 1 + k]);
         for (int i = 0; i < kRowBatch; ++i) {
