@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "base/row_block.hpp"
 #include "base/simd.hpp"
@@ -47,9 +48,10 @@ TRICUE_INLINE void smooth_batch(const float* const* rows, const GaussianDerivati
                                 const BatchRows& to) {
     const BatchRows out = to;
     const float* weights = filter.smooth.data();
+    constexpr int kRows = kRowBatch + 2 * kReach;
     for (int x = 0; x < n; x += kRowBlock) {
-        RowBlock around[kRowBatch + 2 * kReach];
-        for (int i = 0; i < kRowBatch + 2 * kReach; ++i) load(rows[i] + x, around[i]);
+        RowBlock around[static_cast<std::size_t>(kRows)];
+        for (int i = 0; i < kRows; ++i) load(rows[i] + x, around[i]);
         for (int i = 0; i < kRowBatch; ++i) {
             RowBlock sum = weights[0] * around[i + kReach];
             for (int k = 1; k <= kReach; ++k)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 #include "base/simd.hpp"
@@ -93,8 +94,9 @@ TRICUE_INLINE void sum_down_by(const SummedRows* sums, int count, int any_side, 
 /// The same of a whole batch, which loads each row once.
 template <int kSide>
 TRICUE_INLINE void sum_batch_down(const SummedRows* sums, int n) {
+    constexpr auto kRows = static_cast<std::size_t>(kRowBatch + kSide - 1);
     for (int x = 0; x < n; x += kRowBlock) {
-        RowBlock rows[kRowBatch + kSide - 1];
+        RowBlock rows[kRows];
         for (int i = 0; i < kRowBatch; ++i) load(sums[i].rows[0] + x, rows[i]);
         for (int k = 1; k < kSide; ++k) load(sums[kRowBatch - 1].rows[k] + x, rows[kRowBatch - 1 + k]);
         for (int i = 0; i < kRowBatch; ++i) {
