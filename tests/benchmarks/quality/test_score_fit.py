@@ -22,8 +22,8 @@ def made_up(seed, slope, offset):
     hit = rng.random(FRAMES) < 1 / (1 + np.exp(-(slope * log_odds + offset)))
     nothing = np.full(FRAMES, np.nan)
     scores = np.array([score_of(each) for each in log_odds])
-    overlaps = np.where(hit, 0.8, 0.0)
-    return FrameResults(overlaps, ~hit & (overlaps > 0), scores, hit, np.ones(FRAMES), nothing, nothing)
+    overlaps, absent = np.where(hit, 0.8, 0.0), np.zeros(FRAMES, np.bool_)
+    return FrameResults(overlaps, absent, scores, hit, np.ones(FRAMES), nothing, nothing)
 
 
 def test_the_line_is_found():
