@@ -42,6 +42,7 @@ def match(
 NEAR = match(HERE, odds=-6.0)
 
 
+NEEDED = log_odds_of(P.min_score_to_redetect)
 module = importlib.import_module(redetect.__module__)
 
 
@@ -49,7 +50,9 @@ module = importlib.import_module(redetect.__module__)
 def search_among(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Match]:
     """``redetect`` where these are the whole frame's matches, with evidence in their order."""
 
-    def among(*others: Match, near: Match = NEAR, missed_frames: int = 20) -> Match:
+    def among(
+        *others: Match, near: Match = NEAR, missed_frames: int = 20, min_log_odds: float = NEEDED
+    ) -> Match:
         def localized(_: TargetModel, window: int) -> Any:
             other = others[window]
             return Candidate(other.target, None, 0.0, 0.0, -float(window), 0.0, None, other.features)
@@ -70,7 +73,8 @@ def search_among(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Match]:
         monkeypatch.setattr(module, "measure", measured)
         nothing: Any = None
         model = TargetModel(nothing, None, HERE.side, ALIKE, P)
-        return redetect(model, nothing, LostTarget(HERE, None, missed_frames, 0), near)
+        lost = LostTarget(HERE, None, missed_frames, 0)
+        return redetect(model, nothing, lost, near, min_log_odds)
 
     among.measured = []
     return among
@@ -102,12 +106,22 @@ def test_structure_of_known_size_is_as_likely_anywhere(measured, search_among):
 
 
 def test_elsewhere_needs_a_high_score(search_among):
-    """Elsewhere a score under min_score_to_redetect isn't taken, even if there is nothing like it nearby."""
-    least = log_odds_of(P.min_score_to_redetect)
-    unlikely, likely = match(HERE, odds=least - 0.01), match(HERE, odds=least + 0.01)
+    """Elsewhere fewer log-odds than are needed aren't enough, even if there is nothing like it nearby."""
     nothing = match(HERE.shift(1.0, 0.0), odds=-40.0)
-    assert search_among(unlikely, near=nothing).target == nothing.target
-    assert search_among(likely, near=nothing).target == likely.target
+    for needed in (NEEDED, 1.0):
+        unlikely, likely = match(HERE, odds=needed - 0.01), match(HERE, odds=needed + 0.01)
+        assert search_among(unlikely, near=nothing, min_log_odds=needed).target == nothing.target
+        assert search_among(likely, near=nothing, min_log_odds=needed).target == likely.target
+
+
+def test_the_best_that_was_seen_is_told(search_among):
+    """By the lower of both log-odds of places elsewhere, taken or not, and without the distance of the near."""
+    others = match(THERE, REPAINTED), match(THERE, REARRANGED)
+    expected = max(min(each.log_odds, each.structure_log_odds) for each in others)
+    nothing = match(HERE.shift(HERE.side, 0.0), odds=-40.0)
+    assert search_among(*others, near=nothing).best_seen == expected
+    near = match(HERE.shift(HERE.side, 0.0), odds=1.0)
+    assert search_among(match(THERE, odds=-3.0), near=near).best_seen == 1.0
 
 
 def test_farther_is_less_likely(search_among):

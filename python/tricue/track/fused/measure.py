@@ -34,7 +34,8 @@ class Match(NamedTuple):
     window, right, down: where it was measured, so many patch pixels off the window's center.
     log_odds, structure_log_odds: of its being the target, by all that is known, and by what light doesn't
     change. response: of the learned filter. first_responses: (32, 32) of the first frame's, in the window.
-    covered: the share of its box that an occluder covers.
+    covered: the share of its box that an occluder covers. best_seen: log-odds of what looked most like the
+    target in a search of the whole frame; None without one.
     """
 
     target: Target
@@ -48,6 +49,7 @@ class Match(NamedTuple):
     first_responses: Plane
     depth: DepthMeasurement | None
     covered: float
+    best_seen: float | None = None
 
     @property
     def observation(self) -> TargetObservation:

@@ -93,8 +93,23 @@ class FusedParams(  # dataclasses take the fields of the last base first
         source=OURS,
         low=0,
         high=1,
-        doc="that a followed target would have where a LOST one is TRACKED again",
+        doc="that a followed target would have where a missed one is TRACKED again",
         was="found_above",
+    )
+    min_score_above_clutter: float = parameter(
+        0.86,
+        unit="score",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="that a followed target would have, at least, where a missed one that stands out is TRACKED again",
+    )
+    clutter_margin: float = parameter(
+        1.5,
+        unit="log-odds",
+        source=OURS,
+        low=0,
+        doc="by which it stands out from all that was seen since it was missed",
     )
     candidates: int = parameter(
         2, unit="places", source=OURS, low=1, high=99, doc="measured in a search of the whole frame"

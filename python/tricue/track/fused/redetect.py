@@ -3,33 +3,40 @@
 
 import math
 
-from tricue.track.fused.identity import score_of
-from tricue.track.fused.localize import TargetModel, localize
+from tricue.track.fused.localize import Candidate, TargetModel, localize
 from tricue.track.fused.measure import Match, Recognition, measure, recognize
 from tricue.track.fused.position_filter import back_project
 from tricue.track.fused.proposals import LostTarget, propose_windows
 from tricue.track.fused.target_observation import TargetObservation
 
 
-def redetect(model: TargetModel, observation: TargetObservation, lost: LostTarget, local: Match) -> Match:
+def redetect(
+    model: TargetModel, observation: TargetObservation, lost: LostTarget, local: Match, min_log_odds: float
+) -> Match:
     """Re-detect the target in the whole frame; local: what was found where it should be.
 
-    A match elsewhere needs ``min_score_to_redetect`` and higher log-odds than the local one. Its distance
-    only counts against it: what doesn't look enough like the target isn't measured.
+    A match elsewhere needs ``min_log_odds``, and more than the local one has. Its distance only counts against
+    it: what doesn't look enough like the target isn't measured.
     """
     p = model.params
     windows = propose_windows(model, observation, lost)
     candidates = sorted((localize(model, each) for each in windows), key=lambda each: -each.evidence)
+    seen = max([local.log_odds, *(_log_odds(model, each) for each in candidates)])
     local = local._replace(log_odds=local.log_odds - _distance_penalty(model, lost, local))
     recognitions = [recognize(model, each) for each in candidates[: p.candidates]]
     matches = [
         _match_elsewhere(model, lost, each)
         for each in recognitions
-        if score_of(min(each.log_odds, each.structure_log_odds)) >= p.min_score_to_redetect
+        if min(each.log_odds, each.structure_log_odds) >= min_log_odds
     ]
     best = max(matches, key=lambda each: each.log_odds, default=local)
-    found = best.score >= p.min_score_to_redetect and best.log_odds > local.log_odds
-    return best if found else local
+    found = best.log_odds >= min_log_odds and best.log_odds > local.log_odds
+    return (best if found else local)._replace(best_seen=seen)
+
+
+def _log_odds(model: TargetModel, candidate: Candidate) -> float:
+    recognition = recognize(model, candidate)
+    return min(recognition.log_odds, recognition.structure_log_odds)
 
 
 def _match_elsewhere(model: TargetModel, lost: LostTarget, recognition: Recognition) -> Match:

@@ -4,6 +4,7 @@
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from tricue.track.fused.clutter import NO_CLUTTER, Clutter
 from tricue.track.fused.depth_trust import DepthTrust
 from tricue.track.fused.experts.color import ColorExpert
 from tricue.track.fused.experts.correlation_filter import CorrelationFilterExpert
@@ -52,6 +53,7 @@ class State:
     outline: Outline = BOX_OUTLINE
     depth_trust: DepthTrust = FRESH_TRUST
     occluded: bool = False  # by something nearer
+    clutter: Clutter = NO_CLUTTER  # seen since it was missed
     missed_frames: int = 0  # in a row, in which it was not recognized
     missed_seconds: float = 0.0  # of these frames
     seconds: float = 0.0  # since the frame before

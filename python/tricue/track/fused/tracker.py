@@ -153,7 +153,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         local = search_local(model, observation, state.target, None)
         last = state.target.scale(state.recognized_side / state.target.side)
         lost = LostTarget(last, state.position, state.missed_frames, state.frames)
-        return redetect(model, observation, lost, local)
+        return redetect(model, observation, lost, local, state.clutter.min_log_odds(p))
 
     def _track(self, state: State) -> Track:
         if state.missed_frames == 0:

@@ -1,6 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Verify: whether a match is the target, and the state that follows from it."""
+"""Verify: whether a match is the target, and the state that follows from it.
 
+What is learned of a missed target may be what hides it, so that the next frames look like the target. So a
+missed target needs more to be recognized than one that is followed.
+"""
+
+from tricue.track.fused.clutter import NO_CLUTTER
 from tricue.track.fused.identity import log_odds_of, score_of
 from tricue.track.fused.measure import Match
 from tricue.track.fused.params import FusedParams
@@ -12,9 +17,12 @@ VERIFIED_MEAN_RATE = 0.05  # per frame, of the running means over frames in whic
 def verify(state: State, match: Match, p: FusedParams) -> State:
     """Move the target to the match if that may be it; count the frame as missed unless it is recognized."""
     occluded = match.covered > p.max_covered
-    score = _score_of_lost(match, p) if state.is_lost(p) else match.score
-    recognized = not occluded and score >= p.min_score
-    if occluded:
+    needed = state.clutter.min_log_odds(p) if state.missed_frames else log_odds_of(p.min_score)
+    recognized = not occluded and match.log_odds >= needed
+    # A LOST target may be anywhere: with just what it needs it is as likely the target as one that is followed
+    # with ``min_score``.
+    score = score_of(match.log_odds - needed + log_odds_of(p.min_score)) if state.is_lost(p) else match.score
+    if not recognized:
         score = min(score, p.min_score)
     moved = not occluded and match.score >= p.min_score_to_move
     target = match.target if moved else state.target
@@ -24,6 +32,7 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
             features=match.features,
             score=score,
             occluded=occluded,
+            clutter=state.clutter if match.best_seen is None else state.clutter.add(match.best_seen),
             missed_frames=state.missed_frames + 1,
             missed_seconds=state.missed_seconds + state.seconds,
         )
@@ -33,16 +42,10 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
         features=match.features,
         score=score,
         occluded=occluded,
+        clutter=NO_CLUTTER,
         missed_frames=0,
         missed_seconds=0.0,
         recognized_side=match.target.side,
         mean_response=state.mean_response + rate * (match.response - state.mean_response),
         typical=match.features if state.typical is None else state.typical.blend(match.features, rate),
     )
-
-
-def _score_of_lost(match: Match, p: FusedParams) -> float:
-    """The probability that a match is the LOST target, which ``min_score_to_redetect`` makes ``min_score``:
-    it may be anywhere.
-    """
-    return score_of(match.log_odds - log_odds_of(p.min_score_to_redetect) + log_odds_of(p.min_score))
