@@ -115,7 +115,7 @@ def test_elsewhere_needs_a_high_score(search_among):
 
 
 def test_the_best_that_was_seen_is_told(search_among):
-    """By the lower of both log-odds of places elsewhere, taken or not, and without the distance of the near."""
+    """By the lower of both log-odds of places elsewhere, taken or not; near, without the distance."""
     others = match(THERE, REPAINTED), match(THERE, REARRANGED)
     expected = max(min(each.log_odds, each.structure_log_odds) for each in others)
     nothing = match(HERE.shift(HERE.side, 0.0), odds=-40.0)

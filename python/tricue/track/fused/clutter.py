@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What was seen while the target was looked for: what looks more like the target than all of that is the target.
+"""What was seen while the target was looked for: what looks more like it than all of that is the target.
 
 How much a place that isn't the target's looks like it differs from scene to scene by more than how much the
 target changes while it is away. So a missed target's threshold follows what the search of the whole frame has

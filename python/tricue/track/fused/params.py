@@ -102,7 +102,7 @@ class FusedParams(  # dataclasses take the fields of the last base first
         source=OURS,
         low=0,
         high=1,
-        doc="that a followed target would have, at least, where a missed one that stands out is TRACKED again",
+        doc="that a followed target would have where a missed one that stands out is TRACKED again",
     )
     clutter_margin: float = parameter(
         1.5,

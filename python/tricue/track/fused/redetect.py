@@ -15,8 +15,8 @@ def redetect(
 ) -> Match:
     """Re-detect the target in the whole frame; local: what was found where it should be.
 
-    A match elsewhere needs ``min_log_odds``, and more than the local one has. Its distance only counts against
-    it: what doesn't look enough like the target isn't measured.
+    A match elsewhere needs ``min_log_odds``, and more than the local one has. Its distance only counts
+    against it: what doesn't look enough like the target isn't measured.
     """
     p = model.params
     windows = propose_windows(model, observation, lost)

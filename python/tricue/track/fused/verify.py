@@ -19,8 +19,8 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
     occluded = match.covered > p.max_covered
     needed = state.clutter.min_log_odds(p) if state.missed_frames else log_odds_of(p.min_score)
     recognized = not occluded and match.log_odds >= needed
-    # A LOST target may be anywhere: with just what it needs it is as likely the target as one that is followed
-    # with ``min_score``.
+    # A LOST target may be anywhere: what has just what it needs is as likely the target as what has
+    # ``min_score`` where one is followed.
     score = score_of(match.log_odds - needed + log_odds_of(p.min_score)) if state.is_lost(p) else match.score
     if not recognized:
         score = min(score, p.min_score)
