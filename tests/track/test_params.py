@@ -248,6 +248,8 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "max_doubt": (-0.1,),
         "lost_position_noise": (0, -1),
         "min_score_to_redetect": (-0.1, 1.1),
+        "min_score_above_clutter": (-0.1, 1.1),
+        "clutter_margin": (-0.1,),
         "candidates": (0, 100),
     },
 }

@@ -98,6 +98,7 @@ EXTREMES: list[dict[str, Any]] = [
     {"lost_position_noise": 1e-9},
     {"lost_position_noise": 1e9},
     {"min_score_to_redetect": 0.0},
+    {"min_score_above_clutter": 0.0, "clutter_margin": 0.0},
 ]
 
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from tricue.track.fused.clutter import NO_CLUTTER
 from tricue.track.fused.identity import IdentityFeatures, log_odds_of
 from tricue.track.fused.measure import Match
 from tricue.track.fused.outline import Sides
@@ -62,3 +63,31 @@ def test_what_hardly_may_be_it_does_not_move_it():
     assert verify(state(False), match(least - 0.01), P).target == HERE
     assert verify(state(False), match(least + 0.01), P).target == THERE
     assert verify(state(True), match(least + 0.01), P).target == THERE
+
+
+def test_a_missed_target_needs_more():
+    """What was learned since may be what hid it: enough for a followed target isn't enough after one miss."""
+    missed = replace(state(False), missed_frames=1, missed_seconds=0.03)
+    assert verify(state(False), match(LEAST + 0.01), P).missed_frames == 0
+    below, above = (verify(missed, match(LEAST_LOST + off), P) for off in (-0.01, 0.01))
+    assert (below.missed_frames, below.score) == (2, P.min_score)
+    assert above.missed_frames == 0
+
+
+def test_what_stands_out_from_the_clutter_needs_less():
+    """Frames in which nothing looked like the target lower what it needs; recognized, it starts anew."""
+    searched = state(True)
+    for _ in range(30):
+        searched = verify(searched, match(LEAST - 9.0)._replace(best_seen=-9.0), P)
+    least = log_odds_of(P.min_score_above_clutter)
+    assert least < LEAST_LOST
+    assert verify(searched, match(least - 0.01), P).missed_frames > 0
+    found = verify(searched, match(least + 0.01), P)
+    assert (found.missed_frames, found.clutter) == (0, NO_CLUTTER)
+    assert found.score > P.min_score
+
+
+def test_without_a_search_nothing_is_known_of_clutter():
+    """As long as the target is followed, what it needs stays."""
+    missed = verify(state(False), match(LEAST - 1.0), P)
+    assert missed.clutter == NO_CLUTTER
