@@ -14,6 +14,7 @@ from tricue.track.fused.identity import (
     STRUCTURE,
     IdentityFeatures,
     color_histogram,
+    in_any_light,
     log_odds_of,
     score_of,
 )
@@ -53,9 +54,13 @@ def test_odds_are_monotone(feature, typical):
 @pytest.mark.parametrize("weights", [APPEARANCE, STRUCTURE], ids=["appearance", "structure"])
 @pytest.mark.parametrize("typical", [None, TYPICAL], ids=["nothing typical yet", "typical"])
 def test_odds_separate_perfect_from_empty(typical, weights):
-    """A perfect place has a probability that is enough anywhere, an empty one is never recognized."""
+    """A perfect place has a probability that is enough anywhere, an empty one is never recognized; not by its
+    structure alone, either.
+    """
+    empty = EMPTY.log_odds(typical, weights)
+    recognized_by = in_any_light(-math.inf, empty) if weights is STRUCTURE else empty
     assert score_of(PERFECT.log_odds(typical, weights)) > FusedParams().min_score_to_redetect
-    assert score_of(EMPTY.log_odds(typical, weights)) < FusedParams().min_score
+    assert score_of(recognized_by) < FusedParams().min_score
 
 
 def test_a_drop_lowers_the_odds():

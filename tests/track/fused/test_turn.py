@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from tricue import Frame, FusedTracker, Intrinsics, Status
 from tricue import kernels as kernel_sets
 from tricue.track.fused.experts.turn import TurnExpert
-from tricue.track.fused.state import AppearanceModels
+from tricue.track.fused.models import AppearanceModels
 from tricue.track.fused.target import TURN_STEPS, Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import extract_windows

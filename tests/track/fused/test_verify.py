@@ -8,6 +8,7 @@ import pytest
 from tricue.track.fused.clutter import NO_CLUTTER
 from tricue.track.fused.identity import IdentityFeatures, log_odds_of
 from tricue.track.fused.measure import Match
+from tricue.track.fused.memory import Memory
 from tricue.track.fused.outline import Sides
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.state import MIN_LOST_FRAMES, State
@@ -28,7 +29,8 @@ def match(odds: float, covered: float = 0.0) -> Match:
 
 def state(lost: bool) -> State:
     """Of a target that was followed for ten frames, or is LOST."""
-    fresh = State((240, 320), {}, HERE, 40.0, 40.0, 0.5, Sides.cut_by_border(HERE, (240, 320)), frames=10)
+    sides = Sides.cut_by_border(HERE, (240, 320))
+    fresh = State((240, 320), {}, Memory({}, {}), HERE, 40.0, 40.0, 0.5, sides, frames=10)
     return replace(fresh, missed_frames=MIN_LOST_FRAMES, missed_seconds=10.0) if lost else fresh
 
 

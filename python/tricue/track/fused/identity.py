@@ -29,7 +29,8 @@ STRUCTURE = Weights((0.0, 0.0, 0.0, 17.2), (0.2, 0.0, 0.0, 11.7), -1.2)  # witho
 DEPTH_PICTURE_OFFSET = -3.0  # of the log-odds in a picture of depth, in which most things look alike
 # Platt 1999, on tracks of the same videos (python -m benchmarks.quality.score_fit): a target that was
 # followed is mostly there, and what its features say of one frame is much what they said of the last.
-SCORE_SLOPE, SCORE_OFFSET = 0.5, 1.7
+SCORE_SLOPE, SCORE_OFFSET = 0.5, 2.0
+STRUCTURE_ONLY_PENALTY = 2.0  # log-odds
 MAX_LOG_ODDS = 50.0  # beyond it a probability doesn't change
 
 
@@ -62,6 +63,11 @@ class IdentityFeatures(NamedTuple):
 
 def _weighted_sum(weights: Iterable[float], values: Iterable[float]) -> float:
     return float(sum(map(operator.mul, weights, values)))
+
+
+def in_any_light(log_odds: float, structure_log_odds: float) -> float:
+    """Log-odds of what is in a color picture: light may have changed its colors, its structure is enough."""
+    return max(log_odds, structure_log_odds - STRUCTURE_ONLY_PENALTY)
 
 
 def score_of(log_odds: float) -> float:

@@ -17,10 +17,12 @@ from tricue.track.fused.experts.turn import TurnExpert
 from tricue.track.fused.frame_observation import FrameObservation
 from tricue.track.fused.identity import FirstColors
 from tricue.track.fused.localize import TargetModel, localize
+from tricue.track.fused.memory import Memory
+from tricue.track.fused.models import AppearanceModels, ModelsByKind
 from tricue.track.fused.outline import Sides, measure_reaches
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.position_filter import PositionFilter, back_project
-from tricue.track.fused.state import AppearanceModels, State
+from tricue.track.fused.state import State
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import extract_windows
@@ -36,9 +38,11 @@ def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedPara
     sides = _see_sides(Sides.cut_by_border(target, frame.shape), observation, target, p)
     model = TargetModel(appearance, depth, target.side, None, p)
     window = extract_windows(observation, [target], p.context)[0]
+    models: ModelsByKind = {observation.kind: appearance}
     return State(
         shape=frame.shape,
-        models={observation.kind: appearance},
+        models=models,
+        memory=Memory(models, models),
         target=target,
         first_side=target.side,
         recognized_side=target.side,

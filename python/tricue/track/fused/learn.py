@@ -13,10 +13,11 @@ from tricue.track.fused.arrays import NO_PLANE
 from tricue.track.fused.experts.depth import covered_share
 from tricue.track.fused.localize import clamp_to_image
 from tricue.track.fused.measure import Match
+from tricue.track.fused.models import AppearanceModels
 from tricue.track.fused.outline import Side, measure_reaches
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.position_filter import PositionFilter, back_project
-from tricue.track.fused.state import AppearanceModels, State
+from tricue.track.fused.state import State
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import CELL_PIXELS, Window, extract_windows

@@ -8,8 +8,8 @@ import numpy as np
 from tricue.track.fused.arrays import NO_PLANE, Plane
 from tricue.track.fused.experts.depth import DepthExpert
 from tricue.track.fused.identity import IdentityFeatures
+from tricue.track.fused.models import AppearanceModels
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.state import AppearanceModels
 from tricue.track.fused.target import Target
 from tricue.track.fused.window import CELL_PIXELS, HANN_WINDOW, INNER_SHARE, Window, extract_windows
 

@@ -51,7 +51,7 @@ class FusedParams(  # dataclasses take the fields of the last base first
         was="hidden_above",
     )
     min_score: float = parameter(
-        0.79,
+        0.8,
         unit="score",
         source=OURS,
         low=0,
@@ -60,7 +60,7 @@ class FusedParams(  # dataclasses take the fields of the last base first
         was="lost_below",
     )
     min_score_to_move: float = parameter(
-        0.44,
+        0.51,
         unit="score",
         source=OURS,
         low=0,
@@ -88,7 +88,7 @@ class FusedParams(  # dataclasses take the fields of the last base first
         was="reach",
     )
     min_score_to_redetect: float = parameter(
-        0.945,
+        0.96,
         unit="score",
         source=OURS,
         low=0,
@@ -97,7 +97,7 @@ class FusedParams(  # dataclasses take the fields of the last base first
         was="found_above",
     )
     min_score_above_clutter: float = parameter(
-        0.86,
+        0.89,
         unit="score",
         source=OURS,
         low=0,

@@ -2,6 +2,7 @@
 """Search for the target around its last place."""
 
 from tricue.track.fused.experts.depth import covered_share, depth_continuity
+from tricue.track.fused.identity import in_any_light
 from tricue.track.fused.localize import Candidate, TargetModel, localize
 from tricue.track.fused.measure import Match, measure_candidate
 from tricue.track.fused.target import Target
@@ -9,7 +10,6 @@ from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import Window, extract_windows
 
 NEIGHBORS = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]  # in half windows
-STRUCTURE_ONLY_PENALTY = 2.0  # log-odds
 
 
 def search_local(
@@ -32,8 +32,8 @@ def search_local(
     if mean_response is not None:
         continuity = depth_continuity(candidate.window, candidate.right, candidate.down)
         log_odds += p.depth_continuity_weight * continuity
-    if observation.kind == "color":  # light may have changed its colors: its structure is enough
-        log_odds = max(log_odds, match.structure_log_odds - STRUCTURE_ONLY_PENALTY)
+    if observation.kind == "color":
+        log_odds = in_any_light(log_odds, match.structure_log_odds)
     return match._replace(log_odds=log_odds, covered=max(match.covered, covered_share(window)))
 
 

@@ -2,35 +2,22 @@
 """All that the fused tracker keeps from frame to frame."""
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 from tricue.track.fused.clutter import NO_CLUTTER, Clutter
 from tricue.track.fused.depth_trust import DepthTrust
-from tricue.track.fused.experts.color import ColorExpert
-from tricue.track.fused.experts.correlation_filter import CorrelationFilterExpert
 from tricue.track.fused.experts.depth import DepthExpert
-from tricue.track.fused.experts.size import SizeExpert
-from tricue.track.fused.experts.turn import TurnExpert
-from tricue.track.fused.identity import FirstColors, IdentityFeatures
+from tricue.track.fused.identity import IdentityFeatures
+from tricue.track.fused.memory import Memory
+from tricue.track.fused.models import ModelsByKind
 from tricue.track.fused.outline import BOX_OUTLINE, Outline, Sides
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.position_filter import PositionFilter
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import PictureKind
 
 FRESH_TRUST = DepthTrust()  # before the first frame
 CLOCK_ERROR = 1e-6  # seconds, of times that are added up
 MIN_LOST_FRAMES = 3  # missed in a row, until the target is LOST
-
-
-class AppearanceModels(NamedTuple):
-    """The target's appearance in one kind of picture."""
-
-    filter: CorrelationFilterExpert
-    color: ColorExpert
-    size: SizeExpert
-    turn: TurnExpert
-    first_colors: FirstColors
 
 
 @dataclass(frozen=True)
@@ -38,7 +25,8 @@ class State:
     """The tracker after a frame; nothing changes it."""
 
     shape: tuple[int, int]  # of the first frame
-    models: dict[PictureKind, AppearanceModels]
+    models: ModelsByKind
+    memory: Memory  # of the models as they were
     target: Target
     first_side: float  # pixels, of the first box
     recognized_side: float  # pixels, when it was last recognized

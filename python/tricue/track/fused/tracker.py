@@ -21,6 +21,8 @@ from tricue.track.fused.initialize import ensure_models, initialize, initialize_
 from tricue.track.fused.learn import update_models
 from tricue.track.fused.localize import TargetModel
 from tricue.track.fused.measure import Match
+from tricue.track.fused.memory import judge
+from tricue.track.fused.models import AppearanceModels
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.proposals import LostTarget
 from tricue.track.fused.redetect import redetect
@@ -113,6 +115,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         observation = observed.for_target(self._k, _expected_depth(state))
         state = ensure_models(state, observation, self.params)
         match = self._localize(state, observation)
+        match = self._judge(state, observation, match)
         state = verify(state, match, self.params)
         return self._keep(update_models(before, state, observation, match, self.params), frame)
 
@@ -146,14 +149,21 @@ class FusedTracker(TrackerBase[FusedParams, State]):
 
     def _localize(self, state: State, observation: TargetObservation) -> Match:
         """The target near its last place; in the whole frame once it isn't followed any more."""
-        models, p = state.models[observation.kind], self.params
-        model = TargetModel(models, state.depth, state.first_side, state.typical, p)
+        p = self.params
+        model = _target_model(state, state.models[observation.kind], p)
         if state.is_followed(p):
             return search_local(model, observation, state.target, state.mean_response)
         local = search_local(model, observation, state.target, None)
         last = state.target.scale(state.recognized_side / state.target.side)
         lost = LostTarget(last, state.position, state.missed_frames, state.frames)
         return redetect(model, observation, lost, local, state.clutter.min_log_odds(p))
+
+    def _judge(self, state: State, observation: TargetObservation, match: Match) -> Match:
+        """The match, judged by the models as they were; as it is where there are none, or depth tells."""
+        models = state.memory.older.get(observation.kind)
+        if observation.depth_source is not None or models is None:
+            return match
+        return judge(_target_model(state, models, self.params), match)
 
     def _track(self, state: State) -> Track:
         if state.missed_frames == 0:
@@ -163,6 +173,10 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         else:
             status = Status.LOST
         return Track(state.outline.apply_to(state.target.upright).box, state.score, status, *_estimate(state))
+
+
+def _target_model(state: State, appearance: AppearanceModels, p: FusedParams) -> TargetModel:
+    return TargetModel(appearance, state.depth, state.first_side, state.typical, p)
 
 
 def _estimate(state: State) -> tuple[Floats, Floats, float | None] | tuple[None, None, None]:

@@ -43,6 +43,7 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
         score=score,
         occluded=occluded,
         clutter=NO_CLUTTER,
+        memory=state.memory.keep(state.models),
         missed_frames=0,
         missed_seconds=0.0,
         recognized_side=match.target.side,

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: MIT
+"""The models as they were some frames ago: judges of what those of today find.
+
+What comes before the target is learned little by little, and soon looks like the target to the models that
+learned it. Those from before it came don't recognize it, or see the target beside it.
+"""
+
+from typing import NamedTuple
+
+from tricue.track.fused.identity import in_any_light
+from tricue.track.fused.localize import TargetModel, localize
+from tricue.track.fused.measure import Match, recognize
+from tricue.track.fused.models import ModelsByKind
+from tricue.track.fused.window import CELL_PIXELS, extract_windows
+
+FRAMES_APART = 5  # from one snapshot to the next, of those that were recognized
+MAX_CELLS_OFF = 3  # from a match to where the models as they were see the target, if it is the same
+LOG_ODDS_ELSEWHERE = -5.0  # of a match that is farther off
+
+
+class Memory(NamedTuple):
+    """Two snapshots of the models; the older one, from 5 to 10 recognized frames ago, judges.
+
+    frames: recognized since the newer one.
+    """
+
+    older: ModelsByKind
+    newer: ModelsByKind
+    frames: int = 0
+
+    def keep(self, models: ModelsByKind) -> "Memory":
+        """After one more frame in which the target was recognized, by these models."""
+        frames = self.frames + 1
+        return self._replace(frames=frames) if frames < FRAMES_APART else Memory(self.newer, models)
+
+
+def judge(remembered: TargetModel, match: Match) -> Match:
+    """A match in a color picture, its log-odds at most those by the models as they were."""
+    window = extract_windows(match.observation, [match.target], remembered.params.context)[0]
+    candidate = localize(remembered, window)
+    if max(abs(candidate.right), abs(candidate.down)) > CELL_PIXELS * MAX_CELLS_OFF:
+        log_odds = LOG_ODDS_ELSEWHERE
+    else:
+        recognition = recognize(remembered, candidate)
+        log_odds = in_any_light(recognition.log_odds, recognition.structure_log_odds)
+    return match._replace(log_odds=min(match.log_odds, log_odds))

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: MIT
+"""What is known of the target's appearance."""
+
+from typing import NamedTuple
+
+from tricue.track.fused.experts.color import ColorExpert
+from tricue.track.fused.experts.correlation_filter import CorrelationFilterExpert
+from tricue.track.fused.experts.size import SizeExpert
+from tricue.track.fused.experts.turn import TurnExpert
+from tricue.track.fused.identity import FirstColors
+from tricue.track.fused.target_observation import PictureKind
+
+
+class AppearanceModels(NamedTuple):
+    """The target's appearance in one kind of picture."""
+
+    filter: CorrelationFilterExpert
+    color: ColorExpert
+    size: SizeExpert
+    turn: TurnExpert
+    first_colors: FirstColors
+
+
+ModelsByKind = dict[PictureKind, AppearanceModels]

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: MIT
+"""That models as they were judge what those of today find."""
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from tricue import Frame, FusedTracker, Status
+from tricue.track.fused.localize import TargetModel
+from tricue.track.fused.measure import Match
+from tricue.track.fused.memory import FRAMES_APART, LOG_ODDS_ELSEWHERE, Memory, judge
+from tricue.track.fused.search import search_local
+from tricue.track.fused.state import State
+from tricue.track.fused.target import Target
+
+Image = NDArray[np.uint8]
+
+TARGET = Target(160.0, 120.0, 48.0, 48.0)
+P = FusedTracker.Params()
+
+
+def noise(height: int, width: int, seed: int) -> Image:
+    """Smooth blobs of color, some 12 px wide."""
+    small = np.random.default_rng(seed).integers(0, 256, (height // 12, width // 12, 3)).astype(np.uint8)
+    return np.asarray(cv2.resize(small, (width, height), interpolation=cv2.INTER_CUBIC), np.uint8)
+
+
+def picture(card: int, offset: int = 0) -> Frame:
+    """One of several cards before the same ground, so many pixels to the right of the target's place."""
+    image = noise(240, 320, 5)
+    image[96:144, 136 + offset : 184 + offset] = noise(48, 48, card)
+    return Frame(image)
+
+
+def followed(card: int, frames: int = 40) -> FusedTracker:
+    """A tracker that has learned a card in so many frames."""
+    tracker = FusedTracker()
+    tracker.init(picture(card), TARGET.box)
+    for _ in range(frames):
+        tracker.update(picture(card))
+    return tracker
+
+
+def state_of(tracker: FusedTracker) -> State:
+    """After the last frame."""
+    assert tracker._state is not None
+    return tracker._state
+
+
+def model_of(tracker: FusedTracker) -> TargetModel:
+    """By which it searches a color picture."""
+    state = state_of(tracker)
+    return TargetModel(state.models["color"], state.depth, state.first_side, state.typical, P)
+
+
+def match_of(tracker: FusedTracker, frame: Frame) -> Match:
+    """What it finds around the target's place."""
+    observation = tracker._observe(frame, None).for_target(tracker._k, None)
+    return search_local(model_of(tracker), observation, TARGET, None)
+
+
+def test_snapshots_are_of_recognized_frames_some_time_ago():
+    """The older one is from 5 to 10 frames before; until there is such a one, of the first frame."""
+    models = [{"frame": number} for number in range(40)]
+    memory = Memory(models[0], models[0])
+    for number in range(1, 40):
+        memory = memory.keep(models[number])
+        age = number - memory.older["frame"]
+        assert age == number if number < 2 * FRAMES_APART else FRAMES_APART <= age < 2 * FRAMES_APART
+        assert memory.newer["frame"] - memory.older["frame"] in (0, FRAMES_APART)
+
+
+def test_a_missed_frame_changes_no_snapshot():
+    """As long as the target isn't recognized, the models from before judge."""
+    tracker = followed(1)
+    before = state_of(tracker).memory
+    for _ in range(20):
+        tracker.update(Frame(np.zeros((240, 320, 3), np.uint8)))
+    assert state_of(tracker).missed_frames == 20
+    assert state_of(tracker).memory is before
+
+
+def test_the_same_models_judge_alike():
+    """A match keeps its log-odds, to a part of them, where nothing has changed since."""
+    tracker = followed(1)
+    match = match_of(tracker, picture(1))
+    judged = judge(model_of(tracker), match)
+    assert match.log_odds > 3.0
+    assert 0.0 <= match.log_odds - judged.log_odds < 0.5
+    assert judged._replace(log_odds=match.log_odds) == match
+
+
+def test_what_was_learned_since_is_judged_by_what_was_known():
+    """A card that today's models know well isn't the one that those of before knew."""
+    before, today = followed(1), followed(2)
+    match = match_of(today, picture(2))
+    assert match.log_odds > 3.0
+    assert judge(model_of(before), match).log_odds < -3.0
+
+
+@pytest.mark.parametrize("offset", [20, -30])
+def test_a_target_seen_elsewhere_is_not_here(offset):
+    """Models that see their target beside the match say so."""
+    tracker = followed(1)
+    match = match_of(tracker, picture(1, offset))
+    assert judge(model_of(tracker), match).log_odds > 3.0
+    assert judge(model_of(tracker), match._replace(target=TARGET)).log_odds == LOG_ODDS_ELSEWHERE
+
+
+def test_update_asks_the_memory():
+    """A target that the models as they were don't know isn't TRACKED, and nothing of it is learned."""
+    tracker, other = followed(1), followed(2)
+    assert tracker.update(picture(1)).status is Status.TRACKED
+    state = state_of(tracker)
+    tracker._state = state.replace(memory=state_of(other).memory)
+    assert tracker.update(picture(1)).status is Status.OCCLUDED
+    assert state_of(tracker).models is state.models
