@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: MIT
 """That models as they were judge what those of today find."""
 
+import importlib
+import math
+
 import cv2
 import numpy as np
 import pytest
@@ -8,7 +11,7 @@ from numpy.typing import NDArray
 from tricue import Frame, FusedTracker, Status
 from tricue.track.fused.localize import TargetModel
 from tricue.track.fused.measure import Match
-from tricue.track.fused.memory import FRAMES_APART, LOG_ODDS_ELSEWHERE, Memory, judge
+from tricue.track.fused.memory import FRAMES_APART, LOG_ODDS_ELSEWHERE, SURE_LOG_ODDS, Memory, judge
 from tricue.track.fused.search import search_local
 from tricue.track.fused.state import State
 from tricue.track.fused.target import Target
@@ -17,6 +20,7 @@ Image = NDArray[np.uint8]
 
 TARGET = Target(160.0, 120.0, 48.0, 48.0)
 P = FusedTracker.Params()
+module = importlib.import_module(judge.__module__)
 
 
 def noise(height: int, width: int, seed: int) -> Image:
@@ -59,6 +63,11 @@ def match_of(tracker: FusedTracker, frame: Frame) -> Match:
     return search_local(model_of(tracker), observation, TARGET, None)
 
 
+def in_doubt(match: Match) -> Match:
+    """The same match, which today's models aren't sure of."""
+    return match._replace(log_odds=1.0)
+
+
 def test_snapshots_are_of_recognized_frames_some_time_ago():
     """The older one is from 5 to 10 frames before; until there is such a one, of the first frame."""
     models = [{"frame": number} for number in range(40)]
@@ -83,32 +92,41 @@ def test_a_missed_frame_changes_no_snapshot():
 def test_the_same_models_judge_alike():
     """A match keeps its log-odds, to a part of them, where nothing has changed since."""
     tracker = followed(1)
-    match = match_of(tracker, picture(1))
-    judged = judge(model_of(tracker), match)
-    assert match.log_odds > 3.0
-    assert 0.0 <= match.log_odds - judged.log_odds < 0.5
-    assert judged._replace(log_odds=match.log_odds) == match
+    match = in_doubt(match_of(tracker, picture(1)))
+    assert judge(model_of(tracker), match) == match
 
 
 def test_what_was_learned_since_is_judged_by_what_was_known():
-    """A card that today's models know well isn't the one that those of before knew."""
+    """A card that today's models know isn't the one that those of before knew."""
     before, today = followed(1), followed(2)
-    match = match_of(today, picture(2))
-    assert match.log_odds > 3.0
-    assert judge(model_of(before), match).log_odds < -3.0
+    match = in_doubt(match_of(today, picture(2)))
+    judged = judge(model_of(before), match)
+    assert judged.log_odds < -3.0
+    assert judged._replace(log_odds=match.log_odds) == match
 
 
 @pytest.mark.parametrize("offset", [20, -30])
 def test_a_target_seen_elsewhere_is_not_here(offset):
     """Models that see their target beside the match say so."""
     tracker = followed(1)
-    match = match_of(tracker, picture(1, offset))
-    assert judge(model_of(tracker), match).log_odds > 3.0
+    match = in_doubt(match_of(tracker, picture(1, offset)))
+    assert judge(model_of(tracker), match) == match
     assert judge(model_of(tracker), match._replace(target=TARGET)).log_odds == LOG_ODDS_ELSEWHERE
 
 
-def test_update_asks_the_memory():
+def test_a_sure_match_needs_no_judge():
+    """What today's models and the first frame's are sure of stays as it is, without another window."""
+    before, today = followed(1), followed(2)
+    match = match_of(today, picture(2))
+    assert match.log_odds > SURE_LOG_ODDS
+    assert judge(model_of(before), match) is match
+    least = match._replace(log_odds=SURE_LOG_ODDS - 0.01)
+    assert judge(model_of(before), least).log_odds < least.log_odds
+
+
+def test_update_asks_the_memory(monkeypatch):
     """A target that the models as they were don't know isn't TRACKED, and nothing of it is learned."""
+    monkeypatch.setattr(module, "SURE_LOG_ODDS", math.inf)
     tracker, other = followed(1), followed(2)
     assert tracker.update(picture(1)).status is Status.TRACKED
     state = state_of(tracker)

@@ -16,6 +16,7 @@ from tricue.track.fused.window import CELL_PIXELS, extract_windows
 FRAMES_APART = 5  # from one snapshot to the next, of those that were recognized
 MAX_CELLS_OFF = 3  # from a match to where the models as they were see the target, if it is the same
 LOG_ODDS_ELSEWHERE = -5.0  # of a match that is farther off
+SURE_LOG_ODDS = 4.0  # of a match that needs no judge: the first frame's models say it, too
 
 
 class Memory(NamedTuple):
@@ -35,7 +36,9 @@ class Memory(NamedTuple):
 
 
 def judge(remembered: TargetModel, match: Match) -> Match:
-    """A match in a color picture, its log-odds at most those by the models as they were."""
+    """A match in a color picture, its log-odds at most those by the models as they were; as it is if sure."""
+    if match.log_odds >= SURE_LOG_ODDS:
+        return match
     window = extract_windows(match.observation, [match.target], remembered.params.context)[0]
     candidate = localize(remembered, window)
     if max(abs(candidate.right), abs(candidate.down)) > CELL_PIXELS * MAX_CELLS_OFF:

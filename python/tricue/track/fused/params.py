@@ -51,7 +51,7 @@ class FusedParams(  # dataclasses take the fields of the last base first
         was="hidden_above",
     )
     min_score: float = parameter(
-        0.8,
+        0.78,
         unit="score",
         source=OURS,
         low=0,
