@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import tricue
+from tricue.doctor.install import commit
 from tricue.evaluation import raw_results, tables
 from tricue.evaluation.evaluate import Evaluation, Options, evaluate
 
@@ -70,10 +71,12 @@ def _cells(name: str, groups: tuple[str, ...], lines: dict[tuple[str, str], dict
 
 
 def main() -> None:
-    """Evaluate, pack, and write the table."""
+    """Evaluate, pack, and write the table; only from a commit, which the manifest names."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="processes, default %(default)s")
     jobs = parser.parse_args().jobs
+    if commit().endswith("+"):
+        raise SystemExit("files are changed: commit them first, since the manifest names the commit")
     options = Options(trackers=TRACKERS, seeds=SEEDS, restarts=False)
     evaluation = evaluate(DATA, WORK, options, jobs=jobs)
     if evaluation.failed:
