@@ -244,6 +244,7 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "learn_every": (0, -1, 31, 2.5),
         "min_score": (-0.1, 1.1),
         "min_score_to_move": (-0.1, 1.1),
+        "jump_weight": (-0.1,),
         "lost_after": (-0.1,),
         "max_doubt": (-0.1,),
         "lost_position_noise": (0, -1),

@@ -91,6 +91,8 @@ EXTREMES: list[dict[str, Any]] = [
     {"min_response_share": 0.0, "distance_penalty": 1e9},
     {"min_score": 0.0, "min_score_to_move": 0.0},
     {"min_score": 1.0, "min_score_to_move": 1.0},
+    {"jump_weight": 0.0},
+    {"jump_weight": 1e9},
     {"lost_after": 0.0, "candidates": 99},
     {"lost_after": 1e9},
     {"max_doubt": 0.0, "min_score_to_redetect": 1.0},

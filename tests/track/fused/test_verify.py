@@ -30,7 +30,7 @@ def match(odds: float, covered: float = 0.0) -> Match:
 def state(lost: bool) -> State:
     """Of a target that was followed for ten frames, or is LOST."""
     sides = Sides.cut_by_border(HERE, (240, 320))
-    fresh = State((240, 320), {}, Memory({}, {}), HERE, 40.0, 40.0, 0.5, sides, frames=10)
+    fresh = State((240, 320), {}, Memory({}, {}), HERE, 40.0, 40.0, 0.5, sides, seconds=1 / 30, frames=10)
     return replace(fresh, missed_frames=MIN_LOST_FRAMES, missed_seconds=10.0) if lost else fresh
 
 

@@ -68,6 +68,13 @@ class FusedParams(  # dataclasses take the fields of the last base first
         doc="under it the box stays where it was",
         was="hopeless",
     )
+    jump_weight: float = parameter(
+        0.7,
+        unit="log-odds per typical jump",
+        source=OURS,
+        low=0,
+        doc="that a place has less for jumping farther than the target does",
+    )
     lost_after: float = parameter(
         0.08, unit="s", source=OURS, low=0, doc="missed, and in three frames at least, until LOST"
     )

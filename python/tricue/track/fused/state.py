@@ -10,12 +10,14 @@ from tricue.track.fused.experts.depth import DepthExpert
 from tricue.track.fused.identity import IdentityFeatures
 from tricue.track.fused.memory import Memory
 from tricue.track.fused.models import ModelsByKind
+from tricue.track.fused.motion import Motion
 from tricue.track.fused.outline import BOX_OUTLINE, Outline, Sides
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.position_filter import PositionFilter
 from tricue.track.fused.target import Target
 
 FRESH_TRUST = DepthTrust()  # before the first frame
+NO_MOTION = Motion()  # after it
 CLOCK_ERROR = 1e-6  # seconds, of times that are added up
 MIN_LOST_FRAMES = 3  # missed in a row, until the target is LOST
 
@@ -38,6 +40,7 @@ class State:
     depth: DepthExpert | None = None  # None until depth was measured
     position: PositionFilter | None = None  # None until depth was measured
     is_metric: bool = True  # no frame since init was a stereo pair whose rig had to be guessed
+    motion: Motion = NO_MOTION
     outline: Outline = BOX_OUTLINE
     depth_trust: DepthTrust = FRESH_TRUST
     occluded: bool = False  # by something nearer

@@ -159,7 +159,9 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         return redetect(model, observation, lost, local, state.clutter.min_log_odds(p))
 
     def _judge(self, state: State, observation: TargetObservation, match: Match) -> Match:
-        """The match, judged by the models as they were; as it is where there are none, or depth tells."""
+        """The match, judged by its jump, and by the models as they were, but where depth tells more."""
+        penalty = state.motion.penalty(state.target, match.target, state.seconds, self.params.jump_weight)
+        match = match._replace(log_odds=match.log_odds - penalty)
         models = state.memory.older.get(observation.kind)
         if observation.depth_source is not None or models is None:
             return match

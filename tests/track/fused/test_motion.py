@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: MIT
+"""That what jumps farther than the target does is less likely to be it."""
+
+import itertools
+
+import numpy as np
+import pytest
+from tricue import Box, Frame, FusedTracker, Status
+from tricue.track.fused.motion import LOCALIZATION_ERROR, Motion
+from tricue.track.fused.target import Target
+
+SECONDS = 1 / 30
+WEIGHT = 0.7
+
+
+def target(x: float, y: float = 100.0, side: float = 40.0) -> Target:
+    """With its middle there."""
+    return Target(x, y, side, side)
+
+
+def after(places: list[Target], seconds: float = SECONDS) -> Motion:
+    """The motion through places, one a frame."""
+    motion = Motion()
+    for last, found in itertools.pairwise(places):
+        motion = motion.follow(last, found, seconds)
+    return motion
+
+
+STEADY = after([target(100.0 + 8 * step) for step in range(10)])
+SHAKEN = after([target(100.0 + 30 * (step % 2)) for step in range(10)])
+
+
+def test_steady_motion_costs_nothing():
+    """A target that goes on as before is where it would be, however fast it is."""
+    assert STEADY.typical == pytest.approx(0, abs=1e-9)
+    assert STEADY.penalty(target(172), target(180), SECONDS, WEIGHT) == 0
+
+
+def test_a_jump_costs_by_the_weight():
+    """Of one typical jump nothing, then the weight for each more."""
+    still = after([target(100.0)] * 5)
+    jumps = [still.penalty(target(100), target(100, 100 + 4.0 * count), SECONDS, WEIGHT) for count in (1, 2, 5)]
+    assert LOCALIZATION_ERROR * 40 == 4
+    assert jumps == pytest.approx([0, WEIGHT, 4 * WEIGHT])
+
+
+def test_stopping_is_a_jump():
+    """A fast target that stops isn't where it would be."""
+    assert STEADY.penalty(target(172), target(172), SECONDS, WEIGHT) == pytest.approx(WEIGHT)
+
+
+def test_a_target_that_jumps_all_the_time_may():
+    """The same jump is much for a steady target, and nothing for one before a shaking camera."""
+    last, found = target(100), target(100, 60)
+    assert SHAKEN.penalty(last, found, SECONDS, WEIGHT) < 0.1 < 6 < STEADY.penalty(last, found, SECONDS, WEIGHT)
+
+
+def test_jumps_are_in_sides_of_the_target():
+    """Seen from half as far the same motion has the same penalty."""
+    near = after([target(200.0 + 16 * step, 200, 80) for step in range(10)])
+    far_penalty = STEADY.penalty(target(172), target(200), SECONDS, WEIGHT)
+    assert near.penalty(target(344, 200, 80), target(400, 200, 80), SECONDS, WEIGHT) == pytest.approx(far_penalty)
+
+
+def test_time_counts():
+    """Over a frame that was dropped the target moves twice as far."""
+    assert STEADY.penalty(target(172), target(188), 2 * SECONDS, WEIGHT) == pytest.approx(0)
+    assert STEADY.penalty(target(172), target(188), SECONDS, WEIGHT) > 0
+
+
+def test_nothing_is_known_at_first():
+    """Nor after frames without the target, which may have gone anywhere; typical jumps stay known."""
+    assert Motion().penalty(target(100), target(300), SECONDS, WEIGHT) == 0
+    first = Motion().follow(target(100), target(110), SECONDS)
+    assert first.penalty(target(110), target(300), SECONDS, WEIGHT) == 0
+    missed = SHAKEN.interrupt()
+    assert missed.penalty(target(100), target(300), SECONDS, WEIGHT) == 0
+    again = missed.follow(target(300), target(310), SECONDS)
+    assert (again.typical, again.jumps) == (SHAKEN.typical, SHAKEN.jumps)
+    assert again.penalty(target(310), target(500), SECONDS, WEIGHT) > 0
+
+
+def scene(place: int | None) -> Frame:
+    """A card on a wall, and another one beside it, rather like it; the card is hidden where there's no place."""
+    rng = np.random.default_rng(3)
+    wall = np.kron(rng.integers(90, 150, (24, 32, 3)), np.ones((10, 10, 1))).astype(np.uint8)
+    card = np.kron(rng.integers(0, 256, (5, 4, 3)), np.ones((8, 8, 1))).astype(np.uint8)
+    other = np.clip(0.8 * card + 0.2 * rng.integers(0, 256, card.shape), 0, 255).astype(np.uint8)
+    wall[100:140, 190:222] = other
+    if place is not None:
+        wall[100:140, place : place + 32] = card
+    return Frame(wall)
+
+
+@pytest.mark.parametrize("weight", [0.0, FusedTracker.Params().jump_weight])
+def test_the_one_beside_it_is_not_taken_for_it(weight):
+    """When the target vanishes, one like it beside it is TRACKED in the next frame only if jumps don't count."""
+    tracker = FusedTracker(jump_weight=weight)
+    tracker.init(scene(140), Box(140, 100, 32, 40))
+    tracks = [tracker.update(scene(140)) for _ in range(20)]
+    assert all(each.status is Status.TRACKED for each in tracks)
+    assert (tracker.update(scene(None)).status is Status.TRACKED) == (weight == 0)
