@@ -2,6 +2,7 @@
 """Whether a match counts as the fused tracker's target, and the score that it has."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -21,10 +22,11 @@ FEATURES = IdentityFeatures(peak_sharpness=12.0, color_similarity=0.9, contrast=
 LEAST, LEAST_LOST = log_odds_of(P.min_score), log_odds_of(P.min_score_to_redetect)
 
 
-def match(odds: float, covered: float = 0.0) -> Match:
-    """Of the target a little to the right, with these log-odds, so much of it covered."""
+def match(odds: float, covered: float = 0.0, depth: object = None) -> Match:
+    """Of the target a little to the right, with these log-odds, so much of it covered; depth: where from."""
+    window: Any = SimpleNamespace(observation=SimpleNamespace(depth_source=depth))
     unused: Any = None
-    return Match(THERE, unused, 0.0, 0.0, FEATURES, odds, 0.0, 0.5, unused, None, covered)
+    return Match(THERE, window, 0.0, 0.0, FEATURES, odds, 0.0, 0.5, unused, None, covered)
 
 
 def state(lost: bool) -> State:
@@ -74,6 +76,14 @@ def test_a_missed_target_needs_more():
     below, above = (verify(missed, match(LEAST_LOST + off), P) for off in (-0.01, 0.01))
     assert (below.missed_frames, below.score) == (2, P.min_score)
     assert above.missed_frames == 0
+
+
+def test_with_depth_it_needs_more_only_when_lost():
+    """Depth shows what hides the target."""
+    missed = replace(state(False), missed_frames=1, missed_seconds=0.03)
+    assert verify(missed, match(LEAST + 0.01, depth="an image"), P).missed_frames == 0
+    assert verify(missed, match(LEAST - 0.01, depth="an image"), P).missed_frames == 2
+    assert verify(state(True), match(LEAST_LOST - 0.01, depth="an image"), P).missed_frames > 0
 
 
 def test_what_stands_out_from_the_clutter_needs_less():

@@ -2,7 +2,8 @@
 """Verify: whether a match is the target, and the state that follows from it.
 
 What is learned of a missed target may be what hides it, so that the next frames look like the target. So a
-missed target needs more to be recognized than one that is followed.
+missed target needs more to be recognized than one that is followed; where depth shows what hides it, only
+once it is LOST.
 """
 
 from tricue.track.fused.clutter import NO_CLUTTER
@@ -17,7 +18,7 @@ VERIFIED_MEAN_RATE = 0.05  # per frame, of the running means over frames in whic
 def verify(state: State, match: Match, p: FusedParams) -> State:
     """Move the target to the match if that may be it; count the frame as missed unless it is recognized."""
     occluded = match.covered > p.max_covered
-    needed = state.clutter.min_log_odds(p) if state.missed_frames else log_odds_of(p.min_score)
+    needed = _min_log_odds(state, match, p)
     recognized = not occluded and match.log_odds >= needed
     # A LOST target may be anywhere: what has just what it needs is as likely the target as what has
     # ``min_score`` where one is followed.
@@ -52,3 +53,11 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
         mean_response=state.mean_response + rate * (match.response - state.mean_response),
         typical=match.features if state.typical is None else state.typical.blend(match.features, rate),
     )
+
+
+def _min_log_odds(state: State, match: Match, p: FusedParams) -> float:
+    """What a match needs to be recognized."""
+    sees_occluders = match.observation.depth_source is not None
+    if state.is_lost(p) or (state.missed_frames and not sees_occluders):
+        return state.clutter.min_log_odds(p)
+    return log_odds_of(p.min_score)
