@@ -39,7 +39,8 @@ def test_steady_motion_costs_nothing():
 def test_a_jump_costs_by_the_weight():
     """Of one typical jump nothing, then the weight for each more."""
     still = after([target(100.0)] * 5)
-    jumps = [still.penalty(target(100), target(100, 100 + 4.0 * count), SECONDS, WEIGHT) for count in (1, 2, 5)]
+    last, places = target(100), [target(100, 100 + 4.0 * count) for count in (1, 2, 5)]
+    jumps = [still.penalty(last, each, SECONDS, WEIGHT) for each in places]
     assert LOCALIZATION_ERROR * 40 == 4
     assert jumps == pytest.approx([0, WEIGHT, 4 * WEIGHT])
 
@@ -52,14 +53,16 @@ def test_stopping_is_a_jump():
 def test_a_target_that_jumps_all_the_time_may():
     """The same jump is much for a steady target, and nothing for one before a shaking camera."""
     last, found = target(100), target(100, 60)
-    assert SHAKEN.penalty(last, found, SECONDS, WEIGHT) < 0.1 < 6 < STEADY.penalty(last, found, SECONDS, WEIGHT)
+    assert SHAKEN.penalty(last, found, SECONDS, WEIGHT) < 0.1
+    assert STEADY.penalty(last, found, SECONDS, WEIGHT) > 6
 
 
 def test_jumps_are_in_sides_of_the_target():
     """Seen from half as far the same motion has the same penalty."""
     near = after([target(200.0 + 16 * step, 200, 80) for step in range(10)])
     far_penalty = STEADY.penalty(target(172), target(200), SECONDS, WEIGHT)
-    assert near.penalty(target(344, 200, 80), target(400, 200, 80), SECONDS, WEIGHT) == pytest.approx(far_penalty)
+    near_penalty = near.penalty(target(344, 200, 80), target(400, 200, 80), SECONDS, WEIGHT)
+    assert near_penalty == pytest.approx(far_penalty)
 
 
 def test_time_counts():
@@ -81,7 +84,7 @@ def test_nothing_is_known_at_first():
 
 
 def scene(place: int | None) -> Frame:
-    """A card on a wall, and another one beside it, rather like it; the card is hidden where there's no place."""
+    """A card on a wall, and another one beside it, rather like it; the card is hidden without a place."""
     rng = np.random.default_rng(3)
     wall = np.kron(rng.integers(90, 150, (24, 32, 3)), np.ones((10, 10, 1))).astype(np.uint8)
     card = np.kron(rng.integers(0, 256, (5, 4, 3)), np.ones((8, 8, 1))).astype(np.uint8)
@@ -94,7 +97,7 @@ def scene(place: int | None) -> Frame:
 
 @pytest.mark.parametrize("weight", [0.0, FusedTracker.Params().jump_weight])
 def test_the_one_beside_it_is_not_taken_for_it(weight):
-    """When the target vanishes, one like it beside it is TRACKED in the next frame only if jumps don't count."""
+    """When the target vanishes, what is like it beside it is TRACKED instead only if jumps don't count."""
     tracker = FusedTracker(jump_weight=weight)
     tracker.init(scene(140), Box(140, 100, 32, 40))
     tracks = [tracker.update(scene(140)) for _ in range(20)]
