@@ -3,7 +3,7 @@
 
 import math
 
-from tricue.track.fused.localize import Candidate, TargetModel, localize
+from tricue.track.fused.localize import TargetModel, localize
 from tricue.track.fused.measure import Match, Recognition, measure, recognize
 from tricue.track.fused.position_filter import back_project
 from tricue.track.fused.proposals import LostTarget, propose_windows
@@ -18,24 +18,22 @@ def redetect(
     A match elsewhere needs ``min_log_odds``, and more than the local one has. Its distance only counts
     against it: what doesn't look enough like the target isn't measured.
     """
-    p = model.params
     windows = propose_windows(model, observation, lost)
     candidates = sorted((localize(model, each) for each in windows), key=lambda each: -each.evidence)
-    seen = max([local.log_odds, *(_log_odds(model, each) for each in candidates)])
+    recognitions = [recognize(model, each) for each in candidates]
+    seen = max([local.log_odds, *map(_log_odds, recognitions)])
     local = local._replace(log_odds=local.log_odds - _distance_penalty(model, lost, local))
-    recognitions = [recognize(model, each) for each in candidates[: p.candidates]]
     matches = [
         _match_elsewhere(model, lost, each)
-        for each in recognitions
-        if min(each.log_odds, each.structure_log_odds) >= min_log_odds
+        for each in recognitions[: model.params.candidates]
+        if _log_odds(each) >= min_log_odds
     ]
     best = max(matches, key=lambda each: each.log_odds, default=local)
     found = best.log_odds >= min_log_odds and best.log_odds > local.log_odds
     return (best if found else local)._replace(best_seen=seen)
 
 
-def _log_odds(model: TargetModel, candidate: Candidate) -> float:
-    recognition = recognize(model, candidate)
+def _log_odds(recognition: Recognition) -> float:
     return min(recognition.log_odds, recognition.structure_log_odds)
 
 
