@@ -83,7 +83,7 @@ void keep_changed(const float* __restrict depth, const float* __restrict before,
         n, [=](std::ptrdiff_t x) { mask[x] &= has_changed(depth[x], before[x], noise, slope); });
 }
 
-/// Reads an image row by row: the distances of one, and the nearest of each pixel's neighborhood in three rows.
+/// Reads a region of an image row by row: the distances of one, and the nearest of each pixel's neighborhood in three rows.
 class DistanceRows {
     template <typename Rows>
     static auto& of(Rows& rows, int y) {
@@ -91,8 +91,12 @@ class DistanceRows {
     }
 
 public:
-    DistanceRows(const DepthView& depth, VectorRef camera, VectorRef plane, const DepthLevels& range)
-        : depth_(depth) {
+    /// Those of the region's columns, from its first row on, and of their neighbors.
+    DistanceRows(const DepthView& depth, const Region& region, VectorRef camera, VectorRef plane,
+                 const DepthLevels& range)
+        : depth_(depth),
+          first_(std::max(region.x0 - 1, 0)),
+          count_(std::min(region.x1 + 1, depth.cols) - first_) {
         if (plane.size() > 2 && (plane.head(3) != 0.0).any())
             ground_.emplace(depth.rows, depth.cols, camera, plane.head(3), range.near, range.far);
         const auto n = static_cast<std::size_t>(depth.cols);
@@ -101,9 +105,8 @@ public:
         nearest_rows_.fill(std::vector<float>(n));
         unmeasured_.assign(n, kUnmeasured);
         nearest_.fill(unmeasured_.data());
-        read(0);
-        read(1);
-        reduce(0);
+        for (int y = region.y0 - 1; y <= region.y0 + 1; ++y) read(y);
+        for (int y = region.y0 - 1; y <= region.y0; ++y) reduce(y);
     }
 
     /// Of the next row, which is y. One row further is read: numbers that have just been written can't be loaded yet, shifted by one.
@@ -121,23 +124,25 @@ private:
     void read(int y) {
         bool& measured = of(measured_, y);
         measured = false;
-        if (y >= depth_.rows) return;
-        float *distance = of(distance_, y).data(), *padded = of(padded_, y).data();
+        if (y < 0 || y >= depth_.rows) return;
+        const float* depth = depth_.row(y) + first_;
+        float *distance = of(distance_, y).data() + first_, *padded = of(padded_, y).data() + first_;
         if (ground_)
-            measured = read_ground_row(depth_.row(y), ground_->across.data(), depth_.cols,
+            measured = read_ground_row(depth, ground_->across.data() + first_, count_,
                                        ground_->down[static_cast<std::size_t>(y)], ground_->near,
                                        ground_->far, distance, padded);
         else
-            measured = read_depth_row(depth_.row(y), depth_.cols, distance, padded);
+            measured = read_depth_row(depth, count_, distance, padded);
     }
 
     void reduce(int y) {
         float* row = of(nearest_rows_, y).data();
-        if (is_measured(y)) nearest_in_row(of(padded_, y).data(), depth_.cols, row);
+        if (is_measured(y)) nearest_in_row(of(padded_, y).data() + first_, count_, row + first_);
         of(nearest_, y) = is_measured(y) ? row : unmeasured_.data();
     }
 
     DepthView depth_;
+    int first_, count_;  // columns
     std::optional<GroundView> ground_;
     std::vector<float> unmeasured_;
     std::array<std::vector<float>, 3> distance_, padded_, nearest_rows_;  // of three rows, in turn
@@ -158,22 +163,22 @@ void require_arguments(const DepthView& depth, const SearchedPixels& searched, c
 SearchedDistances find_distances(const DepthView& depth, const SearchedPixels& searched, VectorRef camera,
                                  VectorRef plane, const Divisions& divisions) {
     SearchedDistances found(depth.rows, depth.cols);
-    DistanceRows rows(depth, camera, plane, divisions.levels);
     const bool changing = searched.before.rows > 0;
-    const int x0 = std::min(std::max(searched.region.x0, 0), depth.cols),
-              x1 = std::min(searched.region.x1, depth.cols);
+    const int x0 = std::max(searched.region.x0, 0), x1 = std::min(searched.region.x1, depth.cols),
+              y0 = std::max(searched.region.y0, 0), y1 = std::min(searched.region.y1, depth.rows);
+    if (x0 >= x1 || y0 >= y1) return found;
+    DistanceRows rows(depth, {x0, y0, x1, y1}, camera, plane, divisions.levels);
     std::vector<std::uint8_t> mask(static_cast<std::size_t>(depth.cols));
-    for (int y = 0; y < depth.rows; ++y) {
+    for (int y = y0; y < y1; ++y) {
         rows.next(y);
-        const bool inside = y >= searched.region.y0 && y < searched.region.y1 && x0 < x1;
-        if (!inside || !rows.is_measured(y)) continue;
-        mark_row(rows.distance(y), rows.nearest(y - 1), rows.nearest(y), rows.nearest(y + 1), depth.cols,
-                 static_cast<float>(divisions.gap), static_cast<float>(divisions.slope), mask.data());
+        if (!rows.is_measured(y)) continue;
+        mark_row(rows.distance(y) + x0, rows.nearest(y - 1) + x0, rows.nearest(y) + x0,
+                 rows.nearest(y + 1) + x0, x1 - x0, static_cast<float>(divisions.gap),
+                 static_cast<float>(divisions.slope), mask.data() + x0);
         if (changing)
-            keep_changed(depth.row(y), searched.before.row(y), depth.cols, static_cast<float>(searched.noise),
-                         static_cast<float>(searched.noise_slope), mask.data());
-        std::fill(mask.begin(), mask.begin() + x0, std::uint8_t{0});
-        std::fill(mask.begin() + x1, mask.end(), std::uint8_t{0});
+            keep_changed(depth.row(y) + x0, searched.before.row(y) + x0, x1 - x0,
+                         static_cast<float>(searched.noise), static_cast<float>(searched.noise_slope),
+                         mask.data() + x0);
         found.add_row(y, rows.distance(y), mask.data());
     }
     return found;
