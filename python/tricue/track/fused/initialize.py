@@ -2,6 +2,7 @@
 """The models of the first frame, of a kind of picture that is new, and of the first depth."""
 
 from tricue.kernels import Kernels
+from tricue.track.fused.depth_object import DepthObject
 from tricue.track.fused.depth_sources import ExpectedDepth
 from tricue.track.fused.experts.color import ColorExpert
 from tricue.track.fused.experts.correlation_filter import CorrelationFilterExpert
@@ -49,6 +50,7 @@ def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedPara
         mean_response=localize(model, window).response,
         sides=sides,
         depth=depth,
+        depth_object=DepthObject.from_first(observation, target),
         position=position,
         timestamp=frame.timestamp,
     )
@@ -64,8 +66,29 @@ def initialize_depth(state: State, frame: FrameObservation, k: Kernels, p: Fused
     if depth is None or measured is None:
         return state
     observation = observation.expect(ExpectedDepth(measured.z, depth.depth_spread))
-    sides = _see_sides(state.sides, observation, state.target, p)
-    return state.replace(depth=depth, position=position, sides=sides)
+    return state.replace(
+        depth=depth,
+        depth_object=DepthObject.from_first(observation, state.target),
+        position=position,
+        sides=_see_sides(state.sides, observation, state.target, p),
+    )
+
+
+def renew_models(state: State, frame: FrameObservation, k: Kernels, p: FusedParams) -> State:
+    """The state with models of the whole object, once those of the first frame know a small part of it."""
+    whole = state.depth_object
+    if whole is None or whole.seen is None or not whole.outgrew_models or state.position is None:
+        return state
+    new = initialize(k, frame, Target.of(whole.seen.box), p)
+    if new.depth_object is None or new.position is None:
+        return state
+    return new.replace(
+        position=new.position.move_like(state.position),
+        score=state.score,
+        is_metric=state.is_metric,
+        depth_trust=state.depth_trust,
+        seconds=state.seconds,
+    )
 
 
 def ensure_models(state: State, observation: TargetObservation, p: FusedParams) -> State:

@@ -10,11 +10,12 @@ another pose, of which the first frame tells nothing.
 import math
 
 from tricue.track.fused.arrays import NO_PLANE
+from tricue.track.fused.depth_sources import DepthImageSource
 from tricue.track.fused.experts.depth import covered_share
 from tricue.track.fused.localize import clamp_to_image
 from tricue.track.fused.measure import Match
 from tricue.track.fused.models import AppearanceModels
-from tricue.track.fused.outline import Side, measure_reaches
+from tricue.track.fused.outline import Outline, Side, measure_reaches
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.position_filter import PositionFilter, back_project
 from tricue.track.fused.state import State
@@ -81,8 +82,27 @@ def _rate_between_learning(rate: float, frames: int) -> float:
     return 1 - (1 - rate) ** frames
 
 
+def update_object(state: State, observation: TargetObservation) -> State:
+    """The state with the outline of the object that the target is, if it is one.
+
+    An image that the depth camera repeats may be older than the target's place.
+    """
+    known, position = state.depth_object, state.position
+    if known is None or position is None:
+        return state
+    known = known.wait(state.seconds)
+    is_new = isinstance(observation.depth_source, DepthImageSource) and state.depth_trust.repeats == 0
+    if state.missed_frames or not known.is_due or not is_new:
+        return state.replace(depth_object=known)
+    box = state.outline.apply_to(state.target).box
+    known = known.look(observation, state.target, box, float(position.mean[2]))
+    if known.seen is None:
+        return state.replace(depth_object=known)
+    return state.replace(depth_object=known, outline=Outline.of(known.seen.box, state.target))
+
+
 def _update_outline(state: State, match: Match, p: FusedParams) -> State:
-    if state.missed_frames or state.sides.are_hidden:
+    if state.missed_frames or state.sides.are_hidden or state.depth_object is not None:
         return state
     place = match.window, match.right, match.down
     reaches = measure_reaches(*place, covered_share(*place), Side.CUT in state.sides)

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tricue.camera.box import Box
 from tricue.track.base.params import Params, parameter
 from tricue.track.fused.arrays import Plane
 from tricue.track.fused.sources import OURS
@@ -49,6 +50,18 @@ class Outline(NamedTuple):
     top: float = 1.0
     right: float = 1.0
     bottom: float = 1.0
+
+    @classmethod
+    def of(cls, box: Box, target: Target) -> "Outline":
+        """The outline that gives the target this box."""
+        left, top, right, bottom = box.xyxy
+        half_width, half_height = target.width / 2, target.height / 2
+        return cls(
+            (target.x - left) / half_width,
+            (target.y - top) / half_height,
+            (right - target.x) / half_width,
+            (bottom - target.y) / half_height,
+        )
 
     def apply_to(self, target: Target) -> Target:
         """The target with these sides."""

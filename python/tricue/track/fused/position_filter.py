@@ -84,6 +84,12 @@ class PositionFilter(NamedTuple):
         z = max(float(self.mean[2]), MIN_POSITION_Z)
         return ExpectedDepth(z, float(np.hypot(sigma, spread)))
 
+    def move_like(self, other: "PositionFilter") -> "PositionFilter":
+        """Here, with the velocity of the other."""
+        mean, covariance = np.concatenate([self.mean[:3], other.mean[3:]]), np.zeros((6, 6))
+        covariance[:3, :3], covariance[3:, 3:] = self.covariance[:3, :3], other.covariance[3:, 3:]
+        return PositionFilter(mean, covariance)
+
     def slow_down(self) -> "PositionFilter":
         """With less velocity: after a frame in which the target was missed."""
         return PositionFilter(self.mean * MISSED_MEAN_FACTORS, self.covariance)

@@ -6,11 +6,7 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from tricue.track.depth_objects.floor import NO_FLOOR
-from tricue.track.depth_objects.foreground import extract_foreground
-from tricue.track.depth_objects.objects import segment
-from tricue.track.depth_objects.params import SegmentationParams
-from tricue.track.depth_objects.projection import camera_vector
+from tricue.track.fused.depth_object import find_objects
 from tricue.track.fused.depth_sources import ExpectedDepth
 from tricue.track.fused.experts.depth import DepthMeasurement, measure_center_depths
 from tricue.track.fused.localize import TargetModel
@@ -20,7 +16,6 @@ from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import WINDOW_CELLS, Window, extract_windows
 
-SEGMENTATION = SegmentationParams()
 MAX_OBJECT_PROPOSALS = 3  # per frame, of objects in depth
 MAX_COLOR_PLACES = 10  # in a frame, where the target's colors stand out
 COLOR_PLACES_IN_TURN = 2  # per frame, beside the one where they do most
@@ -79,15 +74,11 @@ def _object_proposals(model: TargetModel, observation: TargetObservation, lost: 
     Sabeti, Parvizi and Wu 2008, section IV.A.
     """
     assert observation.depth_image is not None, "the picture is made of depth"
-    camera, rng = camera_vector(observation.camera), np.random.default_rng(0)
-    depth = observation.depth_image
-    pixels, plane = extract_foreground(observation.k, depth, camera, NO_FLOOR, rng, SEGMENTATION)
-    objects = segment(observation.k, pixels, plane, SEGMENTATION)
     found = []
-    for state, box in zip(objects.states.tolist(), objects.boxes(camera), strict=True):
-        side = Target.of(box).side
-        mismatch = abs(math.log(side * state[2] / model.depth.length)) if model.depth else 0.0
-        x, y = box.center
+    for each in find_objects(observation, observation.depth_image)[0]:
+        side = Target.of(each.box).side
+        mismatch = abs(math.log(side * each.z / model.depth.length)) if model.depth else 0.0
+        x, y = each.box.center
         found.append((mismatch, lost.target._replace(x=x, y=y)))
     found.sort(key=lambda each: each[0])
     return [each for _, each in found[:MAX_OBJECT_PROPOSALS]]

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from tricue.track.fused.clutter import NO_CLUTTER, Clutter
+from tricue.track.fused.depth_object import DepthObject
 from tricue.track.fused.depth_trust import DepthTrust
 from tricue.track.fused.experts.depth import DepthExpert
 from tricue.track.fused.identity import IdentityFeatures
@@ -38,6 +39,7 @@ class State:
     score: float = 1.0
     typical: IdentityFeatures | None = None  # running means of its features, None after the first frame
     depth: DepthExpert | None = None  # None until depth was measured
+    depth_object: DepthObject | None = None  # None unless the target is an object of the depth image
     position: PositionFilter | None = None  # None until depth was measured
     is_metric: bool = True  # no frame since init was a stereo pair whose rig had to be guessed
     motion: Motion = NO_MOTION

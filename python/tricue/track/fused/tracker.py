@@ -17,8 +17,8 @@ from tricue.track.fused.arrays import Floats
 from tricue.track.fused.depth_sources import DepthImageSource, ExpectedDepth, StereoSource
 from tricue.track.fused.depth_trust import DepthTrust
 from tricue.track.fused.frame_observation import FrameObservation, observe_frame
-from tricue.track.fused.initialize import ensure_models, initialize, initialize_depth
-from tricue.track.fused.learn import update_models
+from tricue.track.fused.initialize import ensure_models, initialize, initialize_depth, renew_models
+from tricue.track.fused.learn import update_models, update_object
 from tricue.track.fused.localize import TargetModel
 from tricue.track.fused.measure import Match
 from tricue.track.fused.memory import judge
@@ -117,7 +117,9 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         match = self._localize(state, observation)
         match = self._judge(state, observation, match)
         state = verify(state, match, self.params)
-        return self._keep(update_models(before, state, observation, match, self.params), frame)
+        state = update_models(before, state, observation, match, self.params)
+        state = update_object(state, observation)
+        return self._keep(renew_models(state, observed, self._k, self.params), frame)
 
     def _observe(self, frame: FrameLike, shape: tuple[int, int] | None) -> FrameObservation:
         cameras = self.rig, self.intrinsics
