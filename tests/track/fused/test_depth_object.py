@@ -274,6 +274,13 @@ class TestTracker:
         ]
         assert tracks[-1].box.iou(Box.from_xyxy(*moving[-1])) > 0.8
 
+    @pytest.mark.parametrize("timed", [False, True])
+    def test_frames_without_times_are_all_looked_at(self, timed):
+        tracker = started()
+        wide = frame((130, 60, 190, 200), INTERVAL / 2)
+        track = tracker.update(wide if timed else replace(wide, timestamp=None))
+        assert near(track.box, PERSON if timed else (130, 60, 190, 200))
+
     def test_depth_that_comes_later(self):
         tracker = FusedTracker(intrinsics=CAMERA)
         tracker.init(frame(PERSON, 0.0, depth=False), Box.from_xyxy(*PERSON))

@@ -10,6 +10,7 @@ another pose, of which the first frame tells nothing.
 import math
 
 from tricue.track.fused.arrays import NO_PLANE
+from tricue.track.fused.depth_object import INTERVAL
 from tricue.track.fused.depth_sources import DepthImageSource
 from tricue.track.fused.experts.depth import covered_share
 from tricue.track.fused.localize import clamp_to_image
@@ -85,12 +86,13 @@ def _rate_between_learning(rate: float, frames: int) -> float:
 def update_object(state: State, observation: TargetObservation) -> State:
     """The state with the outline of the object that the target is, if it is one.
 
-    An image that the depth camera repeats may be older than the target's place.
+    An image that the depth camera repeats may be older than the target's place. Frames without timestamps may
+    be far apart: each is looked at.
     """
     known, position = state.depth_object, state.position
     if known is None or position is None:
         return state
-    known = known.wait(state.seconds)
+    known = known.wait(INTERVAL if state.timestamp is None else state.seconds)
     is_new = isinstance(observation.depth_source, DepthImageSource) and state.depth_trust.repeats == 0
     if state.missed_frames or not known.is_due or not is_new:
         return state.replace(depth_object=known)
