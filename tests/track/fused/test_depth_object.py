@@ -227,8 +227,8 @@ def frame(rectangle: Rectangle, seconds: float, z: float = Z, depth: bool = True
 
 
 def follow(tracker: FusedTracker, rectangles: list[Rectangle], **changes: object) -> list[Track]:
-    """From the second on, ten frames a second."""
-    return [tracker.update(frame(each, 0.1 * (i + 1), **changes)) for i, each in enumerate(rectangles)]
+    """From the second on, each frame when the object is looked for again."""
+    return [tracker.update(frame(each, INTERVAL * (i + 1), **changes)) for i, each in enumerate(rectangles)]
 
 
 def started(rectangle: Rectangle = PERSON) -> FusedTracker:
@@ -261,7 +261,7 @@ class TestTracker:
         tracks = follow(tracker, 3 * [PERSON], depth=False)
         assert all(near(track.box, PERSON) for track in tracks)
         wide = (122, 60, 188, 200)
-        track = tracker.update(frame(wide, 0.5))
+        track = tracker.update(frame(wide, 4 * INTERVAL))
         assert near(track.box, wide)
 
     def test_depth_that_the_camera_repeats(self):
@@ -270,7 +270,8 @@ class TestTracker:
         old = depth_of((PERSON, Z))
         moving = [(130 + 4 * i, 60, 180 + 4 * i, 200) for i in range(1, 6)]
         tracks = [
-            tracker.update(replace(frame(each, 0.1 * (i + 1)), depth=old)) for i, each in enumerate(moving)
+            tracker.update(replace(frame(each, INTERVAL * (i + 1)), depth=old))
+            for i, each in enumerate(moving)
         ]
         assert tracks[-1].box.iou(Box.from_xyxy(*moving[-1])) > 0.8
 
@@ -293,5 +294,5 @@ class TestTracker:
         tracker = started()
         follow(tracker, [PERSON])
         copy = pickle.loads(pickle.dumps(tracker))
-        last = frame((124, 60, 186, 200), 0.4)
+        last = frame((124, 60, 186, 200), 2 * INTERVAL)
         assert tracker.update(last).box == copy.update(last).box

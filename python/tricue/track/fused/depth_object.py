@@ -30,7 +30,7 @@ MAX_GROWTH = 1.5  # of the width or height: a neighbor that joins it adds more
 MAX_GROWTH_OF_PART = 2.0  # the same of an object of which a part was hidden
 MIN_RENEWED_GROWTH = 3.0  # of the area, from which the models know too little of the target
 REGION = 2 * MAX_GROWTH_OF_PART  # times the target's box, in which its object is looked for
-INTERVAL = 0.1  # seconds between two looks: each takes as long as half of all other steps
+INTERVAL = 0.2  # seconds between two looks: each takes as long as half of all other steps
 CLOCK_ERROR = 1e-6  # seconds, of times that are added up
 
 
