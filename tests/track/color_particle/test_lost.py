@@ -93,12 +93,13 @@ def test_a_lost_face_is_not_detected_in_a_background(background, stage, follow):
     assert statuses == {Status.LOST}
 
 
-@pytest.mark.parametrize("background", ["coffee", "motorcycle"])
-def test_a_target_that_is_gone_is_not_tracked(background, stage, follow):
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("background", ["coffee", "motorcycle", "retina", "immunohistochemistry"])
+def test_a_target_that_is_gone_is_not_tracked(background, seed, stage, follow):
     """Where the face has left and only the background stays, it isn't TRACKED after a second, and in the end
     LOST. The cat isn't one of them: it has a face of its own, which is followed.
     """
-    tracker = ColorParticleTracker(seed=0)
+    tracker = ColorParticleTracker(seed=seed)
     follow(tracker, stage(HERE, background), START)
     tracks = [tracker.update(frame) for frame in stage(150 * [None], background)]
     statuses = [track.status for track in tracks]

@@ -33,8 +33,9 @@ Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
 
 MEAN_RATE = 0.05  # per frame, of the running means of the log-likelihood
-CHECK_EVERY = 4  # frames: the lead is measured in one of them, the first frame is looked for in another
+LEAD_EVERY = 4  # frames: the lead of a followed target is measured in one of them
 LEAD_RATE = 0.7  # of the lead's running mean, each time that it is measured
+MIN_SCORE_AFTER_MISS = 0.75  # of a target that was missed in the last frame
 REDETECTION_RATE = 0.5  # learning rate, once, where a lost target is detected again
 REDETECTION_SHARE = 0.85  # of the way from the median likelihood of the frame to the target's: detected again
 REDETECTION_LEAD = 1.5  # of min_lead, where a lost target is detected again: background has it by chance
@@ -161,8 +162,8 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         if particles.log_likelihood < state.mean_log_likelihood - p.likelihood_drop:
             particles = self._search_wide(state, image, particles, prediction)
         first_log_likelihood = None
-        if state.frames % CHECK_EVERY == 1 and self._comparable:
-            seen = realign(k, image, state.first, particles.ellipse, state.frames // CHECK_EVERY)
+        if self._comparable:
+            seen = realign(k, image, state.first, particles.ellipse, state.frames)
             first_log_likelihood = seen.log_likelihood
             if seen.gain > 0:
                 if seen.gain > GAIN_TO_FORGET:
@@ -237,16 +238,17 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         By chance the ranks of some place are a little like those of a covered target. Its likelihood, to
         which colors add, isn't; were it learned, the tracker would stay there. What is learned beside the
         target is recognized there, too, so the score is told by what was learned from the first frame, and by
-        the lead over what is beside it. first_log_likelihood: by the former, where it is known.
+        the lead over what is beside it; and after a frame in which the target was missed, it has to be high.
+        A LOST target passed the search's own test. first_log_likelihood: by the first frame's appearance,
+        where it is known.
         """
         k, p, log_likelihood = self._k, self.params, particles.log_likelihood
         recognition = state.appearance.recognition(k, particles.seen)
-        missed, recognized_mean = state.missed_frames + 1, state.recognized_mean
-        if recognition >= p.min_score and log_likelihood >= recognized_mean - p.max_likelihood_drop:
-            missed, recognized_mean = 0, recognized_mean + MEAN_RATE * (log_likelihood - recognized_mean)
+        recognized_mean = state.recognized_mean
+        recognized = recognition >= p.min_score and log_likelihood >= recognized_mean - p.max_likelihood_drop
         score, lead = recognition, state.lead
         if self._comparable:
-            if state.frames % CHECK_EVERY == 3:
+            if state.missed_frames or state.frames % LEAD_EVERY == 3:
                 measured = state.appearance.lead(k, image, particles.ellipse, log_likelihood)
                 lead += LEAD_RATE * (measured - lead)
             if first_log_likelihood is None:
@@ -254,6 +256,10 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             score = probability(first_log_likelihood, lead)
             if recognition < p.min_score:
                 score = min(score, recognition)
+            if state.missed_frames and not state.lost(p):
+                recognized = recognized and score >= MIN_SCORE_AFTER_MISS
+        if recognized:
+            recognized_mean += MEAN_RATE * (log_likelihood - recognized_mean)
         mean = state.mean_log_likelihood
         return state._replace(
             particles=particles,
@@ -263,7 +269,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             mean_log_likelihood=mean + MEAN_RATE * (log_likelihood - mean),
             recognized_mean=recognized_mean,
             lead=lead,
-            missed_frames=missed,
+            missed_frames=0 if recognized else state.missed_frames + 1,
         )
 
     def _lead(self, appearance: Appearance, image: Image, ellipse: Floats, log_likelihood: float) -> float:
