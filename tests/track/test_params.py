@@ -241,7 +241,7 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "rate": (0, -30),
         "min_response_share": (-0.1, 1.1),
         "distance_penalty": (-0.1,),
-        "learn_every": (0, -1, 31, 2.5),
+        "learn_every": (-0.1, 1.1),
         "min_score": (-0.1, 1.1),
         "min_score_to_move": (-0.1, 1.1),
         "jump_weight": (-0.1,),
@@ -251,11 +251,11 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "min_score_to_redetect": (-0.1, 1.1),
         "min_score_above_clutter": (-0.1, 1.1),
         "clutter_margin": (-0.1,),
-        "candidates": (0, 100),
+        "candidates": (0, 100, 2.5),
     },
 }
 TRACKERS = tuple(REFUSED)
-TYPES = [("cues", "flow"), ("cues", "filter"), ("learn_every", 2.5)]  # not numbers out of range
+TYPES = [("cues", "flow"), ("cues", "filter"), ("candidates", 2.5)]  # not numbers out of range
 OTHER_KINDS = (..., "many", float("nan"), b"1", [None, None], True, None)
 
 

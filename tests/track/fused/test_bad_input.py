@@ -420,6 +420,6 @@ def test_an_error_inside_leaves_the_state(kernel, monkeypatch: pytest.MonkeyPatc
     """An error in the middle of an update, of whatever kind, leaves the tracker as it was; the update is one
     in which it learns.
     """
-    camera, frames = KERNELS[kernel], FusedTracker.Params().learn_every - 1
+    camera, frames = KERNELS[kernel], round(30 * FusedTracker.Params().learn_every) - 1
     following = seen_by(camera, frames + 1)
     cases.assert_errors_leave_the_state(started(camera, frames), kernel, following, monkeypatch)

@@ -103,3 +103,14 @@ def test_without_a_search_nothing_is_known_of_clutter():
     """As long as the target is followed, what it needs stays."""
     missed = verify(state(False), match(LEAST - 1.0), P)
     assert missed.clutter == NO_CLUTTER
+
+
+def test_what_is_typical_follows_in_time():
+    """Two frames of 1/30 s move the running means as much as one of 1/15 s."""
+    sure = match(LEAST + 5.0)._replace(response=0.9)
+    known = replace(state(False), frames=1000, typical=FEATURES._replace(contrast=0.1))
+    twice = verify(verify(known, sure, P), sure, P)
+    once = verify(replace(known, seconds=2 / 30), sure, P)
+    assert once.mean_response == pytest.approx(twice.mean_response)
+    assert once.typical == pytest.approx(twice.typical)
+    assert known.mean_response < once.mean_response < sure.response

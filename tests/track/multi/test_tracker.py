@@ -63,12 +63,12 @@ def test_parameters_are_of_the_default_kind(things):
     frames, (box, *_) = things.frames, things.boxes
     several = MultiTracker("color-particle", particles=50, skin_threshold=0.5, seed=3)
     several.add(frames[0], box, particles=60)
-    several.add(frames[0], box, "fused", learn_every=1)
+    several.add(frames[0], box, "fused", learn_every=0.0)
     several.add(frames[0], box)
     several.add(frames[0], box, "color-particle", seed=4)
     single = [
         create("color-particle", particles=60, skin_threshold=0.5, seed=3),
-        create("fused", learn_every=1),
+        create("fused", learn_every=0.0),
         create("color-particle", particles=50, skin_threshold=0.5, seed=3),
         create("color-particle", particles=50, skin_threshold=0.5, seed=4),
     ]

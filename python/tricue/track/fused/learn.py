@@ -26,6 +26,8 @@ from tricue.track.fused.window import CELL_PIXELS, Window, extract_windows
 
 MAX_DRIFT = 0.5  # cells, from one learning to the next
 TURN_EVERY = 2  # times that appearance is learned, its turn too: more often tracks are no better, and slower
+EARLY = 0.25  # of the time between two frames: so much before it is due, appearance is learned
+FRAME = 1 / 30  # seconds: learning rates are given for so many
 MIN_FIRST_RESPONSE = 0.2  # of the first frame's filter, which answers about 1 to the target as it was
 
 
@@ -35,21 +37,27 @@ def update_models(
     """The state with a match blended into its models; before: the state after the last frame.
 
     Nothing is learned where the target wasn't moved to the match. Appearance is learned as long as the target
-    is followed, and only in some frames, at rates that are higher for it.
+    is followed, and only in some frames of fast video, at rates that are higher for it: how fast targets
+    change goes by time, and the frames of slow video differ more.
     """
     if state.target is not match.target:
         return state
     state = _update_depth(state, observation, match, before.is_lost(p), p)
     state = _update_outline(state, match, p)
-    if not state.is_followed(p) or state.frames % p.learn_every:
+    is_due = state.unlearned_seconds + EARLY * state.seconds >= p.learn_every
+    if not state.is_followed(p) or not is_due:
         return state
     if "filter" in p.cues:
         state = state.replace(target=without_drift(state.target, match))
     window = extract_windows(observation, [state.target], p.context)[0]
-    appearance = _learn_appearance(state.models[observation.kind], window, p)
-    if "turn" in p.cues and state.frames // p.learn_every % TURN_EVERY == 0:
-        appearance = _learn_turn(appearance, window, p)
-    return state.replace(models={**state.models, observation.kind: appearance})
+    # More than the usual interval doesn't count: one frame isn't worth several.
+    seconds = min(state.unlearned_seconds, max(p.learn_every, FRAME))
+    learnings = state.learnings + 1
+    appearance = _learn_appearance(state.models[observation.kind], window, seconds, p)
+    if "turn" in p.cues and learnings % TURN_EVERY == 0:
+        appearance = _learn_turn(appearance, window, TURN_EVERY * seconds, p)
+    models = {**state.models, observation.kind: appearance}
+    return state.replace(models=models, unlearned_seconds=0.0, learnings=learnings)
 
 
 def without_drift(target: Target, match: Match) -> Target:
@@ -63,24 +71,25 @@ def without_drift(target: Target, match: Match) -> Target:
     return clamp_to_image(target.shift(*window.target.along(cell * right, cell * down)), window)
 
 
-def _learn_appearance(models: AppearanceModels, window: Window, p: FusedParams) -> AppearanceModels:
-    size_rate = _rate_between_learning(p.size_learning_rate, p.learn_every)
-    color_rate = _rate_between_learning(p.color_learning_rate, p.learn_every)
+def _learn_appearance(
+    models: AppearanceModels, window: Window, seconds: float, p: FusedParams
+) -> AppearanceModels:
+    size_rate = rate_over(seconds, p.size_learning_rate)
     return models._replace(
         filter=models.filter.learn(window),
-        color=models.color.learn(window, color_rate),
+        color=models.color.learn(window, rate_over(seconds, p.color_learning_rate)),
         size=models.size.learn(window.observation, window.target, size_rate),
     )
 
 
-def _learn_turn(models: AppearanceModels, window: Window, p: FusedParams) -> AppearanceModels:
-    rate = _rate_between_learning(p.size_learning_rate, TURN_EVERY * p.learn_every)
+def _learn_turn(models: AppearanceModels, window: Window, seconds: float, p: FusedParams) -> AppearanceModels:
+    rate = rate_over(seconds, p.size_learning_rate)
     return models._replace(turn=models.turn.learn(window.observation, window.target, rate))
 
 
-def _rate_between_learning(rate: float, frames: int) -> float:
-    """The learning rate for so many frames from one learning to the next, given that per frame."""
-    return 1 - (1 - rate) ** frames
+def rate_over(seconds: float, rate: float) -> float:
+    """The learning rate of one step over so many seconds, given that per frame."""
+    return 1 - (1 - rate) ** (seconds / FRAME)
 
 
 def update_object(state: State, observation: TargetObservation) -> State:

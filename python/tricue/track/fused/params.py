@@ -81,8 +81,8 @@ class FusedParams(  # dataclasses take the fields of the last base first
     max_doubt: float = parameter(
         1 / 3, unit="s", source=OURS, low=0, doc="missed, in which it is still followed and learned"
     )
-    learn_every: int = parameter(
-        3, unit="frames", source=OURS, low=1, high=30, doc="between two in which appearance is learned"
+    learn_every: float = parameter(
+        0.1, unit="s", source=OURS, low=0, high=1, doc="between two frames in which appearance is learned"
     )
 
     # the search of the whole frame
@@ -126,6 +126,6 @@ class FusedParams(  # dataclasses take the fields of the last base first
     rate: float = parameter(30.0, unit="frames/s", source=OURS, above=0, doc="where timestamps tell nothing")
 
     def __post_init__(self) -> None:
-        seconds = seconds_of_frames(self.lost_after, "lost_after", self.rate)
-        object.__setattr__(self, "lost_after", seconds)
+        for name in ("lost_after", "learn_every"):
+            object.__setattr__(self, name, seconds_of_frames(getattr(self, name), name, self.rate))
         super().__post_init__()

@@ -49,6 +49,8 @@ class State:
     clutter: Clutter = NO_CLUTTER  # seen since it was missed
     missed_frames: int = 0  # in a row, in which it was not recognized
     missed_seconds: float = 0.0  # of these frames
+    unlearned_seconds: float = 0.0  # since appearance was learned
+    learnings: int = 0  # of appearance, after the first frame
     seconds: float = 0.0  # since the frame before
     frames: int = 0  # since init
     timestamp: float | None = None

@@ -141,6 +141,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
             depth_trust=trust,
             is_metric=state.is_metric and self._is_metric(observed),
             timestamp=observed.timestamp,
+            unlearned_seconds=state.unlearned_seconds + seconds,
             seconds=seconds,
             frames=state.frames + 1,
         )

@@ -6,13 +6,15 @@ missed target needs more to be recognized than one that is followed; where depth
 once it is LOST.
 """
 
+import math
+
 from tricue.track.fused.clutter import NO_CLUTTER
 from tricue.track.fused.identity import log_odds_of, score_of
 from tricue.track.fused.measure import Match
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.state import State
 
-VERIFIED_MEAN_RATE = 0.05  # per frame, of the running means over frames in which the target is recognized
+VERIFIED_TIME_CONSTANT = 0.65  # seconds, of the running means over frames in which the target is recognized
 
 
 def verify(state: State, match: Match, p: FusedParams) -> State:
@@ -38,7 +40,8 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
             missed_frames=state.missed_frames + 1,
             missed_seconds=state.missed_seconds + state.seconds,
         )
-    rate = max(1 / state.frames, VERIFIED_MEAN_RATE)  # the mean of all frames at first
+    rate = 1 - math.exp(-state.seconds / VERIFIED_TIME_CONSTANT)
+    rate = max(1 / state.frames, rate)  # the mean of all frames at first
     return state.replace(
         target=target,
         features=match.features,
