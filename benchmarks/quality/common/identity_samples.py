@@ -24,7 +24,7 @@ from tricue.track.fused.measure import Match, measure_candidate
 from tricue.track.fused.proposals import LostTarget, propose_windows
 from tricue.track.fused.state import State
 from tricue.track.fused.tracker import FusedTracker
-from tricue.track.fused.verify import VERIFIED_MEAN_RATE
+from tricue.track.fused.verify import running_mean_rate
 from tricue.track.fused.window import extract_windows
 
 from benchmarks.quality.common.confidence_summary import ON_TARGET_OVERLAP
@@ -115,7 +115,7 @@ def _run(frames: list[Frame], truth: Array, rng: np.random.Generator) -> Iterato
             yield _Sample(kind, features, typical or features)
         if kind is Kind.GOOD:
             good_frames += 1
-            rate = max(1 / good_frames, VERIFIED_MEAN_RATE)
+            rate = running_mean_rate(good_frames, state.seconds)
             typical = features if typical is None else typical.blend(features, rate)
         every = COVERED_ELSEWHERE_EVERY if covered else ELSEWHERE_EVERY
         if step % every == 0:

@@ -89,7 +89,8 @@ def _learn_turn(models: AppearanceModels, window: Window, seconds: float, p: Fus
 
 def rate_over(seconds: float, rate: float) -> float:
     """The learning rate of one step over so many seconds, given that per frame."""
-    return 1 - (1 - rate) ** (seconds / FRAME)
+    kept: float = (1 - rate) ** (seconds / FRAME)
+    return 1 - kept
 
 
 def update_object(state: State, observation: TargetObservation) -> State:

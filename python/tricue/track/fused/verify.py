@@ -40,8 +40,7 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
             missed_frames=state.missed_frames + 1,
             missed_seconds=state.missed_seconds + state.seconds,
         )
-    rate = 1 - math.exp(-state.seconds / VERIFIED_TIME_CONSTANT)
-    rate = max(1 / state.frames, rate)  # the mean of all frames at first
+    rate = running_mean_rate(state.frames, state.seconds)
     return state.replace(
         target=target,
         features=match.features,
@@ -56,6 +55,13 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
         mean_response=state.mean_response + rate * (match.response - state.mean_response),
         typical=match.features if state.typical is None else state.typical.blend(match.features, rate),
     )
+
+
+def running_mean_rate(frames: int, seconds: float) -> float:
+    """Of the last of so many frames in their running mean, so many seconds after the one before; at first the
+    mean of all.
+    """
+    return max(1 / frames, 1 - math.exp(-seconds / VERIFIED_TIME_CONSTANT))
 
 
 def _min_log_odds(state: State, match: Match, p: FusedParams) -> float:
