@@ -199,7 +199,9 @@ def test_killed_and_opened_again(video: Path, open_tab: Callable[..., Tab]) -> N
     tab.context.close()
     again = Server(str(video), "--port", "0")
     try:
-        assert open_tab(again.url).rows() == rows
+        opened = open_tab(again.url)
+        assert opened.rows() == rows
+        opened.context.close()  # or it complains that this server ends, too
     finally:
         again.end()
 

@@ -134,6 +134,18 @@ def test_the_box_of_a_lost_target_stays(stage, follow):
     assert {track.box for track in tracks[5:]} == {tracks[4].box}
 
 
+@pytest.mark.parametrize(("step", "expected"), [(3, Status.TRACKED), (25, Status.OCCLUDED)])
+@pytest.mark.parametrize("seed", range(4))
+def test_what_is_a_little_like_the_target_is_not_tracked_far_off(seed, step, expected, stage, follow):
+    """A face that fades to half within a frame is TRACKED 3 px from where it was, but not 25 px from it."""
+    tracker = ColorParticleTracker(seed=seed)
+    follow(tracker, stage(HERE), START)
+    face, background = stage([(HERE[-1][0] + step, HERE[-1][1]), None])
+    track = tracker.update(((face.astype(int) + background) // 2).astype(np.uint8))
+    assert track.status is expected
+    assert abs(track.box.x - HERE[-1][0] - step) < 6
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_a_cover_is_not_followed_nor_what_is_beside_it(seed, rendered, follow):
     """Noise covers a moving face for eight frames, once the tracker has seen it to and fro: it is LOST, never

@@ -27,7 +27,7 @@ OBSERVATION_MODELS: dict[str, type[Any]] = {
     "rank-spatial": RankSpatial,
 }
 MIN_LINEAR_LIKELIHOOD = 1e-12  # in its logarithm
-LOG_ODDS, PER_NAT, PER_NAT_OF_LEAD = -0.82, 0.036, 0.124  # fitted on the 30 recorded color sequences
+LOG_ODDS, PER_NAT, PER_NAT_OF_LEAD = -0.11, 0.0275, 0.0945  # fitted on the 30 recorded color sequences
 MAX_LEAD = 60.0  # nats: more says no more
 STEP_BESIDE = 1.5  # semi-axes: windows beside the target share a seventh of their union with it
 BESIDE = np.tile(np.eye(4), (4, 1, 1))

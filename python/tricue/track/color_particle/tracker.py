@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The color particle tracker of Sabeti, Parvizi and Wu (2008), section III."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -35,7 +36,7 @@ Image = NDArray[np.uint8]
 MEAN_RATE = 0.05  # per frame, of the running means of the log-likelihood
 LEAD_EVERY = 4  # frames: the lead of a followed target is measured in one of them
 LEAD_RATE = 0.7  # of the lead's running mean, each time that it is measured
-MIN_SCORE_AFTER_MISS = 0.75  # of a target that was missed in the last frame
+MIN_SCORE_AFTER_MISS = 0.8  # of a target that was missed in the last frame
 REDETECTION_RATE = 0.5  # learning rate, once, where a lost target is detected again
 REDETECTION_SHARE = 0.85  # of the way from the median likelihood of the frame to the target's: detected again
 REDETECTION_LEAD = 1.5  # of min_lead, where a lost target is detected again: background has it by chance
@@ -239,7 +240,8 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         which colors add, isn't; were it learned, the tracker would stay there. What is learned beside the
         target is recognized there, too, so the score is told by what was learned from the first frame, and by
         the lead over what is beside it; and after a frame in which the target was missed, it has to be high.
-        A LOST target passed the search's own test. first_log_likelihood: by the first frame's appearance,
+        What is far from the last place has to be as likely as usual: most often it is something else. A LOST
+        target passed the search's own test. first_log_likelihood: by the first frame's appearance,
         where it is known.
         """
         k, p, log_likelihood = self._k, self.params, particles.log_likelihood
@@ -258,6 +260,8 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
                 score = min(score, recognition)
             if state.missed_frames and not state.lost(p):
                 recognized = recognized and score >= MIN_SCORE_AFTER_MISS
+        if recognized and not state.lost(p) and self._jumped(state, particles):
+            recognized = False
         if recognized:
             recognized_mean += MEAN_RATE * (log_likelihood - recognized_mean)
         mean = state.mean_log_likelihood
@@ -271,6 +275,14 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             lead=lead,
             missed_frames=0 if recognized else state.missed_frames + 1,
         )
+
+    def _jumped(self, state: State, particles: ParticleSet) -> bool:
+        """Whether the estimate is beyond the usual reach of a wide search, and less likely than usual."""
+        p, motion = self.params, state.motion
+        if particles.log_likelihood >= state.mean_log_likelihood - p.likelihood_drop:
+            return False
+        (x, y, *_), (last_x, last_y, *_) = particles.ellipse.tolist(), motion.ellipse
+        return math.hypot(x - last_x, y - last_y) > p.wide_search_spread * motion.side
 
     def _lead(self, appearance: Appearance, image: Image, ellipse: Floats, log_likelihood: float) -> float:
         """The lead over what is beside an ellipse (4,); NEVER where its likelihood doesn't tell."""
