@@ -16,7 +16,7 @@ Complexes = NDArray[np.complex64]
 
 random = np.random.default_rng(0)
 CELLS = random.uniform(-1, 1, (19, 32, 32)).astype(np.float32)
-FILTERS = np.fft.rfft2(random.uniform(-1, 1, (2, *CELLS.shape))).astype(np.complex64)
+FILTERS = np.ascontiguousarray(np.fft.rfft2(random.uniform(-1, 1, (2, *CELLS.shape))), np.complex64)
 
 
 def prepared(spectra: Complexes) -> list[Floats]:

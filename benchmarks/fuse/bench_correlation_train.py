@@ -19,7 +19,7 @@ HALF = np.s_[:, :17]
 random = np.random.default_rng(0)
 CELLS = random.uniform(-1, 1, (19, 32, 32)).astype(np.float32)
 PEAK = np.outer(np.hanning(32), np.hanning(32)).astype(np.float32) ** 8
-LABEL = np.fft.rfft2(np.roll(PEAK, (16, 16), (0, 1))).astype(np.complex64)
+LABEL = np.ascontiguousarray(np.fft.rfft2(np.roll(PEAK, (16, 16), (0, 1))), np.complex64)
 NONE = np.zeros((19, 32, 17), np.complex64), np.zeros((32, 17), np.float32)
 
 

@@ -13,8 +13,8 @@ random = np.random.default_rng(0)
 PATCH = random.integers(0, 256, (64, 64, 3), np.uint8)
 PLACES = random.permutation(64 * 64).reshape(64, 64)
 TAPER = random.random((32, 32), np.float32)
-LABEL = np.fft.rfft2(np.exp(-random.random((32, 32)))).astype(np.complex64)
-BEFORE, FIRST = np.fft.rfft2(random.uniform(-1, 1, (2, 19, 32, 32))).astype(np.complex64)
+LABEL = np.ascontiguousarray(np.fft.rfft2(np.exp(-random.random((32, 32)))), np.complex64)
+BEFORE, FIRST = np.ascontiguousarray(np.fft.rfft2(random.uniform(-1, 1, (2, 19, 32, 32))), np.complex64)
 BELOW, FIRST_BELOW = 1000 * random.random((2, 32, 17), np.float32)
 
 

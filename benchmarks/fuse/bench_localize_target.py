@@ -12,7 +12,7 @@ from tricue import _core, reference
 random = np.random.default_rng(0)
 PATCH = random.integers(0, 256, (64, 64, 3), np.uint8)
 TAPER = random.random((32, 32), np.float32)
-FILTERS = (np.fft.rfft2(random.uniform(-1, 1, (2, 19, 32, 32))) / 1024).astype(np.complex64)
+FILTERS = np.ascontiguousarray(np.fft.rfft2(random.uniform(-1, 1, (2, 19, 32, 32))) / 1024, np.complex64)
 TABLE, OTHER = random.random((16, 16, 16), np.float32), random.random((64, 64), np.float32)
 ROOTS = np.full(4096, 1 / 64)
 BOX = 17.4, 26.1, 1.5, 0.5, 0.7, 0.3, 0.8

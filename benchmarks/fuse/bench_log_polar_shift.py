@@ -12,7 +12,7 @@ random = np.random.default_rng(0)
 PATCH = random.integers(0, 256, (64, 64, 3), np.uint8)
 PLACES = random.permutation(64 * 64).reshape(64, 64)
 TAPER = random.random((32, 32), np.float32)
-FILTER = (np.fft.rfft2(random.uniform(-1, 1, (1, 19, 32, 32))) / 1024).astype(np.complex64)
+FILTER = np.ascontiguousarray(np.fft.rfft2(random.uniform(-1, 1, (1, 19, 32, 32))) / 1024, np.complex64)
 
 
 def script(patch: Any, places: Any, taper: Any, model: Any, right: int, down: int, penalty: float) -> Any:
