@@ -15,7 +15,8 @@ TAPER = random.random((32, 32), np.float32)
 PROFILE = np.clip(1.5 - abs(np.arange(32) - 15.5) / 6, 0, 1)
 MASK = np.outer(PROFILE, PROFILE).astype(np.float32)
 LABEL = np.ascontiguousarray(np.fft.rfft2(np.exp(-random.random((32, 32)))), np.complex64)
-BEFORE, FIRST = np.ascontiguousarray(np.fft.rfft2(random.uniform(-1, 1, (2, 19, 32, 32))) / 1024, np.complex64)
+WEIGHTS = random.uniform(-1, 1, (2, 19, 32, 32)) / 1024
+BEFORE, FIRST = np.ascontiguousarray(np.fft.rfft2(WEIGHTS), np.complex64)
 
 
 def script(patch: Any, taper: Any, mask: Any, label: Any, before: Any, first: Any, *weights: float) -> Any:
