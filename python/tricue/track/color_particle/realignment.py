@@ -17,7 +17,7 @@ from tricue.track.color_particle.state import ParticleSet
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
 
-WINDOWS, BLOCKS = 16, 32  # looked at in a frame; blocks of windows, which take turns
+WINDOWS, BLOCKS = 48, 32  # looked at in a frame; blocks of windows, which take turns
 NEAR, FAR = 0.1, 0.3  # standard deviations of the windows' places, of the target's sides: half of them each
 SCALE = 0.05  # standard deviation of the logarithm of their size
 CLOSER = 0.3  # a second look, around the best window, is as much closer
