@@ -113,6 +113,7 @@ std::tuple<Array<std::uint16_t>, Bytes> head_cells_arrays(const Bytes& left, con
                                                           int window, int uniqueness, bool prefilter) {
     const auto view = color_image(left, "left"), other = any_image(right, "right");
     const auto [x0, y0, x1, y1] = region;
+    const Region part{x0, y0, x1, y1};
     const auto [first_axis, second_axis, third_axis] = bins;
     const ColorSpace space{{first_axis, second_axis, third_axis}, chroma};
     std::array<double, 3> given{};
@@ -121,8 +122,8 @@ std::tuple<Array<std::uint16_t>, Bytes> head_cells_arrays(const Bytes& left, con
     const StereoMatching matching{window, uniqueness, prefilter, -1};
     const auto work = (std::ptrdiff_t{x1} - x0) * (std::ptrdiff_t{y1} - y0) * step;
     auto cells = unlocked(work, [&] {
-        return head_cells(view, other, {x0, y0, x1, y1}, step, space, gains ? &given : nullptr, depth,
-                          {first, last}, matching);
+        return head_cells(view, other, part, step, space, gains ? &given : nullptr, depth, {first, last},
+                          matching);
     });
     return {give(std::move(cells.bins)), give(std::move(cells.coherent))};
 }
@@ -133,12 +134,12 @@ std::tuple<double, int, int> ellipse_disparity_arrays(const Bytes& left, const B
                                                       bool subpixel, bool median, double tolerance) {
     const auto view = any_image(left, "left"), other = any_image(right, "right");
     const auto [x0, y0, x1, y1] = region;
+    const Region part{x0, y0, x1, y1};
     const StereoMatching matching{window, uniqueness, prefilter, -1};
     const DisparityStatistic statistic{subpixel, median, static_cast<float>(tolerance)};
     const auto work = (std::ptrdiff_t{x1} - x0) * (std::ptrdiff_t{y1} - y0);
-    const auto found = unlocked(work, [&] {
-        return ellipse_disparity(view, other, {x0, y0, x1, y1}, {first, last}, matching, statistic);
-    });
+    const auto found = unlocked(
+        work, [&] { return ellipse_disparity(view, other, part, {first, last}, matching, statistic); });
     return {found.disparity, found.matched, found.near};
 }
 

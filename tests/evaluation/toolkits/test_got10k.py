@@ -77,7 +77,7 @@ def test_got10ks_experiment_gives_the_boxes_of_one_pass(
     case: tuple[Tracker, Tracker, Images, Sequence[Box]], tmp_path: Path
 ) -> None:
     """It proves that got10k's own loop over files gets from a tracker, bit for bit, the boxes that our
-    one-pass evaluation gets from the same pixels.
+    one-pass evaluation gets from the same pixels. Its first box is the one that the tracker was given.
     """
     tracker, twin, images, boxes = case
     write_otb(tmp_path, images, boxes)
@@ -85,7 +85,8 @@ def test_got10ks_experiment_gives_the_boxes_of_one_pass(
     experiment.run(as_got10k(tracker, "ours"))
     frames = [as_frame(image) for image in images]
     expected = one_pass.run(twin, frames, boxes[0]).boxes
-    np.testing.assert_array_equal(experiment.boxes, expected)
+    np.testing.assert_array_equal(experiment.boxes[0], boxes[0])
+    np.testing.assert_array_equal(experiment.boxes[1:], expected[1:])
     written = np.loadtxt(tmp_path / "results" / "ours" / "Walking.txt", delimiter=",")
     np.testing.assert_allclose(written, expected, rtol=0, atol=0.0005 + 1e-9)
     assert np.ptp(expected[:, 0]) > 5  # it did follow
