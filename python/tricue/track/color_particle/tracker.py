@@ -240,7 +240,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         which colors add, isn't; were it learned, the tracker would stay there. What is learned beside the
         target is recognized there, too, so the score is told by what was learned from the first frame, and by
         the lead over what is beside it; and after a frame in which the target was missed, it has to be high.
-        What is far from the last place has to be as likely as usual: most often it is something else. A LOST
+        What is far from where it moves has to be as likely as usual: most often it is something else. A LOST
         target passed the search's own test. first_log_likelihood: by the first frame's appearance,
         where it is known.
         """
@@ -277,12 +277,16 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         )
 
     def _jumped(self, state: State, particles: ParticleSet) -> bool:
-        """Whether the estimate is beyond the usual reach of a wide search, and less likely than usual."""
+        """Whether the estimate is less likely than usual, and farther from where the velocity leads than a
+        wide search usually goes.
+        """
         p, motion = self.params, state.motion
         if particles.log_likelihood >= state.mean_log_likelihood - p.likelihood_drop:
             return False
         (x, y, *_), (last_x, last_y, *_) = particles.ellipse.tolist(), motion.ellipse
-        return math.hypot(x - last_x, y - last_y) > p.wide_search_spread * motion.side
+        right, down = motion.velocity
+        off = math.hypot(x - last_x - p.drift * right, y - last_y - p.drift * down)
+        return off > p.wide_search_spread * motion.side
 
     def _lead(self, appearance: Appearance, image: Image, ellipse: Floats, log_likelihood: float) -> float:
         """The lead over what is beside an ellipse (4,); NEVER where its likelihood doesn't tell."""
