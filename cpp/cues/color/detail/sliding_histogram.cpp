@@ -49,9 +49,9 @@ void SlidingHistogram::replace(const Offsets& leave, const Offsets& enter) {
 
 /// Runs get shorter towards the top and the bottom: of the runs over a column, the first is the first that is as wide, from above.
 void SlidingHistogram::find_boundaries(const EllipseShape& shape) {
+    // No structured binding: lambdas can't capture one before C++20.
     const EllipseShape::Run range = shape.column_range();
-    const int begin = range.begin,
-              end = range.end;  // a lambda can't capture a structured binding before C++20
+    const int begin = range.begin, end = range.end;
     Offsets &top = vertical_.leave, &bottom = vertical_.enter;
     for (Offsets* columns : {&top, &bottom}) columns->resize(static_cast<std::size_t>(end - begin));
     const auto count = static_cast<int>(shape.runs.size());
