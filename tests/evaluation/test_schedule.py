@@ -103,6 +103,20 @@ def test_a_killed_process_costs_only_the_run_that_kills_it(folders, tmp_path, de
     assert len(evaluation.results) == len(alone.results) - len(failed)
 
 
+def test_a_terminals_interrupt_is_for_the_process_that_asks(tmp_path):
+    """Ctrl-C goes to every process of a terminal; those that run tasks never see it."""
+
+    def interrupt(_: Task) -> Record:
+        os.kill(os.getpid(), signal.SIGINT)
+        blocked = signal.pthread_sigmask(signal.SIG_BLOCK, [])
+        raise ValueError(f"{sorted(blocked)}")
+
+    tasks = [Task(TrackerSpec("still-box"), Entry(str(each), tmp_path)) for each in range(3)]
+    for found in schedule.run_tasks(tasks, interrupt, jobs=2):
+        assert found.error == f"{[signal.SIGINT]}"
+    assert not signal.pthread_sigmask(signal.SIG_BLOCK, [])
+
+
 def test_no_scheduler_is_told_by_its_address(monkeypatch):
     """Nothing listens there: OSError, not a hang."""
     pytest.importorskip("distributed", reason="needs the extra dask")

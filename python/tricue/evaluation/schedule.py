@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Where tasks run: in this process, in several of this machine (joblib), on a Dask cluster. One code path."""
 
-from collections.abc import Callable, Generator, Sequence
+import signal
+from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, wait
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from itertools import islice
+from multiprocessing.resource_tracker import ensure_running
 from typing import Any, NamedTuple
 
 from tricue.errors import one_line
@@ -68,7 +71,7 @@ def _run_in_processes(tasks: Sequence[Task], perform: Perform, jobs: int) -> Gen
         except BrokenProcessPool:
             running = [index for index in waiting if index not in done][:jobs]
             for index in running:
-                yield _run_alone(index, tasks[index], perform, ProcessPoolExecutor)
+                yield _run_alone(tasks, index, perform, ProcessPoolExecutor)
             done.update(running)
         waiting = [index for index in waiting if index not in done]
 
@@ -81,10 +84,11 @@ def _run_in_pool(
     running: set[Any] = set()
     try:
         while True:
-            running |= {
-                pool.submit(perform_task, index, tasks[index], perform)
-                for index in islice(left, jobs - len(running))
-            }
+            with _interrupts_later():
+                running |= {
+                    pool.submit(perform_task, index, tasks[index], perform)
+                    for index in islice(left, jobs - len(running))
+                }
             if not running:
                 return
             done, running = wait(running, return_when=FIRST_COMPLETED)
@@ -94,13 +98,29 @@ def _run_in_pool(
             pool.shutdown(wait=False, kill_workers=True)
 
 
-def _run_alone(index: int, task: Task, perform: Perform, executor: Any) -> Finished:
+def _run_alone(tasks: Sequence[Task], index: int, perform: Perform, executor: Any) -> Finished:
     try:
         with executor(1) as pool:
-            finished: Finished = pool.submit(perform_task, index, task, perform).result()
-            return finished
+            return next(_run_in_pool(tasks, [index], perform, pool, jobs=1))
     except BrokenProcessPool:
         return Finished(index, None, "its process was killed, twice; was there too little memory?")
+
+
+@contextmanager
+def _interrupts_later() -> Iterator[None]:
+    """Ctrl-C comes to this process afterwards, and never to one that is started here.
+
+    A terminal sends it to all. The processes would print where they were; this one ends them.
+    """
+    if not hasattr(signal, "pthread_sigmask"):  # on Windows
+        yield
+        return
+    ensure_running()  # Python 3.11 delivers the signal again when it starts this helper
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # inherited by what is started
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _run_on_cluster(tasks: Sequence[Task], perform: Perform, address: str) -> Generator[Finished, None, None]:
