@@ -25,3 +25,11 @@ def test_fused_does_not_drift(cases, number) -> None:
     """It proves that after 3,000 updates the overlap is at least 0.9 of that in the first pass."""
     first, last = drift.drift("fused", cases[number])
     assert last >= 0.9 * first
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", range(9))
+def test_color_particle_does_not_drift(cases, number) -> None:
+    """It proves the same of the means over five seeds; one run's differ by a few hundredths."""
+    first, last = drift.drift_by_seed("color-particle", range(5), cases[number])
+    assert last.mean() >= 0.9 * first.mean()
