@@ -15,6 +15,8 @@ from tricue.evaluation.tracker_spec import TrackerSpec
 from tricue.evaluation.trackers import tracker_specs
 from tricue.track.base.track import Status
 
+from tests.data.recordings.written import compressed, jpeg, write_mcap
+
 BOX = "8,6,16,20\n"
 
 
@@ -81,6 +83,20 @@ def test_a_digest_is_of_the_images_not_of_their_place(tmp_path):
     assert Entry("walk", tmp_path / "here", None, ReadOptions(depth_scale=0.002)).open().digest != first
     cv2.imwrite(str(tmp_path / "here" / "color" / "00000003.png"), color(9) // 7)
     assert Entry("walk", tmp_path / "here").open().digest != first
+
+
+def test_a_digest_is_of_the_recording(tmp_path):
+    """A robot's recording that is replaced is another one."""
+    place = tmp_path / "walk"
+    place.mkdir()
+    (place / "boxes.csv").write_text("frame,x,y,width,height\n0,8,6,16,20\n")
+
+    def digest(count):
+        images = [(10**8 * index, jpeg(color(index))) for index in range(count)]
+        write_mcap(place / "a.mcap", [compressed("/a/compressed", *each, "jpeg") for each in images])
+        return Entry("walk", place).open().digest
+
+    assert digest(5) == digest(5) != digest(6)
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 """Joint streams: channels that are read together, for one recording or one device gives all of them."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
 from typing import Any, Protocol
 
 from numpy.typing import NDArray
@@ -18,6 +19,10 @@ class Joint(Protocol):
     @property
     def fps(self) -> float:
         """Frames per second."""
+
+    @property
+    def paths(self) -> Sequence[Path]:
+        """The files that are read; none of a camera."""
 
     @property
     def remarks(self) -> tuple[str, ...]:

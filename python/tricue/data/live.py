@@ -108,6 +108,10 @@ class Live:
             return Health(self._dropped, self._reopened, self._silence, self._stopped_by)
 
     @property
+    def paths(self) -> tuple[()]:
+        return ()
+
+    @property
     def remarks(self) -> tuple[str, ...]:
         found = []
         if self._dropped:

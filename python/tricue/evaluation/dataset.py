@@ -18,6 +18,7 @@ from tricue.camera.numbers import positive
 from tricue.camera.read_calibration import read_intrinsics, read_rig
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.data.datasets import find_sequences
+from tricue.data.joint import JointStream
 from tricue.data.layouts import list_targets
 from tricue.data.open_source import Source, open_source
 from tricue.data.streams import Images, Stream, Video
@@ -226,6 +227,8 @@ def _list_files(stream: Stream) -> Sequence[Path]:
     """The files of a recording; a camera has none."""
     if isinstance(stream, Images):
         return stream.paths
+    if isinstance(stream, JointStream):
+        return stream.joint.paths
     return [stream.path] if isinstance(stream, Video) else []
 
 

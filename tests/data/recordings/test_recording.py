@@ -2,16 +2,17 @@
 import random
 import sys
 import tracemalloc
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 import cv2
 import numpy as np
 import pytest
-from tricue import Intrinsics, StereoRig, open_source
+from tricue import Frame, Intrinsics, StereoRig, open_source
 from tricue.camera.registration import Reprojection
 from tricue.cli.program import main
+from tricue.data.joint import JointStream
 from tricue.data.source import Source
 
 from tests.data.recordings.written import (
@@ -61,9 +62,9 @@ def mcap(folder: Path, sent: Sequence[Sent]) -> Path:
 WRITERS = [bag1, sqlite, ros2_mcap, mcap]
 
 
-def blues(source: Source) -> list[int]:
+def blues(frames: Iterable[Frame]) -> list[int]:
     """The blue of each frame's color."""
-    return [int(frame.color[0, 0, 0]) for frame in source if frame.color is not None]
+    return [int(frame.color[0, 0, 0]) for frame in frames if frame.color is not None]
 
 
 def meters(source: Source) -> list[float]:
@@ -174,15 +175,23 @@ def test_compressed_images(tmp_path: Path) -> None:
     assert source.fps == pytest.approx(10)
 
 
-def test_a_damaged_image_is_left_out(tmp_path: Path) -> None:
-    """It proves that one image that can't be decoded doesn't end the reading, and is told."""
+def test_the_frame_before_stands_in_for_a_damaged_one(tmp_path: Path) -> None:
+    """It proves that one image that can't be decoded doesn't end the reading, is told, and that frames have
+    the same numbers however they are read.
+    """
     images = [jpeg(color(10)), b"no image", jpeg(color(30))]
     sent = [
         compressed("/a/compressed", START + n * SECOND // 10, data, "jpeg") for n, data in enumerate(images)
     ]
     source = open_source(mcap(tmp_path, sent))
-    assert blues(source) == pytest.approx([10, 30], abs=2)
-    assert source.remarks == ("left out 1 damaged image",)
+    assert blues(source) == pytest.approx([10, 10, 30], abs=2)
+    assert source.remarks == ("took the frame before in place of 1 with a damaged image",)
+    assert [frame.timestamp for frame in source] == pytest.approx([START / SECOND + n / 10 for n in range(3)])
+    (stream,) = source.channels.values()
+    assert isinstance(stream, JointStream)
+    assert stream.count() == 3
+    for numbers, shown in {(0, 2): [10, 30], (1, 2): [10, 30], (2,): [30], (1,): [10]}.items():
+        assert blues(source.frames(numbers)) == pytest.approx(shown, abs=2)
 
 
 def test_depth_is_registered_by_transforms(tmp_path: Path) -> None:

@@ -63,7 +63,12 @@ class Recording:
         rate = head.fps(chosen[self.clock])
         self.fps = rate or DEFAULT_FPS
         self._left_out: Counter[str] = Counter()
-        self._moments = self._damaged = 0
+        self._moments = self._unreadable = self._damaged = 0
+
+    @property
+    def paths(self) -> list[Path]:
+        parts = self.container.parts if isinstance(self.container, Chain) else [self.container]
+        return [each.path for each in parts]
 
     @property
     def tolerance(self) -> int:
@@ -86,8 +91,10 @@ class Recording:
                 f"left out {count} of {count + self._moments} {channel} images, "
                 f"with no {others} image within {self.tolerance / 1e6:.3g} ms"
             )
+        if self._unreadable:
+            found.append(f"left out {self._unreadable} unreadable message{'s' * (self._unreadable > 1)}")
         if self._damaged:
-            found.append(f"left out {self._damaged} damaged image{'s' * (self._damaged > 1)}")
+            found.append(f"took the frame before in place of {self._damaged} with a damaged image")
         return tuple(found)
 
     def size(self, channel: str) -> tuple[int, int]:
@@ -95,14 +102,14 @@ class Recording:
         return width, height
 
     def moments(self, channels: Sequence[str], indices: Sequence[int] | None = None) -> Iterator[Moment]:
+        """A moment with a damaged image has the images of the one before, so that all keep their numbers."""
         remaining = None if indices is None else deque(indices)
-        number = self._damaged = 0
+        number = self._unreadable = self._damaged = 0
+        images = {channel: self._first[channel] for channel in channels}
         for paired in self._paired():
             if remaining is None or (remaining and remaining[0] == number):
-                moment = self._decoded(paired, channels)
-                if moment is None:
-                    continue
-                yield moment
+                images = self._decoded(paired, images)
+                yield {channel: (1e-9 * paired[channel].time, image) for channel, image in images.items()}
                 if remaining:
                     remaining.popleft()
             if remaining is not None and not remaining:
@@ -122,16 +129,15 @@ class Recording:
             for name, topic in sorted(self.container.topics.items())
         ]
 
-    def _decoded(self, paired: dict[str, Timed[Stored]], channels: Sequence[str]) -> Moment | None:
-        """The images of these channels; None where one is damaged."""
+    def _decoded(
+        self, paired: dict[str, Timed[Stored]], before: dict[str, NDArray[Any]]
+    ) -> dict[str, NDArray[Any]]:
+        """The images of the channels that were read before; those before where one is damaged."""
         try:
-            return {
-                name: (1e-9 * paired[name].time, self.decode(name, paired[name].item.image))
-                for name in channels
-            }
+            return {channel: self.decode(channel, paired[channel].item.image) for channel in before}
         except ValueError:
             self._damaged += 1
-            return None
+            return before
 
     def _paired(self) -> Iterator[dict[str, Timed[Stored]]]:
         yield from self.paired(self.images())
@@ -163,7 +169,7 @@ class Recording:
             try:
                 image = to_image(self._decoders[message.topic](message.data))
             except ValueError:
-                self._damaged += 1
+                self._unreadable += 1
                 continue
             channel = self._channels[message.topic]
             yield Timed(channel, image.time or message.time, Stored(message.time, place, image))

@@ -4,6 +4,7 @@
 from collections import OrderedDict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -76,6 +77,10 @@ class SeekableRecording:
     @property
     def fps(self) -> float:
         return self.recording.fps
+
+    @property
+    def paths(self) -> list[Path]:
+        return self.recording.paths
 
     @property
     def remarks(self) -> tuple[str, ...]:
