@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Images that are frames, and the adapter's ways to give and take them."""
 
+import copy
+
 import cv2
 import numpy as np
 import pytest
@@ -128,3 +130,24 @@ def test_a_file(tmp_path) -> None:
         create(f"{tmp_path / 'one_of_mine.py'}:Yours")
     with pytest.raises(FileNotFoundError, match="no such file"):
         create(f"{tmp_path / 'none_of_mine.py'}:Mine")
+
+
+class Counting:
+    """A third party's with a state of its own, which it changes."""
+
+    def init(self, image, box) -> None:
+        self.box, self.counts = box, [0]
+
+    def update(self, image) -> tuple[float, ...]:
+        self.counts.append(len(self.counts))
+        return (float(len(self.counts)), *self.box[1:])
+
+
+def test_copies_are_independent() -> None:
+    """It proves that a copy goes on by itself, as a copy of one of tricue's trackers does."""
+    tracker = adapt_class(Counting)()
+    tracker.init(PIXELS, (1, 2, 3, 4))
+    tracker.update(PIXELS)
+    other = copy.copy(tracker)
+    assert [other.update(PIXELS).box.x for _ in range(3)] == [3, 4, 5]
+    assert tracker.update(PIXELS).box.x == 3

@@ -52,3 +52,12 @@ def test_it_is_read_without_a_copy(ends):
     assert not frame.color.flags.writeable
     writer.write(SharedFrame.of(Frame(image(20, 30, 1))))
     np.testing.assert_array_equal(frame.color, image(20, 30, 1))
+
+
+def test_a_copy_stays(ends):
+    """The next frame isn't in its place, and it may be written."""
+    writer, reader = ends
+    frame = reader.copy(writer.write(SharedFrame.of(Frame(image(20, 30), timestamp=2.0))))
+    writer.write(SharedFrame.of(Frame(image(20, 30, 1))))
+    same(frame, Frame(image(20, 30), timestamp=2.0))
+    assert frame.color.flags.writeable

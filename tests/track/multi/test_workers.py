@@ -11,6 +11,7 @@ import time
 import weakref
 from pathlib import Path
 
+import numpy as np
 import pytest
 from tricue import MultiTracker
 from tricue.errors import WorkerEndedError
@@ -201,3 +202,37 @@ def test_errors_that_can_not_be_pickled_are_told():
     assert type(error) is RuntimeError
     assert str(error) == "Odd: 1 and 2"
     assert str(_portable(ValueError("x"))) == "x"
+
+
+class Previous:
+    """A third party's: it keeps the last image, and tells how much the new one differs from it."""
+
+    def init(self, image, box) -> None:
+        self.last = image
+
+    def update(self, image) -> tuple[tuple[float, ...], float]:
+        change = float(np.abs(image.astype(int) - self.last).mean())
+        self.last = image
+        return (change, 0.0, 5.0, 5.0), 0.5
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_third_partys_tracker_may_keep_images(workers, things):
+    """Its tracks are the same in another process, which sees the frames in memory that is used again."""
+    name = f"{__name__}:Previous"
+    expected = [
+        float(np.abs(new.color.astype(int) - old.color).mean())
+        for old, new in zip(things.frames[:3], things.frames[1:4], strict=True)
+    ]
+    with MultiTracker(name, workers=workers) as several:
+        for box in things.boxes[:2]:
+            several.add(things.frames[0], box)
+        for frame, change in zip(things.frames[1:4], expected, strict=True):
+            assert [track.box[0] for track in several.update(frame).values()] == [change] * 2
+
+
+def test_a_path_may_be_among_the_folders_of_modules(monkeypatch, started, things, alone):
+    """Of ``sys.path``, to which some add a pathlib.Path; workers look for modules there, too."""
+    monkeypatch.setattr(sys, "path", [*sys.path, Path("somewhere")])
+    with started(FUSED, workers=2) as several:
+        assert several.update(things.frames[1]) == alone(FUSED)[0]

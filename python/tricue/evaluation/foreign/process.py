@@ -39,8 +39,9 @@ class WorkerProcess:
         self.limit = limit
         self.end = ""
         """How it ended, "" while it runs."""
+        folders = list(map(str, sys.path))
         code = (
-            f"import sys; sys.path[:] = {sys.path}; from tricue.evaluation.foreign.worker import main; "
+            f"import sys; sys.path[:] = {folders}; from tricue.evaluation.foreign.worker import main; "
             f"main({place!r}, {max(limit, LOADING_LIMIT)!r})"
         )
         self._process = subprocess.Popen(

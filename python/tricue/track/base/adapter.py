@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Third-party tracker classes, adapted to the interface of tricue's trackers."""
 
+import copy
 import inspect
 import math
 from collections.abc import Callable
@@ -109,6 +110,10 @@ class _Adapted:
         """Follow the target into the next frame."""
         return self._track(self.tracker.update(self._input(frame)), "update")
 
+    def __copy__(self) -> Any:
+        """Of the same state, but independent, as copies of tricue's trackers are."""
+        return _restore(type(self)._cls, copy.deepcopy(self.__dict__))
+
     def __reduce__(self) -> tuple[Any, ...]:
         return _restore, (type(self)._cls, self.__dict__)
 
@@ -132,7 +137,7 @@ class _Adapted:
         return Track(self._box, float(score), Status.TRACKED)
 
 
-def _restore(cls: type[Any], values: dict[str, Any]) -> Any:
+def _restore(cls: Callable[..., Any], values: dict[str, Any]) -> Any:
     tracker = object.__new__(adapt_class(cls))
     tracker.__dict__.update(values)
     return tracker

@@ -52,18 +52,22 @@ class FrameMemory:
         layout = Layout.of(frame)
         if os.fstat(self.file).st_size < layout.size:
             os.ftruncate(self.file, layout.size)
-        for (name, *_), place in zip(layout.images, self._views(layout, mmap.ACCESS_WRITE), strict=True):
+        for name, place in self._named(layout, mmap.ACCESS_WRITE):
             np.copyto(place, getattr(frame, name))
         return layout
 
     def read(self, layout: Layout) -> SharedFrame:
         """The frame that is in the memory until the next is written; its images can't be changed."""
-        views = self._views(layout, mmap.ACCESS_READ)
-        images = {name: view for (name, *_), view in zip(layout.images, views, strict=True)}
+        return SharedFrame(**dict(self._named(layout, mmap.ACCESS_READ)), **layout.others)
+
+    def copy(self, layout: Layout) -> SharedFrame:
+        """The frame that is in the memory, with images of its own."""
+        images = {name: view.copy() for name, view in self._named(layout, mmap.ACCESS_READ)}
         return SharedFrame(**images, **layout.others)
 
-    def _views(self, layout: Layout, access: int) -> list[np.ndarray[Any, Any]]:
+    def _named(self, layout: Layout, access: int) -> list[tuple[str, np.ndarray[Any, Any]]]:
+        """The images' names and places."""
         if self._map is None or len(self._map) < layout.size:
             self._map = mmap.mmap(self.file, layout.size, access=access)
         buffer = self._map
-        return [np.ndarray(shape, kind, buffer, first) for _, kind, shape, first in layout.images]
+        return [(name, np.ndarray(shape, kind, buffer, first)) for name, kind, shape, first in layout.images]

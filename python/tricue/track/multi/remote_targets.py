@@ -35,9 +35,9 @@ class RemoteTargets:
         self._owner = os.getpid()
         mine, theirs = socket.socketpair()
         with theirs:
-            files = theirs.fileno(), memory.file
+            files, folders = (theirs.fileno(), memory.file), list(map(str, sys.path))
             code = (
-                f"import sys; sys.path[:] = {sys.path}; from tricue.track.multi.worker import run; run{files}"
+                f"import sys; sys.path[:] = {folders}; from tricue.track.multi.worker import run; run{files}"
             )
             command = [sys.executable, "-c", code]
             self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, pass_fds=files)

@@ -7,6 +7,12 @@ from typing import Any
 from tricue.camera.box import BoxLike
 from tricue.camera.shared_frame import SharedFrame
 from tricue.track.base.track import Track, Tracker
+from tricue.track.base.tracker import TrackerBase
+
+
+def keeps_images(tracker: Tracker) -> bool:
+    """Whether a tracker may look at a frame's images later on; tricue's keep what they computed of them."""
+    return not isinstance(tracker, TrackerBase)
 
 
 class Targets:
@@ -20,6 +26,11 @@ class Targets:
     def ids(self) -> set[int]:
         """Of the targets."""
         return set(self._trackers)
+
+    @property
+    def keep_images(self) -> bool:
+        """Whether a tracker may look at a frame's images later on."""
+        return any(map(keeps_images, self._trackers.values()))
 
     def add(self, target: int, tracker: Tracker, frame: SharedFrame, box: BoxLike | None) -> Track:
         """Start a tracker; it is kept if that succeeds."""

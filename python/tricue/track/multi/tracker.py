@@ -113,7 +113,8 @@ class MultiTracker:
         """Follow all targets into the next frame; their tracks by their ids.
 
         What trackers compute of the whole frame alike is computed once, and its warnings are given once. An
-        error of one target is raised, and leaves all of them as they were. Where a worker process was killed,
+        error of one target is raised, and leaves all of them as they were; but a third party's tracker keeps
+        what it did before. Where a worker process was killed,
         a RuntimeError tells which targets went with it; the others go on with the next frame.
         """
         shared = SharedFrame.of(as_frame(frame))

@@ -8,10 +8,11 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 from tricue.camera.box import BoxLike
+from tricue.camera.shared_frame import SharedFrame
 from tricue.track.base.track import Track, Tracker
 from tricue.track.multi.frame_memory import FrameMemory, Layout
 from tricue.track.multi.messages import WAKE, PlainTracks, receive, send, to_plain
-from tricue.track.multi.targets import Targets
+from tricue.track.multi.targets import Targets, keeps_images
 
 MAX_POLLS = 1000  # some milliseconds
 
@@ -29,13 +30,17 @@ class Worker:
         self, target: int, tracker: Tracker, layout: Layout, box: BoxLike | None
     ) -> tuple[Track, list[str]]:
         """The first track, and what was warned of."""
-        frame = self._memory.read(layout)
+        frame = self._frame(layout, keeps_images(tracker))
         return self._targets.add(target, tracker, frame, box), frame.messages
 
     def update(self, number: int, layout: Layout) -> tuple[PlainTracks, list[str]]:
         """The tracks of all targets, and what was warned of."""
-        frame = self._memory.read(layout)
+        frame = self._frame(layout, self._targets.keep_images)
         return to_plain(self._targets.update(number, frame)), frame.messages
+
+    def _frame(self, layout: Layout, kept: bool) -> SharedFrame:
+        """The frame in the memory, which the next one overwrites; a copy where its images may be kept."""
+        return self._memory.copy(layout) if kept else self._memory.read(layout)
 
 
 def run(connection_file: int, memory_file: int) -> None:
