@@ -165,6 +165,10 @@ def test_bad_arguments_are_named(wrong, error):
 
 
 def test_bad_angles_are_named():
-    """NaN is no angle."""
-    with pytest.raises(ValueError, match="pan: expected a finite number"):
-        PanTilt(CAMERA).command(track_at(0, 0), math.nan, 0.0)
+    """NaN is no angle, and no time; the next command is as if there had been none such."""
+    head = PanTilt(CAMERA)
+    for wrong in ({"pan": math.nan}, {"tilt": math.inf}, {"timestamp": math.nan}, {"timestamp": math.inf}):
+        with pytest.raises(ValueError, match=f"{next(iter(wrong))}: expected a finite number"):
+            head.command(track_at(9, 0), **{"timestamp": 5.0, **wrong})
+    for seconds in (0.0, 0.1):
+        assert head.command(track_at(9, 0), timestamp=seconds).pan_speed > 0

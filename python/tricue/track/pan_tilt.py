@@ -99,12 +99,13 @@ class PanTilt:
 
         pan, tilt: the head's angles when the frame was taken, radians; without them the last command counts
         as done. timestamp: of the frame, seconds. ValueError for a track without a position where there are
-        no intrinsics.
+        no intrinsics, and for numbers that aren't finite.
         """
-        interval = validation.elapsed(self._now, timestamp, self.rate)
-        self._now = (self._now or 0.0) + interval if timestamp is None else timestamp
+        now = None if timestamp is None else finite(timestamp, "timestamp", "seconds")
         given = (self._last.pan if pan is None else pan), (self._last.tilt if tilt is None else tilt)
         angles = np.array([finite(given[0], "pan", "radians"), finite(given[1], "tilt", "radians")])
+        interval = validation.elapsed(self._now, now, self.rate)
+        self._now = (self._now or 0.0) + interval if now is None else now
         if track.status is Status.LOST:
             self._target, self._velocity = None, np.zeros(2)
             speeds = np.zeros(2)

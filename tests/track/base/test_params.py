@@ -183,3 +183,11 @@ def test_deprecations_point_at_the_users_line(make: Callable[[], object]) -> Non
     with pytest.warns(DeprecationWarning, match="deprecated") as caught:
         make()
     assert [(each.filename, each.lineno) for each in caught] == [(__file__, make.__code__.co_firstlineno)]
+
+
+@pytest.mark.parametrize("name", ["color-particle", "fused"])
+@pytest.mark.parametrize("rate", [0, -1, float("nan"), "fast"])
+def test_frames_of_a_wrong_rate_are_no_seconds(name: str, rate: Any) -> None:
+    """The parameter that is wrong is named, though another one is converted by it."""
+    with pytest.raises((TypeError, ValueError), match="rate: expected"):
+        tricue.create(name, lost_after=5, rate=rate)

@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from tricue.camera import toml
-from tricue.camera.numbers import to_float
+from tricue.camera.numbers import positive, to_float
 
 if typing.TYPE_CHECKING:
     from typing_extensions import Self
@@ -154,12 +154,12 @@ def _caller_stacklevel() -> int:
 def seconds_of_frames(value: Any, name: str, rate: float) -> Any:
     """Convert a duration in frames, as version 0.1.0 took it (a whole number), to seconds.
 
-    Other values are returned unchanged. rate: frames/s. Warns (DeprecationWarning): the next release takes
-    whole numbers for seconds.
+    Other values are returned unchanged. rate: frames/s; ValueError or TypeError names it if it's no positive
+    number. Warns (DeprecationWarning): the next release takes whole numbers for seconds.
     """
     if not isinstance(value, int) or isinstance(value, bool) or value < 1:
         return value
-    seconds = to_float(value) / rate
+    seconds = to_float(value) / positive(rate, "rate", "frames/s")
     message = (
         f"{name}: a number of frames is deprecated, give seconds: {seconds:.3g} instead of {value!r:.20}"
     )
