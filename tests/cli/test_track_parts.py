@@ -49,6 +49,17 @@ def test_a_box_of_a_later_frame(images: Path, tmp_path: Path, capsys: pytest.Cap
     assert found[:4] == [("3", "1"), ("4", "1"), ("4", "2"), ("5", "1")]
 
 
+def test_a_box_of_a_frame_that_never_comes(
+    images: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that the other targets are tracked, whole, and that the exit code tells of this one."""
+    words = ["--box", FIRST, "--box", f"8:{OTHER}", "--csv", str(tmp_path / "o.csv")]
+    code, printed, error = run(capsys, str(images), *words)
+    assert (code, error) == (2, "tricue track: --box 8:...: expected a frame from 0 to 7\n")
+    assert any(line.startswith("wrote") for line in printed)
+    assert [row["frame"] for row in rows(tmp_path / "o.csv")] == [str(number) for number in range(8)]
+
+
 @pytest.mark.parametrize(
     ("words", "error"),
     [

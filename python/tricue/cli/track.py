@@ -5,7 +5,7 @@ import argparse
 import dataclasses
 import math
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, redirect_stdout
 from itertools import islice, takewhile
 from pathlib import Path
@@ -22,7 +22,7 @@ from tricue.cli.starts import start_hint
 from tricue.cli.steps import RunClock, steps, steps_of_targets
 from tricue.cli.track_options import EXAMPLES, add_options
 from tricue.cli.track_preparation import TrackRun, prepare
-from tricue.cli.track_report import not_started, plot, report
+from tricue.cli.track_report import not_started, plot, report, require_all_started
 from tricue.export.table import TableForm
 from tricue.track.base.track import Track, Tracker
 
@@ -58,12 +58,10 @@ def run(options: argparse.Namespace) -> int:
         raise ValueError(not_started(run, clock))
     with redirect_stdout(sys.stderr if options.json == STANDARD_OUTPUT else sys.stdout):
         report(run, clock, tracks, lost, interrupted)
-        notes += run.source.remarks
-        notes += [f"wrote {output.about}" for output in outputs if output.about]
-        if options.plot:
-            notes.append(plot(options.plot, run, tracks.get(1, {})))
-        for note in notes:
+        for note in [*notes, *run.source.remarks, *_results(options, run, outputs, tracks.get(1, {}))]:
             print(note)
+    if not interrupted:
+        require_all_started(run, clock)
     return 128 + signal_number if interrupted else 0
 
 
@@ -93,6 +91,15 @@ def _outputs(options: argparse.Namespace, run: TrackRun) -> Iterator[Output]:
         yield MotOutput(options.mot, positions=not run.assumed)
     if options.coco:
         yield CocoOutput(options.coco, Path(run.source.name).name, run.source.fps)
+
+
+def _results(
+    options: argparse.Namespace, run: TrackRun, outputs: Sequence[Output], first: Mapping[int, Track]
+) -> Iterator[str]:
+    """What was written; first: the tracks of the first target by frame, for the plot."""
+    yield from (f"wrote {output.about}" for output in outputs if output.about)
+    if options.plot:
+        yield plot(options.plot, run, first)
 
 
 def _about(options: argparse.Namespace, run: TrackRun) -> dict[str, Any]:

@@ -56,6 +56,13 @@ def not_started(run: TrackRun, clock: RunClock) -> str:
     return f"{run.source.name}: {reason}; {BOX_HINT}"
 
 
+def require_all_started(run: TrackRun, clock: RunClock) -> None:
+    """ValueError where the frame of a target's box never came."""
+    end = run.first + clock.decoded
+    if left := [number for number, _ in run.boxes if number >= end]:
+        raise ValueError(f"--box {left[0]}:...: expected a frame from {run.first} to {end - 1}")
+
+
 def plot(path: Path, run: TrackRun, tracks: Mapping[int, Track]) -> str:
     """Write the path seen from above; a note about the result."""
     from tricue.draw.paths import save_path
