@@ -7,14 +7,14 @@
 
 namespace tricue {
 
-using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
+using BlockFlags = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
 /// What N blocks are, and the votes that they have.
 struct BlockVotes {
     Indices states;   ///< int64 (N,): 0 not the target's, 1 the target's, 2 occluded
     Indices votes;    ///< int64 (N,): frames for a block to become the target's
     Indices against;  ///< int64 (N,): frames for it to leave its state
-    Flags core;       ///< bool (N,): blocks that the target's disparity alone keeps
+    BlockFlags core;  ///< bool (N,): blocks that the target's disparity alone keeps
     Indices trusted;  ///< int64 (N,): frames for which a block counts in the model after it had target pixels
     Indices unproven;  ///< int64 (N,): frames with the target's disparity since it had target pixels
 };

@@ -49,8 +49,8 @@ Array<float> color_posterior_arrays(const Bytes& image, const Array<float>& tabl
 Bytes pick_pixels_arrays(const Bytes& image, const Array<std::int64_t>& places) {
     const auto view = color_image(image, "image");
     const auto array = require<std::int64_t>(places, "places", 2, "int64 (R, C)");
-    const Eigen::Map<const Places> each(contiguous<std::int64_t>(array, "places"), array.shape(0),
-                                        array.shape(1));
+    const Eigen::Map<const PixelPlaces> each(contiguous<std::int64_t>(array, "places"), array.shape(0),
+                                             array.shape(1));
     return give(unlocked(each.size(), [&] { return pick_pixels(view, each); }),
                 {each.rows(), each.cols(), 3});
 }

@@ -24,7 +24,7 @@ Eigen::Map<const Floats> plane(const Floating& numbers, const char* name, const 
     return floats(numbers, name, {-1, -1}, expected);
 }
 
-Eigen::Map<const Places> pixel_places(const Array<std::int64_t>& places) {
+Eigen::Map<const PixelPlaces> pixel_places(const Array<std::int64_t>& places) {
     const auto array = require<std::int64_t>(places, "places", 2, "int64 (2R, 2C)");
     return {contiguous<std::int64_t>(array, "places"), array.shape(0), array.shape(1)};
 }

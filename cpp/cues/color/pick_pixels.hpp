@@ -9,8 +9,8 @@
 namespace tricue {
 
 using PixelBytes = Eigen::Array<std::uint8_t, Eigen::Dynamic, 1>;
-using Places = Eigen::Array<std::int64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using PlacesRef = Eigen::Ref<const Places>;
+using PixelPlaces = Eigen::Array<std::int64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using PlacesRef = Eigen::Ref<const PixelPlaces>;
 
 /// An image whose pixels are those of another at given places: a map to other coordinates, such as log-polar ones, by nearest pixels.
 ///

@@ -128,9 +128,9 @@ void compare(const std::uint32_t* __restrict all, const QuadPlace& all_place, in
     }
 }
 
-GrayImage downsampled(const ImageView& image, const Region& part) {
+GrayLevel downsampled(const ImageView& image, const Region& part) {
     const int width = part.x1 - part.x0, height = part.y1 - part.y0;
-    GrayImage half{(image.rows + 1) / 2, (image.cols + 1) / 2, part, {}};
+    GrayLevel half{(image.rows + 1) / 2, (image.cols + 1) / 2, part, {}};
     half.pixels.resize(static_cast<std::size_t>(height) * static_cast<std::size_t>(width) + kRowBlock);
     const int first = 2 * part.x0 - 2;
     const Region source = finer_source(part, image.rows, image.cols);
@@ -155,8 +155,8 @@ Region finer_source(const Region& part, int rows, int cols) {
             std::min(2 * part.y1 + 1, rows)};
 }
 
-std::vector<GrayImage> coarser_levels(const ImageView& image, const std::vector<Region>& parts) {
-    std::vector<GrayImage> images;
+std::vector<GrayLevel> coarser_levels(const ImageView& image, const std::vector<Region>& parts) {
+    std::vector<GrayLevel> images;
     for (const Region& part : parts)
         images.push_back(downsampled(images.empty() ? image : images.back().view(), part));
     return images;

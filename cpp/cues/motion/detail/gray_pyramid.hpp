@@ -11,7 +11,7 @@
 namespace tricue {
 
 /// A part of a gray image that owns its pixels.
-struct GrayImage {
+struct GrayLevel {
     int rows, cols;  ///< of the whole image
     Region part;
     std::vector<std::uint8_t> pixels;  ///< and a block more, as rows are read by blocks (row_block.hpp)
@@ -25,7 +25,7 @@ struct GrayImage {
 
 /// Parts of all levels of the image's pyramid but the first, parts[0] being of the second. Each level is every second pixel of the one
 /// before, smoothed by 1, 4, 6, 4, 1 and rounded; the border is replicated. A part holds the source of the next one.
-std::vector<GrayImage> coarser_levels(const ImageView& image, const std::vector<Region>& parts);
+std::vector<GrayLevel> coarser_levels(const ImageView& image, const std::vector<Region>& parts);
 
 /// What a part of a level is made of, in the next finer level of that size.
 Region finer_source(const Region& part, int rows, int cols);
