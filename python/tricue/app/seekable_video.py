@@ -51,7 +51,7 @@ def read_index(path: Path) -> VideoIndex:
         stream = container.streams.video[0]
         packets = [
             (packet.pts, packet.is_keyframe)
-            for packet in _packets(container, stream, path)
+            for packet in _packets(container, stream)
             if packet.size and not packet.is_discard
         ]
         unit = stream.time_base or Fraction(1, 1000)
@@ -197,7 +197,7 @@ def _opened(path: Path) -> Any:
     return container
 
 
-def _packets(container: Any, stream: Any, path: Path) -> Iterator[Any]:
+def _packets(container: Any, stream: Any) -> Iterator[Any]:
     """The packets up to where the file is cut off or damaged."""
     try:
         yield from container.demux(stream)

@@ -104,15 +104,13 @@ def leave_image(motion: StressMotion, span: range, rng: np.random.Generator) -> 
     edges = np.array([[-1, 0], [1, 0], [0, -1]])
     leaves, returns = rng.permutation(3)[:2]
     for frame, edge, step in ((out, edges[leaves], -1), (last, edges[returns], 1)):
-        _cross_edge(motion, frame, edge, step, pace, rng)
+        _cross_edge(motion, frame, edge, step, pace)
     between = np.arange(out + 1, last)
     corner = np.array([-2.0 * camera.width, gone[1]])
     path.pixels[between] = corner
 
 
-def _cross_edge(
-    motion: StressMotion, frame: int, edge: Array, step: int, pace: float, rng: np.random.Generator
-) -> None:
+def _cross_edge(motion: StressMotion, frame: int, edge: Array, step: int, pace: float) -> None:
     """Connect the path inside with ``frame``, the first or the last frame wholly outside of the image.
 
     edge: its outward normal. step: 1 connects the frames after ``frame``, -1 those before. pace: the largest

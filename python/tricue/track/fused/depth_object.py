@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tricue.camera.box import Box
+from tricue.track.base.validation import ADDED_TIME_ERROR
 from tricue.track.depth_objects.floor import NO_FLOOR
 from tricue.track.depth_objects.foreground import Foreground, extract_foreground
 from tricue.track.depth_objects.objects import EVERYWHERE, Region, segment
@@ -31,7 +32,6 @@ MAX_GROWTH_OF_PART = 2.0  # the same of an object of which a part was hidden
 MIN_RENEWED_GROWTH = 3.0  # of the area, from which the models know too little of the target
 REGION = 2 * MAX_GROWTH_OF_PART  # times the target's box, in which its object is looked for
 INTERVAL = 0.2  # seconds between two looks: each takes as long as half of all other steps
-CLOCK_ERROR = 1e-6  # seconds, of times that are added up
 
 
 class SeenObject(NamedTuple):
@@ -87,7 +87,7 @@ class DepthObject(NamedTuple):
     @property
     def is_due(self) -> bool:
         """Whether it is time to look for it."""
-        return self.seconds >= INTERVAL - CLOCK_ERROR
+        return self.seconds >= INTERVAL - ADDED_TIME_ERROR
 
     @property
     def outgrew_models(self) -> bool:

@@ -12,6 +12,7 @@ import cv2
 import numpy as np
 
 from tricue.camera.shared_frame import warn_of_frame
+from tricue.track.base.validation import ADDED_TIME_ERROR
 from tricue.track.fused.arrays import Image, Plane
 from tricue.track.fused.depth_sources import DepthImageSource
 from tricue.track.fused.frame_observation import FrameObservation
@@ -19,7 +20,6 @@ from tricue.track.fused.frame_observation import FrameObservation
 MAX_METERS, MIN_METERS = 100.0, 0.01  # no depth camera measures more, or less; all of it is in another unit
 SAMPLED = 24, 32  # rows and columns that are looked at, about
 MIN_FROZEN_FRAMES, MIN_FROZEN_SECONDS = 15, 0.5  # slow depth cameras repeat an image for less
-SECONDS_ERROR = 1e-6  # of times that are added up
 MIN_COLOR_CHANGE, MIN_CHANGED_SHARE = 10, 0.01  # levels of a sample, above noise; of the samples
 
 
@@ -74,7 +74,7 @@ class DepthTrust(NamedTuple):
             first = None if color is None else _thin(color)
         repeats, passed = self.repeats + 1, self.seconds + seconds
         frozen = self.frozen
-        if repeats >= MIN_FROZEN_FRAMES and passed >= MIN_FROZEN_SECONDS - SECONDS_ERROR and not frozen:
+        if repeats >= MIN_FROZEN_FRAMES and passed >= MIN_FROZEN_SECONDS - ADDED_TIME_ERROR and not frozen:
             frozen = first is not None and color is not None and _differs(first, _thin(color))
         return DepthTrust(content, checksum, first, repeats, passed, frozen, self.told)
 

@@ -4,6 +4,7 @@
 from dataclasses import dataclass
 from typing import Any
 
+from tricue.track.base.validation import ADDED_TIME_ERROR
 from tricue.track.fused.clutter import NO_CLUTTER, Clutter
 from tricue.track.fused.depth_object import DepthObject
 from tricue.track.fused.depth_trust import DepthTrust
@@ -19,7 +20,6 @@ from tricue.track.fused.target import Target
 
 FRESH_TRUST = DepthTrust()  # before the first frame
 NO_MOTION = Motion()  # after it
-CLOCK_ERROR = 1e-6  # seconds, of times that are added up
 MIN_LOST_FRAMES = 3  # missed in a row, until the target is LOST
 
 
@@ -68,4 +68,4 @@ class State:
 
     def is_followed(self, p: FusedParams) -> bool:
         """Whether it is where it should be, or was missed for so short a time that it may still be."""
-        return self.missed_frames == 0 or self.missed_seconds <= p.max_doubt + CLOCK_ERROR
+        return self.missed_frames == 0 or self.missed_seconds <= p.max_doubt + ADDED_TIME_ERROR
