@@ -24,11 +24,11 @@ void require_finite(const double* values, Eigen::Index count, const char* name) 
     refuse(name, "finite numbers", *values);
 }
 
-std::string shape(Eigen::Index rows, Eigen::Index cols) {
+}  // namespace
+
+std::string shape_text(Eigen::Index rows, Eigen::Index cols) {
     return "(" + std::to_string(rows) + ", " + std::to_string(cols) + ")";
 }
-
-}  // namespace
 
 void refuse(const char* name, const std::string& expected, const std::string& got) {
     throw std::invalid_argument(std::string(name) + ": expected " + expected + ", got " + got);
@@ -38,6 +38,10 @@ void refuse(const char* name, const std::string& expected, double got) {
     char text[32];
     std::snprintf(text, sizeof text, "%g", got);
     refuse(name, expected, std::string(text));
+}
+
+void require_not_negative(double value, const char* name) {
+    if (!(value >= 0.0 && std::isfinite(value))) refuse(name, "a finite number, not negative", value);
 }
 
 void require_share(double share) {
@@ -56,7 +60,12 @@ void require_size(VectorRef values, Eigen::Index size, const char* name) {
 
 void require_shape(StatesRef values, Eigen::Index rows, Eigen::Index cols, const char* name) {
     if (values.rows() != rows || values.cols() != cols)
-        refuse(name, "shape " + shape(rows, cols), shape(values.rows(), values.cols()));
+        refuse(name, "shape " + shape_text(rows, cols), shape_text(values.rows(), values.cols()));
+}
+
+void require_same_shape(const PlaneView& values, const PlaneView& other, const char* name) {
+    if (values.rows != other.rows || values.cols != other.cols)
+        refuse(name, "shape " + shape_text(other.rows, other.cols), shape_text(values.rows, values.cols));
 }
 
 void require_finite(VectorRef values, const char* name) {

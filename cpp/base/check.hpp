@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/arrays.hpp"
+#include "base/plane_view.hpp"
 
 namespace tricue {
 
@@ -11,9 +12,11 @@ constexpr int kMaxImageSide = 16384;  ///< of an image that a kernel makes, pixe
 
 /// Each throws std::invalid_argument that names the argument, what was expected and what was given.
 void require_share(double share);
+void require_not_negative(double value, const char* name);  ///< and finite
 void require_count(int count, int least, int most, const char* name);
 void require_size(VectorRef values, Eigen::Index size, const char* name);
 void require_shape(StatesRef values, Eigen::Index rows, Eigen::Index cols, const char* name);
+void require_same_shape(const PlaneView& values, const PlaneView& other, const char* name);
 void require_finite(VectorRef values, const char* name);
 void require_finite(StatesRef values, const char* name);
 
@@ -25,5 +28,8 @@ double require_weights(VectorRef weights);
 
 [[noreturn]] void refuse(const char* name, const std::string& expected, const std::string& got);
 [[noreturn]] void refuse(const char* name, const std::string& expected, double got);
+
+/// "(rows, cols)", for messages.
+std::string shape_text(Eigen::Index rows, Eigen::Index cols);
 
 }  // namespace tricue

@@ -16,10 +16,6 @@ std::vector<float> find_slopes(int n, double focal_length, double center) {
     return slopes;
 }
 
-std::string shape(int rows, int cols) {
-    return "(" + std::to_string(rows) + ", " + std::to_string(cols) + ")";
-}
-
 }  // namespace
 
 float round_up_to_float(double s) {
@@ -51,12 +47,12 @@ Rays find_rays(VectorRef camera, const DepthView& depth) {
 
 void require_same_shape(const DepthView& values, const DepthView& depth, const char* name) {
     if (values.rows != depth.rows || values.cols != depth.cols)
-        refuse(name, "shape " + shape(depth.rows, depth.cols), shape(values.rows, values.cols));
+        refuse(name, "shape " + shape_text(depth.rows, depth.cols), shape_text(values.rows, values.cols));
 }
 
 void require_mask(const ImageView& mask, const DepthView& depth) {
     if (mask.rows != depth.rows || mask.cols != depth.cols)
-        refuse("mask", "shape " + shape(depth.rows, depth.cols), shape(mask.rows, mask.cols));
+        refuse("mask", "shape " + shape_text(depth.rows, depth.cols), shape_text(mask.rows, mask.cols));
 }
 
 }  // namespace tricue

@@ -21,15 +21,10 @@ void combine_row(const float* __restrict first, const float* __restrict second, 
     }
 }
 
-std::string shape(const PlaneView& plane) {
-    return "(" + std::to_string(plane.rows) + ", " + std::to_string(plane.cols) + ")";
-}
-
 }  // namespace
 
 Floats combine_posteriors(const PlaneView& first, const PlaneView& second) {
-    if (second.rows != first.rows || second.cols != first.cols)
-        refuse("second", "shape " + shape(first), shape(second));
+    require_same_shape(second, first, "second");
     Floats combined(first.rows, first.cols);
     for (int i = 0; i < first.rows; ++i)
         combine_row(first.row(i), second.row(i), first.cols, combined.row(i).data());

@@ -25,10 +25,6 @@ constexpr float kMaxReading = 1e6F;   // of what counts in the sum of all weight
 constexpr double kLeastSum = 1e-300;  // keeps a density of zeros from a division by 0
 constexpr float kMaxFloat = std::numeric_limits<float>::max();
 
-std::string shape(const PlaneView& plane) {
-    return "(" + std::to_string(plane.rows) + ", " + std::to_string(plane.cols) + ")";
-}
-
 ValueRange range_of(const ExpectedPeak& peak, int bins) {
     return {peak.value - peak.half_range, peak.value + peak.half_range, bins};
 }
@@ -48,8 +44,7 @@ void require_arguments(const std::vector<CueMap>& maps, const std::vector<Expect
                std::to_string(expected.size()));
     for (const CueMap& map : maps)
         for (const PlaneView& plane : {map.readings, map.weights})
-            if (shape(plane) != shape(maps[0].readings))
-                refuse("maps", "shape " + shape(maps[0].readings), shape(plane));
+            require_same_shape(plane, maps[0].readings, "maps");
     if (rules.bins < 2) refuse("bins", "2 to 65536", std::to_string(rules.bins));
     for (const ExpectedPeak& peak : expected) {
         require_range(range_of(peak, rules.bins));

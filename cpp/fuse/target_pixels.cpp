@@ -20,10 +20,6 @@ using Table = std::vector<float>;
 /// Whole rows whose ratios are found at once: those of a small region are too short to begin a loop for each.
 constexpr int kBandPixels = 4096;
 
-std::string shape(const PlaneView& plane) {
-    return "(" + std::to_string(plane.rows) + ", " + std::to_string(plane.cols) + ")";
-}
-
 constexpr double kSumTolerance = 1e-6;  // of densities' sums
 constexpr double kMaxRatio = 1e12;      // the product of three fits a float
 
@@ -54,10 +50,7 @@ ValueRange range_of(const Cue& cue) {
 
 void require_arguments(const std::vector<Cue>& cues, double threshold) {
     if (cues.empty() || cues.size() > 3) refuse("planes", "1 to 3", std::to_string(cues.size()));
-    for (const Cue& cue : cues) {
-        if (shape(cue.readings) != shape(cues[0].readings))
-            refuse("planes", "shape " + shape(cues[0].readings), shape(cue.readings));
-    }
+    for (const Cue& cue : cues) require_same_shape(cue.readings, cues[0].readings, "planes");
     for (const Cue& cue : cues) {
         require_range(range_of(cue));
         require_density(cue.density);

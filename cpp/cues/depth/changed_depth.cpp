@@ -17,15 +17,11 @@ void compare_row(const float* __restrict depth, const float* __restrict before, 
         n, [=](std::ptrdiff_t x) { changed[x] = has_changed(depth[x], before[x], noise, slope); });
 }
 
-void require_limit(double value, const char* name) {
-    if (!(value >= 0.0 && std::isfinite(value))) refuse(name, "a finite number, not negative", value);
-}
-
 }  // namespace
 
 void require_noise(double noise, double slope) {
-    require_limit(noise, "noise");
-    require_limit(slope, "slope");
+    require_not_negative(noise, "noise");
+    require_not_negative(slope, "slope");
 }
 
 Labels changed_depth(const DepthView& depth, const DepthView& before, double noise, double slope) {

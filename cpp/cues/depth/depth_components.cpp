@@ -252,14 +252,10 @@ std::vector<ComponentCounts> count_components(const PixelRuns& runs, const Group
     return tallies;
 }
 
-std::string shape(int rows, int cols) {
-    return "(" + std::to_string(rows) + ", " + std::to_string(cols) + ")";
-}
-
 void require_arguments(const ImageView& labels, const DepthView& depth, const Signature& signature,
                        int min_area) {
     if (labels.rows != depth.rows || labels.cols != depth.cols)
-        refuse("labels", "shape " + shape(depth.rows, depth.cols), shape(labels.rows, labels.cols));
+        refuse("labels", "shape " + shape_text(depth.rows, depth.cols), shape_text(labels.rows, labels.cols));
     if (!(signature.near >= 0.0 && std::isfinite(signature.near)))
         refuse("near", "a finite number, not negative", signature.near);
     if (!(signature.far > signature.near && std::isfinite(signature.far)))

@@ -16,10 +16,6 @@ namespace {
 
 constexpr float kUnmeasured = std::numeric_limits<float>::infinity();
 
-void require_step(double value, const char* name) {
-    if (!(value >= 0.0 && std::isfinite(value))) refuse(name, "a finite number, not negative", value);
-}
-
 inline float smaller(float a, float b) {
     return a < b ? a : b;
 }
@@ -51,8 +47,8 @@ void edges_of_row(const float* __restrict depth, const float* __restrict above, 
 }  // namespace
 
 void require_gap(double gap, double slope) {
-    require_step(gap, "gap");
-    require_step(slope, "slope");
+    require_not_negative(gap, "gap");
+    require_not_negative(slope, "slope");
 }
 
 Labels depth_edges(const DepthView& depth, double gap, double slope) {

@@ -109,15 +109,11 @@ void fill_pass(PaddedDepth& image, float gap, float slope) {
     }
 }
 
-void require_step(double value, const char* name) {
-    if (!(value >= 0.0 && std::isfinite(value))) refuse(name, "a finite number, not negative", value);
-}
-
 }  // namespace
 
 void require_gaps(const Gaps& gaps) {
-    require_step(gaps.gap, "gap");
-    require_step(gaps.slope, "slope");
+    require_not_negative(gaps.gap, "gap");
+    require_not_negative(gaps.slope, "slope");
     if (!(gaps.ragged >= 0.0 && gaps.ragged <= 1.0)) refuse("ragged", "a share from 0 to 1", gaps.ragged);
     require_count(gaps.passes, 0, kMaxPasses, "passes");
 }

@@ -9,7 +9,7 @@
 namespace tricue {
 namespace {
 
-std::string shape(int planes, int rows, int cols) {
+std::string shape_text(int planes, int rows, int cols) {
     return "(" + std::to_string(planes) + ", " + std::to_string(rows) + ", " + std::to_string(cols) + ")";
 }
 
@@ -18,15 +18,11 @@ std::string shape(const FilterStack& filters) {
            std::to_string(filters.rows) + ", " + std::to_string(filters.cols) + ")";
 }
 
-std::string shape(Eigen::Index rows, Eigen::Index cols) {
-    return "(" + std::to_string(rows) + ", " + std::to_string(cols) + ")";
-}
-
 }  // namespace
 
 void require_cells(const FloatStack& cells) {
     if (cells.planes < 1 || cells.rows < 1 || cells.cols < 1)
-        refuse("cells", "at least one channel and cell", shape(cells.planes, cells.rows, cells.cols));
+        refuse("cells", "at least one channel and cell", shape_text(cells.planes, cells.rows, cells.cols));
 }
 
 void require_filters(const FilterStack& filters, const FloatStack& cells) {
@@ -39,14 +35,14 @@ void require_filters(const FilterStack& filters, const FloatStack& cells) {
 void require_filter(const char* name, const ComplexStack& filter, const FloatStack& cells) {
     const int half = cells.cols / 2 + 1;
     if (filter.planes != cells.planes || filter.rows != cells.rows || filter.cols != half)
-        refuse(name, "shape " + shape(cells.planes, cells.rows, half),
-               shape(filter.planes, filter.rows, filter.cols));
+        refuse(name, "shape " + shape_text(cells.planes, cells.rows, half),
+               shape_text(filter.planes, filter.rows, filter.cols));
 }
 
 void require_plane(const char* name, Eigen::Index rows, Eigen::Index cols, int expected_rows,
                    int expected_cols) {
     if (rows != expected_rows || cols != expected_cols)
-        refuse(name, "shape " + shape(expected_rows, expected_cols), shape(rows, cols));
+        refuse(name, "shape " + shape_text(expected_rows, expected_cols), shape_text(rows, cols));
 }
 
 void require_denominator(FloatsRef denominator, const FloatStack& cells) {
