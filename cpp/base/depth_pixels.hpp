@@ -41,9 +41,6 @@ void require_camera(VectorRef camera);
 /// heights and depths above 0
 void require_object_table(StatesRef table);
 
-/// @throws std::invalid_argument unless both images have one shape
-void require_same_shape(const DepthView& values, const DepthView& depth, const char* name);
-
 /// @throws std::invalid_argument unless the mask has the depth image's shape
 void require_mask(const ImageView& mask, const DepthView& depth);
 
