@@ -157,8 +157,52 @@ def test_the_input_is_never_overwritten(
     assert (
         main(["track", str(path), "--tracker", drift_tracker, "--box", "1,2,8,9", "--output", str(path)]) == 2
     )
-    assert "expected another file than the input" in capsys.readouterr().err
+    assert "v.avi: expected a file to write to that isn't read" in capsys.readouterr().err
     assert path.read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    ("option", "name"),
+    [
+        ("--csv", "img/0002.png"),
+        ("--json", "img/0001.png"),
+        ("--mot", "groundtruth_rect.txt"),
+        ("--csv", "boxes.csv"),
+    ],
+)
+def test_what_is_read_is_never_overwritten(
+    option: str, name: str, drift_tracker: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that a folder's images and true boxes stay; a track that was written before is replaced."""
+    (tmp_path / "img").mkdir()
+    for number in range(1, 4):
+        cv2.imwrite(str(tmp_path / "img" / f"{number:04d}.png"), np.full((48, 64, 3), 99, np.uint8))
+    (tmp_path / ("boxes.csv" if name == "boxes.csv" else "groundtruth_rect.txt")).write_text("1,2,8,9\n" * 3)
+    before = (tmp_path / name).read_bytes()
+    words = ["track", str(tmp_path), "--tracker", drift_tracker, "--box", "1,2,8,9"]
+    assert main([*words, option, str(tmp_path / name)]) == 2
+    assert f"{name}: expected a file to write to that isn't read" in capsys.readouterr().err
+    assert (tmp_path / name).read_bytes() == before
+    for _ in range(2):
+        assert main([*words, option, str(tmp_path / "track.csv")]) == 0
+
+
+def test_labels_beside_a_video_are_never_overwritten(
+    drift_tracker: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that a table of true boxes stays; one that a tracker wrote is no such table."""
+    path, table = tmp_path / "v.avi", tmp_path / "v.csv"
+    writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), 10.0, (64, 48))
+    for _ in range(3):
+        writer.write(np.full((48, 64, 3), 99, np.uint8))
+    writer.release()
+    words = ["track", str(path), "--tracker", drift_tracker, "--box", "1,2,8,9", "--csv", str(table)]
+    for _ in range(2):
+        assert main(words) == 0
+    table.write_text("frame,x,y,width,height\n0,1,2,8,9\n")
+    assert main(words) == 2
+    assert "v.csv: expected a file to write to that isn't read" in capsys.readouterr().err
+    assert table.read_text() == "frame,x,y,width,height\n0,1,2,8,9\n"
 
 
 def test_a_damaged_image_leaves_whole_files(

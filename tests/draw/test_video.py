@@ -81,14 +81,18 @@ def test_an_mp4_is_h264(tmp_path: Path) -> None:
 def test_without_pyav_a_webm_is_written(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    """It proves that what browsers can't play is not written, that this is told, and no empty .mp4 stays."""
+    """It proves that what browsers can't play is not written, that this is told, that no empty .mp4 stays,
+    and that another video is not overwritten.
+    """
+    (tmp_path / "o.webm").write_bytes(b"another video")
     monkeypatch.setattr(PyAVEncoder, "available", staticmethod(lambda: False))
     with OverlayWriter(tmp_path / "o.mp4", 25.0) as writer:
         writer.write(np.zeros((48, 64, 3), np.uint8))
-    assert writer.path == tmp_path / "o.webm"
-    assert [path.name for path in tmp_path.iterdir()] == ["o.webm"]
+    assert writer.path == tmp_path / "o.mp4.webm"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["o.mp4.webm", "o.webm"]
+    assert (tmp_path / "o.webm").read_bytes() == b"another video"
     assert writer.path.read_bytes()[:4] == b"\x1a\x45\xdf\xa3"  # EBML, of which WebM is made
-    assert writer.about.endswith("o.webm (VP8, as H.264 needs PyAV: pip install 'tricue[video]')")
+    assert writer.about.endswith("o.mp4.webm (VP8, as H.264 needs PyAV: pip install 'tricue[video]')")
     assert capfd.readouterr().err == ""
 
 
@@ -106,7 +110,7 @@ def test_what_was_written_before_a_kill_plays(tmp_path: Path, name: str, encoder
     path = tmp_path / name
     done = subprocess.run([sys.executable, "-c", KILLED, str(path), encoder], check=False)
     assert done.returncode == -signal.SIGKILL
-    assert len(decoded(path if encoder == "pyav" else path.with_suffix(".webm"))) >= 150
+    assert len(decoded(path if encoder == "pyav" or name == "o.webm" else tmp_path / f"{name}.webm")) >= 150
 
 
 def _write_noise(encoder: PyAVEncoder, count: int) -> None:
@@ -136,6 +140,6 @@ def test_bad_names_are_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=r"o\.gif: expected a video file's name that ends in \.mp4, \.mkv"):
         OverlayWriter(tmp_path / "o.gif", 25.0)
     (tmp_path / "o.mp4").mkdir()
-    (tmp_path / "o.webm").mkdir()
+    (tmp_path / "o.mp4.webm").mkdir()
     with pytest.raises(OSError, match="directory"):
         OverlayWriter(tmp_path / "o.mp4", 25.0)

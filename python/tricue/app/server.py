@@ -13,6 +13,7 @@ from tricue.app.exports import EXPORTS, picture
 from tricue.app.feed import state, tell_page
 from tricue.app.serving import Serving
 from tricue.app.web import HEADERS, OwnPagesOnly, answer, attached, bound, jpeg, page_of
+from tricue.draw.video import written_path
 from tricue.errors import one_line
 
 
@@ -62,7 +63,7 @@ async def _export(serving: Serving, request: Request) -> Response:
         job = serving.session.job
         if job is None or job.path is None:
             return JSONResponse({"error": "the overlay video isn't written yet"}, 404, HEADERS)
-        path = job.path if job.path.exists() else job.path.with_suffix(".webm")
+        path = written_path(job.path)
         return FileResponse(path, headers=attached(name + ".overlay" + path.suffix))
     if kind not in EXPORTS:
         return JSONResponse({"error": f"expected one of {', '.join(EXPORTS)}, got {kind}"}, 404, HEADERS)

@@ -3,7 +3,8 @@
 
 import argparse
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -15,7 +16,9 @@ from tricue.cli.outputs import Step
 from tricue.cli.source_options import open_input, opening
 from tricue.cli.starts import choose_start, default_tracker
 from tricue.cli.steps import Start
+from tricue.data.input_files import input_files
 from tricue.data.open_source import Source
+from tricue.draw.video import written_path
 from tricue.track.base.settings import make_tracker, read_settings
 from tricue.track.base.track import Tracker
 from tricue.track.multi.tracker import MultiTracker
@@ -75,12 +78,7 @@ def prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
         check_format(options.plot)
     source = open_input(options)
     options.tracker = options.tracker or default_tracker(options, source)
-    right = Path(options.right) if options.right else None
-    files = options.output, options.csv, options.json, options.mot, options.coco, options.plot
-    outputs = [path for path in files if path]
-    for place in (Path(options.input), right, options.calibration, options.params):
-        _check_not_input(place, outputs)
-    _check_different(outputs)
+    _check_outputs(options, source)
     found = find_calibration(options, source)
     source = found.prepare(source)
     tracker = make_tracker(
@@ -102,10 +100,23 @@ def prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
     return run, [*source.notes, *([found.note] if found.note else [])]
 
 
-def _check_not_input(place: Path | None, outputs: Sequence[Path]) -> None:
-    for path in outputs:
-        if place and path.exists() and place.exists() and path.samefile(place):
-            raise ValueError(f"{path}: expected another file than the input to write to")
+def _check_outputs(options: argparse.Namespace, source: Source) -> None:
+    """ValueError for an output that would be written over what is read, or over another output."""
+    overlay = options.output and written_path(options.output)
+    files = overlay, options.csv, options.json, options.mot, options.coco, options.plot
+    outputs = [path for path in files if path]
+    place = Path(options.input)
+    given = place, options.right and Path(options.right), options.depth, options.calibration, options.params
+    _check_not_read(outputs, chain(filter(None, given), input_files(source, place)))
+    _check_different(outputs)
+
+
+def _check_not_read(outputs: Sequence[Path], read: Iterable[Path]) -> None:
+    there = [path for path in outputs if path.exists()]
+    inputs = {path.resolve() for path in read} if there else set()
+    for path in there:
+        if path.resolve() in inputs:
+            raise ValueError(f"{path}: expected a file to write to that isn't read")
 
 
 def _check_different(outputs: Sequence[Path]) -> None:

@@ -67,6 +67,14 @@ def otb_targets(folder: Path) -> tuple[str, ...]:
     return tuple(sorted((name[1] for name in names if name), key=int))
 
 
+def truth_files(folder: Path) -> list[Path]:
+    """All that this module reads in a folder."""
+    names = [OTB_TRUTH, VOT_TRUTH, ABSENT_TAG, DEPTHS_FILE]
+    names += [PRINCETON_FIRST_BOX, f"{folder.resolve().name}.txt"]
+    names += [f"groundtruth_rect.{target}.txt" for target in otb_targets(folder)]
+    return [folder / name for name in names if (folder / name).is_file()]
+
+
 def add_tags_and_depths(truth: Truth, folder: Path) -> Truth:
     """Add VOT's tags of absent frames and the file of depths, where the folder has them."""
     if (folder / ABSENT_TAG).is_file():

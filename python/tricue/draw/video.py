@@ -17,8 +17,9 @@ SUFFIXES = (".mp4", ".mkv", ".webm", ".avi")
 class OverlayWriter:
     """Writes images to a video file; use it in ``with``.
 
-    .mp4 and .mkv are H.264, .webm is VP9, by PyAV (``tricue[video]``). Without PyAV a .webm of the same name
-    is written, VP8 by OpenCV, and ``note`` says so. .avi is MJPG, by OpenCV. ``path`` is the file written.
+    .mp4 and .mkv are H.264, .webm is VP9, by PyAV (``tricue[video]``). Without PyAV they become
+    .mp4.webm and .mkv.webm, VP8 by OpenCV, and ``note`` says so. .avi is MJPG, by OpenCV. ``path`` is the
+    file written.
     The file is complete when ``with`` is left, also by an exception; of a process that is killed it has what
     was written until a second or so before. The first image sets the size; odd ones get one more row or
     column. fps: frames per second. ValueError for another suffix, OSError where the file can't be written.
@@ -32,9 +33,9 @@ class OverlayWriter:
         if suffix not in SUFFIXES:
             raise ValueError(f"{path}: expected a video file's name that ends in {', '.join(SUFFIXES)}")
         self._by_pyav = suffix != ".avi" and PyAVEncoder.available()
-        if suffix in (".mp4", ".mkv") and not self._by_pyav:
+        self.path = written_path(self.path)
+        if self.path.suffix.lower() != suffix:
             self.note = "VP8, as H.264 needs PyAV: pip install 'tricue[video]'"
-            self.path = self.path.with_suffix(".webm")
         self.path.parent.mkdir(parents=True, exist_ok=True)
         self.path.open("wb").close()  # OpenCV doesn't say why it can't write
 
@@ -80,6 +81,15 @@ class OverlayWriter:
             raise OSError(
                 f"{self.path}: only {found} of {self._written} frames were written; is the disk full?"
             )
+
+
+def written_path(path: Path) -> Path:
+    """The file that :class:`OverlayWriter` writes for a name: o.mp4.webm for o.mp4 where PyAV is missing.
+
+    It isn't o.webm, which may be another video.
+    """
+    needs_pyav = path.suffix.lower() in (".mp4", ".mkv")
+    return path.with_name(f"{path.name}.webm") if needs_pyav and not PyAVEncoder.available() else path
 
 
 def count_frames(path: Path) -> int:

@@ -5,7 +5,6 @@ An :class:`Entry` is small: it can be sent to another process or machine, which 
 """
 
 import hashlib
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -18,10 +17,9 @@ from tricue.camera.numbers import positive
 from tricue.camera.read_calibration import read_intrinsics, read_rig
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.data.datasets import find_sequences
-from tricue.data.joint import JointStream
+from tricue.data.input_files import stream_files
 from tricue.data.layouts import list_targets
 from tricue.data.open_source import Source, open_source
-from tricue.data.streams import Images, Stream, Video
 
 FORMAT_RATES = {"KITTI tracking": 10.0}
 """Frames a second of the cameras of formats whose files don't contain them (Geiger et al. 2013)."""
@@ -185,7 +183,7 @@ class OpenedSequence:
             found.update(b"" if values is None else np.ascontiguousarray(values).tobytes())
         for name, stream in self.source.channels.items():
             found.update(
-                repr((name, [(path.name, path.stat().st_size) for path in _list_files(stream)])).encode()
+                repr((name, [(path.name, path.stat().st_size) for path in stream_files(stream)])).encode()
             )
         for path in (self.source.calibration, self.entry.place / STEREO_CALIBRATION):
             if path is not None and path.is_file():
@@ -221,15 +219,6 @@ def _depth_scale_of(entry: Entry, scale: float | None) -> float | None:
     source = open_source(entry.place, target=entry.target)
     has_depth = "depth" in source.channels or any("depth" in note for note in source.notes)
     return scale if has_depth else None
-
-
-def _list_files(stream: Stream) -> Sequence[Path]:
-    """The files of a recording; a camera has none."""
-    if isinstance(stream, Images):
-        return stream.paths
-    if isinstance(stream, JointStream):
-        return stream.joint.paths
-    return [stream.path] if isinstance(stream, Video) else []
 
 
 def _fit_to_frames(values: NDArray, frames: int, filler: float | bool) -> NDArray:  # type: ignore[type-arg]

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: MIT
+"""The files that a source is read from, which nothing may be written over."""
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from tricue.data.box_table import find_box_table, find_video_box_table
+from tricue.data.joint import JointStream
+from tricue.data.source import Source
+from tricue.data.streams import Images, Stream, Video
+from tricue.data.truth import truth_files
+
+
+def input_files(source: Source, place: Path) -> Iterator[Path]:
+    """Images, videos and recordings, the calibration, and the true boxes of the source that is at a place."""
+    for stream in source.channels.values():
+        yield from stream_files(stream)
+    if source.calibration is not None:
+        yield source.calibration
+    if place.is_dir():
+        yield from truth_files(place)
+    table = find_box_table(place) if place.is_dir() else find_video_box_table(place)
+    if table is not None:
+        yield table
+
+
+def stream_files(stream: Stream) -> Sequence[Path]:
+    """The files of a stream; a camera has none."""
+    if isinstance(stream, Images):
+        return stream.paths
+    if isinstance(stream, JointStream):
+        return stream.joint.paths
+    return [stream.path] if isinstance(stream, Video) else []
