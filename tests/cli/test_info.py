@@ -306,3 +306,12 @@ def test_real_data(data: Path, capsys: pytest.CaptureFixture[str]) -> None:
         if found["depth"]:
             assert 0 < found["depth"]["invalid"] < 0.9
             assert 0.1 < found["depth"]["near_m"] < found["depth"]["far_m"] < 10
+
+
+def test_a_target_is_tracked_by_its_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that ``tricue track`` starts on the target that ``tricue info`` lists."""
+    words = ["track", str(kitti(tmp_path / "kitti")), "--assume-fov", "60,45"]
+    assert main(words) == 2
+    assert "give --box" in capsys.readouterr().err
+    assert main([*words, "--target", "Van 3"]) == 0
+    assert capsys.readouterr().out.startswith("kitti Van 3: 2 frames")

@@ -204,7 +204,10 @@ BAD = [
     (["{depth}", "--depth-scale", "-1"], "depth_scale: expected meters per unit above 0, got -1.0"),
     (["{depth}", *MM, "--plot", "o.txt"], "o.txt: expected a picture's name that ends in .png"),
     (["{depth}", *MM, *FOV, "--plot", "{toml}"], ".*toml: expected a picture's name"),
-    (["{depth}", *MM, "--calibration", "{good}", "--json", "{good}"], ".* another file than the input"),
+    (
+        ["{depth}", *MM, "--calibration", "{good}", "--json", "{good}"],
+        ".* a file to write to that isn't read",
+    ),
     (
         ["{depth}", *MM, "--tracker", "color-particle"],
         "frame: .* channel color, .*; --tracker depth-particle tracks",

@@ -87,7 +87,8 @@ def test_true_boxes_count_from_the_start(
     (place / "groundtruth_rect.txt").write_text("".join(boxes))
     code, printed, _ = run(capsys, str(place), "--start", "3")
     assert code == 0
-    assert printed[-1].endswith("precision at 20 px 1.000")
+    assert printed[-2].endswith("precision at 20 px 1.000")
+    assert printed[-1].startswith("30 frames/s assumed, as nothing tells the times")
     assert "5 frames, 5 tracked" in printed[0]
 
 

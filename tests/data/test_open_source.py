@@ -267,3 +267,23 @@ def test_bad_inputs_are_named(tmp_path: Path, make: Callable[[Path], Path], mess
     """It proves that each unusable input is an error that names the file and says what is wrong."""
     with pytest.raises((ValueError, OSError), match=message):
         levels(open_source(make(tmp_path)))
+
+
+def test_a_text_is_no_video(tmp_path: Path) -> None:
+    """It proves that a file of true boxes isn't shown as FFmpeg shows texts: as a video of its letters."""
+    (tmp_path / "boxes.txt").write_text("1,2,3,4\n" * 100)
+    with pytest.raises(ValueError, match=r"boxes\.txt: expected a video or a folder, got a text"):
+        open_source(tmp_path / "boxes.txt")
+
+
+@pytest.mark.parametrize("place", [None, True, 1.5, ["a.mp4", "b.mp4"], np.zeros((2, 2))])
+def test_what_is_no_place_is_told(place: Any) -> None:
+    """It proves that the argument is named, whatever it is."""
+    with pytest.raises(TypeError, match="place: expected a path, a URL or a camera's number"):
+        open_source(place)
+
+
+def test_a_number_is_a_cameras() -> None:
+    """It proves that a whole number is taken as cv2 takes it."""
+    with pytest.raises(OSError, match="9999"):
+        open_source(9999)

@@ -89,7 +89,7 @@ def _facts(source: Source, options: argparse.Namespace) -> Summary:
         "format": source.format,
         "frames": frames,
         "fps": source.fps,
-        "fps_known": source.rate is not None or source.clock.timed,
+        "fps_known": source.knows_times,
         "seconds": compute_duration(source, frames),
         "channels": channels,
         "topics": summarize_topics(source),

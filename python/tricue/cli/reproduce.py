@@ -46,7 +46,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
         "--data",
         type=Path,
         metavar="FOLDER",
-        help="sabeti-roc: FOLDER/images/NAME.* and FOLDER/masks/NAME.*, white where skin is",
+        help="sabeti-roc: FOLDER/image/NAME.* and FOLDER/mask/NAME.*, white where skin is",
     )
     command.add_argument(
         "--rate", type=float, help="sabeti-roc: false-positive rate of the threshold, default 0.1"

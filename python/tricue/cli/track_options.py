@@ -46,6 +46,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "input", metavar="INPUT", help="video, folder of images, sequence, recording, URL, camera number"
     )
+    command.add_argument("--target", metavar="NAME", help="start on this one of a folder's labeled targets")
     command.add_argument(
         "--tracker",
         type=tracker_name,

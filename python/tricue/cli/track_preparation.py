@@ -13,11 +13,11 @@ from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.cli.arguments import StartBox
 from tricue.cli.calibrations import find_calibration
 from tricue.cli.outputs import Step
-from tricue.cli.source_options import open_input, opening
+from tricue.cli.source_options import opening
 from tricue.cli.starts import choose_start, default_tracker
 from tricue.cli.steps import Start
 from tricue.data.input_files import input_files
-from tricue.data.open_source import Source
+from tricue.data.open_source import Source, open_source
 from tricue.draw.video import written_path
 from tricue.track.base.settings import make_tracker, read_settings
 from tricue.track.base.track import Tracker
@@ -76,7 +76,7 @@ def prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
         if several:
             raise ValueError(f"--plot: expected one --box, got {len(options.box)}")
         check_format(options.plot)
-    source = open_input(options)
+    source = open_source(options.input, target=options.target, **opening(options))
     options.tracker = options.tracker or default_tracker(options, source)
     _check_outputs(options, source)
     found = find_calibration(options, source)
@@ -97,7 +97,13 @@ def prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
     run = run._replace(assumed=found.assumed)
     if several:
         run = run._replace(targets=_targets(options, found.keywords), boxes=boxes)
-    return run, [*source.notes, *([found.note] if found.note else [])]
+    return run, [*source.notes, *filter(None, [found.note, _time_note(source)])]
+
+
+def _time_note(source: Source) -> str:
+    """What is assumed of the times of frames, "" where they are known."""
+    rate = f"{source.fps:g} frames/s assumed, as nothing tells the times of the images; --fps N says it"
+    return "" if source.knows_times else rate
 
 
 def _check_outputs(options: argparse.Namespace, source: Source) -> None:

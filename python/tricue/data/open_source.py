@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Opens whatever can be tracked in: a video, a folder of images, a benchmark's sequence, a camera."""
 
+import os
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 from urllib.parse import urlsplit
 
 from tricue.data import oak, realsense
@@ -19,13 +21,14 @@ from tricue.data.truth import Truth, check_target
 
 __all__ = ["Source", "open_source"]
 
+TEXT_SUFFIXES = {".ans", ".art", ".asc", ".diz", ".ice", ".nfo", ".txt", ".vt"}  # that FFmpeg plays as videos
 BOOT_SECONDS = 30.0  # until the first image of a camera that starts a system of its own
 CALIBRATION_FILE = "intrinsics.toml"  # searched in a sequence's folder and in the folder above
 PRINCETON_CALIBRATION_FILE = "frames.mat"  # searched in the sequence's folder
 
 
 def open_source(
-    place: str | Path,
+    place: str | Path | int,
     *,
     depth: str | Path | None = None,
     depth_scale: float | None = None,
@@ -54,6 +57,7 @@ def open_source(
     topics: of a recording, by channel: "color", "depth", "right"; guessed by default, which a note says.
     Raises ValueError or OSError that names the place and what is wrong with it.
     """
+    place = _checked(place)
     source = _opened(place, depth_scale, target, topics)
     if right is not None:
         source = _with_right(source, place, right)
@@ -62,6 +66,14 @@ def open_source(
     if depth_scale is not None and "depth" not in source.channels:
         raise ValueError(f"{place}: expected depth images where --depth-scale is given, found only color")
     return source if fps is None else replace(source, rate=fps)
+
+
+def _checked(place: Any) -> str | Path:
+    if isinstance(place, int) and not isinstance(place, bool):
+        return str(place)  # a camera's
+    if not isinstance(place, str | os.PathLike):
+        raise TypeError(f"place: expected a path, a URL or a camera's number, got {place!r:.80}")
+    return place if isinstance(place, str) else Path(place)
 
 
 def _opened(
@@ -95,6 +107,8 @@ def _opened(
             ),
             layout.truth,
         )
+    if path.suffix.lower() in TEXT_SUFFIXES:
+        raise ValueError(f"{place}: expected a video or a folder, got a text")
     if is_image(path):
         raise ValueError(f"{place}: expected a video or a folder, got one picture; give its folder")
     if target is not None:

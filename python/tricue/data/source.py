@@ -75,6 +75,11 @@ class Source:
         return self.clock.fps if self.rate is None else self.rate
 
     @property
+    def knows_times(self) -> bool:
+        """Whether something tells when frames are; else they are assumed to come at ``fps``."""
+        return self.rate is not None or self.clock.timed
+
+    @property
     def clock(self) -> Stream:
         """The stream whose times are the frames' times, unless there is a ``rate``."""
         return self.channels[self._clock]

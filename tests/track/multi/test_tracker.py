@@ -122,6 +122,7 @@ def test_without_targets_there_are_no_tracks(things):
         ({"workers": 0}, "workers: expected"),
         ({"workers": 1.5}, "workers: expected a whole number"),
         ({"learn_evry": 1}, "learn_evry: unknown parameter of FusedParams; did you mean learn_every"),
+        ({"on_lost": "print"}, "on_lost: expected a function of id and track, got 'print'"),
         ({"rig": "a.toml"}, "rig: expected tricue.StereoRig, got str"),
     ],
 )

@@ -55,6 +55,8 @@ class MultiTracker:
         kernels: kernel_sets.Name = "native",
         **parameters: Any,
     ) -> None:
+        if on_lost is not None and not callable(on_lost):
+            raise TypeError(f"on_lost: expected a function of id and track, got {on_lost!r:.80}")
         self.tracker, self.on_lost = tracker, on_lost
         self.workers = positive_whole(workers, "workers", "processes")
         self.rig, self.intrinsics = validation.cameras(rig, intrinsics)
