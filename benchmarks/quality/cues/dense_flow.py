@@ -22,11 +22,11 @@ from tricue import _core
 from tricue.evaluation.one_pass import one_thread
 
 from benchmarks.quality.common.arguments import bare_parser
+from benchmarks.quality.common.moving_waves import moving_waves
 from benchmarks.quality.common.opencv_flows import Floats, Image, dis, farneback, lucas_kanade
 from benchmarks.quality.common.sequences import data_folder
 from benchmarks.quality.common.tables import markdown
 from benchmarks.quality.common.timing import fastest
-from benchmarks.quality.cues.moving_waves import moving_waves
 
 SIGMA, PYRAMID_SIGMA, LEVELS = 2.0, 1.0, 3
 MIN_ANGLE, MIN_CONTRAST = 0.1, 1.0  # of the flow that a tracker keeps
