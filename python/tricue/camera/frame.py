@@ -107,7 +107,7 @@ def as_frame(value: FrameLike, name: str = "frame") -> Frame:
     if isinstance(value, Frame):
         return value
     if not isinstance(value, np.ndarray):
-        hint = " (cv2 gives None for an image or a video that it can't read)" if value is None else ""
+        hint = " (cv2.imread and VideoCapture.read give None for what they can't read)" if value is None else ""
         raise TypeError(f"{name}: expected a BGR image or a tricue.Frame, got {type(value).__name__}{hint}")
     try:
         return Frame(value)
