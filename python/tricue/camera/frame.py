@@ -107,8 +107,9 @@ def as_frame(value: FrameLike, name: str = "frame") -> Frame:
     if isinstance(value, Frame):
         return value
     if not isinstance(value, np.ndarray):
-        hint = " (cv2.imread and VideoCapture.read give None for what they can't read)" if value is None else ""
-        raise TypeError(f"{name}: expected a BGR image or a tricue.Frame, got {type(value).__name__}{hint}")
+        hint = " (cv2.imread and VideoCapture.read give None for what they can't read)"
+        got = f"{type(value).__name__}{hint if value is None else ''}"
+        raise TypeError(f"{name}: expected a BGR image or a tricue.Frame, got {got}")
     try:
         return Frame(value)
     except (TypeError, ValueError) as error:
