@@ -54,6 +54,13 @@ def frame() -> NDArray[np.uint8]:
 
 
 @pytest.fixture(scope="session")
+def new_frames() -> list[NDArray[np.uint8]]:
+    """64 of 640x480, 59 MB: taken in turns, each has left the cache when it comes again."""
+    rng = np.random.default_rng(0)
+    return [rng.integers(0, 256, (480, 640, 3), np.uint8) for _ in range(64)]
+
+
+@pytest.fixture(scope="session")
 def color() -> NDArray[np.uint8]:
     """A reference color of skin."""
     return np.array([90, 120, 200], np.uint8)

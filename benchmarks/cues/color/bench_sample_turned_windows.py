@@ -3,6 +3,7 @@
 
 import math
 from collections.abc import Callable
+from itertools import cycle
 from typing import Any
 
 import cv2
@@ -65,3 +66,19 @@ def bench_sample_turned_windows(
     samples = benchmark(sample_turned_windows, frame, windows, 64, 64)
     differences = abs(samples.astype(int) - reference.sample_turned_windows(frame, windows, 64, 64))
     assert differences.mean() < 1 if sample_turned_windows is script else not differences.any()
+
+
+@pytest.mark.parametrize("sample_turned_windows", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
+@pytest.mark.benchmark(group="sample_turned_windows, 260 px to 64x64, new frames")
+@pytest.mark.work(bytes=260 * 260 * 3, ops8=64 * 64 * 315, why="rows across lines of the cache")
+def bench_sample_turned_windows_of_new_frames(
+    benchmark: Any, sample_turned_windows: Callable[..., Image], new_frames: list[Image]
+) -> None:
+    """As in video: no frame is in the cache. On noise the baseline's places, rounded otherwise, differ by
+    more than on smooth images.
+    """
+    windows, frames = np.array([[320.3, 239.6, *(260.0 * SIDES)]]), cycle(new_frames)
+    benchmark(lambda: sample_turned_windows(next(frames), windows, 64, 64))
+    samples = sample_turned_windows(new_frames[0], windows, 64, 64)
+    differences = abs(samples.astype(int) - reference.sample_turned_windows(new_frames[0], windows, 64, 64))
+    assert differences.mean() < 3 if sample_turned_windows is script else not differences.any()

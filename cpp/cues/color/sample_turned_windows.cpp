@@ -12,10 +12,12 @@
 namespace tricue {
 namespace {
 
-constexpr int kSubpixels = 16;  // places are rounded to 1 / kSubpixels of a pixel
-constexpr int kMaxSide = 4;     // pixels, of the square that a sample is the mean of
-constexpr int kChunk = 64;      // samples whose places are found at once
-constexpr int kLanes = 8;       // numbers of two neighboring pixels, and two that mean nothing
+constexpr int kSubpixels = 16;   // places are rounded to 1 / kSubpixels of a pixel
+constexpr int kMaxSide = 4;      // pixels, of the square that a sample is the mean of
+constexpr int kChunk = 64;       // samples whose places are found at once
+constexpr int kLinePixels = 21;  // whole ones in a line of the cache
+constexpr int kRowsAhead = 3;    // of samples, whose pixels are loaded ahead
+constexpr int kLanes = 8;        // numbers of two neighboring pixels, and two that mean nothing
 
 using Bytes = Pack<std::uint8_t, 2 * kLanes>;
 using Words = Pack<std::uint16_t, kLanes>;
@@ -133,7 +135,7 @@ Square copy_square(const std::uint8_t* pixels, std::ptrdiff_t stride, std::uint8
 
 /// Sums of n samples' squares. `sums` has a number more than 3 a sample.
 template <int kSide>
-inline void sum_squares(const ImageView& image, const Places& places, int n, std::uint32_t* sums) {
+TRICUE_INLINE void sum_squares(const ImageView& image, const Places& places, int n, std::uint32_t* sums) {
     std::uint8_t copy[(kSide + 1) * kRowBytes<kSide>] = {};
     const std::uint8_t* first = image.data;
     const std::ptrdiff_t stride = image.stride,
@@ -185,22 +187,65 @@ int find_side(const ImageView& image, const double* window, int rows, int column
     return std::min({side, image.rows - 1, image.cols - 1});
 }
 
-void sample_window(const ImageView& image, const double* window, int rows, int columns, std::uint8_t* bytes) {
+/// A window's samples: the upper left pixel of the square in its middle, and the way from one to the next in a row and in a column, pixels.
+struct TurnedGrid {
+    int rows, columns, side;
+    double left, top, right_x, right_y, down_x, down_y;
+
+    double below(int y) const { return y + 0.5 - 0.5 * rows; }
+    double beside(int x) const { return x + 0.5 - 0.5 * columns; }
+};
+
+TurnedGrid find_grid(const ImageView& image, const double* window, int rows, int columns) {
     const int side = find_side(image, window, rows, columns);
-    const double left = window[0] - 0.5 * side, top = window[1] - 0.5 * side;
-    const double right_x = window[2] / columns, right_y = window[3] / columns;
-    const double down_x = window[4] / rows, down_y = window[5] / rows;
-    const auto whole = static_cast<float>(side * side * kSubpixels * kSubpixels);
+    return {rows,
+            columns,
+            side,
+            window[0] - 0.5 * side,
+            window[1] - 0.5 * side,
+            window[2] / columns,
+            window[3] / columns,
+            window[4] / rows,
+            window[5] / rows};
+}
+
+/// Begins to load what the samples of a row read and those before it didn't, if there is such a row: a turned row's pixels lie in so many
+/// lines of the cache that hardware loads none ahead. Some neighboring samples share a line in each row of pixels; the new ones are the
+/// lowest, or the uppermost if the rows of samples go up. Few windows are turned by over 45 degrees: they are left out.
+void prefetch_row(const ImageView& image, const TurnedGrid& grid, int y) {
+    if (y >= grid.rows || std::abs(grid.right_x) <= std::abs(grid.right_y)) return;
+    const int samples = std::max(static_cast<int>(kLinePixels / std::max(std::abs(grid.right_x), 1.0)), 1);
+    const double slant = samples * grid.right_y, height = grid.side + 1 + std::abs(slant);
+    const double advance = std::abs(grid.down_y - grid.down_x * grid.right_y / grid.right_x);
+    const double rows = std::ceil(std::min(advance, height));
+    const double first =
+        grid.down_y > 0.0 ? std::max(slant, 0.0) + grid.side + 1 - rows : std::min(slant, 0.0);
+    const double last_column = image.cols - 1.0, last_row = image.rows - 1.0;
+    for (int x = 0; x < grid.columns; x += samples) {
+        const double right = grid.left + grid.below(y) * grid.down_x + grid.beside(x) * grid.right_x;
+        const double down = grid.top + grid.below(y) * grid.down_y + grid.beside(x) * grid.right_y + first;
+        const std::ptrdiff_t at =
+            3 * static_cast<std::ptrdiff_t>(std::min(std::max(0.0, right), last_column));
+        const int begin = static_cast<int>(std::min(std::max(0.0, down), last_row));
+        const int end = static_cast<int>(std::min(std::max(0.0, down + rows), last_row));
+        for (int row = begin; row <= end; ++row) prefetch(image.row(row) + at);
+    }
+}
+
+void sample_window(const ImageView& image, const double* window, int rows, int columns, std::uint8_t* bytes) {
+    const TurnedGrid grid = find_grid(image, window, rows, columns);
+    const auto whole = static_cast<float>(grid.side * grid.side * kSubpixels * kSubpixels);
     Places places;
     std::uint32_t sums[3 * kChunk + 1];
     for (int y = 0; y < rows; ++y) {
-        const double below = y + 0.5 - 0.5 * rows;
+        prefetch_row(image, grid, y + kRowsAhead);
+        const double x0 = grid.left + grid.below(y) * grid.down_x,
+                     y0 = grid.top + grid.below(y) * grid.down_y;
         for (int x = 0; x < columns; x += kChunk) {
             const int n = std::min(columns - x, kChunk);
-            const double beside = x + 0.5 - 0.5 * columns;
-            find_places(left + below * down_x, right_x, beside, n, image.cols, side, places.x, places.right);
-            find_places(top + below * down_y, right_y, beside, n, image.rows, side, places.y, places.down);
-            sum_samples(image, places, n, side, sums);
+            find_places(x0, grid.right_x, grid.beside(x), n, image.cols, grid.side, places.x, places.right);
+            find_places(y0, grid.right_y, grid.beside(x), n, image.rows, grid.side, places.y, places.down);
+            sum_samples(image, places, n, grid.side, sums);
             divide(sums, whole, 3 * n, bytes);
             bytes += 3 * std::ptrdiff_t{n};
         }
