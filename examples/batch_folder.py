@@ -36,11 +36,21 @@ def track_video(video: Path, box: list[float] | None, target: Path) -> dict[str,
 
 
 def read_boxes(path: Path | None) -> dict[str, list[float]]:
-    """The boxes by the videos' names."""
+    """The boxes by the videos' names. ValueError names a line that has no box."""
     if path is None:
         return {}
     with path.open(newline="", encoding="utf-8") as file:
-        return {name: [float(number) for number in numbers] for name, *numbers in csv.reader(file)}
+        lines = csv.reader(file)
+        return dict(_named_box(fields, f"{path}:{lines.line_num}") for fields in lines)
+
+
+def _named_box(fields: list[str], place: str) -> tuple[str, list[float]]:
+    try:
+        name, x, y, width, height = fields
+        return name, [float(x), float(y), float(width), float(height)]
+    except ValueError:
+        line = ",".join(fields)
+        raise ValueError(f"{place}: expected name.mp4,x,y,width,height, got {line!r}") from None
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
-from tricue import Box, Frame, Status, Track
-from tricue.cli.steps import RunClock, steps
+from tricue import Box, Frame, FusedTracker, MultiTracker, Status, Track
+from tricue.cli.steps import RunClock, steps, steps_of_targets
 from tricue.errors import BoxError, TargetNotFoundError
 from tricue.track.base.track import Tracker
 from tricue.track.base.traits import Channels, Traits
@@ -28,6 +28,16 @@ def test_the_first_frame_starts_and_the_others_follow(drift: Tracker) -> None:
     assert [step.track.box.x for step in found] == [1.0, 3.5, 6.0, 8.5]
     assert (clock.decoded, clock.updates) == (4, 3)
     assert clock.statuses[Status.TRACKED] == 4
+
+
+def test_errors_name_the_frame(drift: Tracker) -> None:
+    """A frame that the tracker refuses is told by its number, with one target and with several."""
+    small, others = np.zeros((10, 10, 3), np.uint8), list(frames(2))
+    wrong = r"^frame 9: .*expected the first frame's size"
+    with pytest.raises(ValueError, match=wrong):
+        list(steps(FusedTracker(), [*others, Frame(small)], lambda _: BOX, RunClock(), first=7))
+    with MultiTracker() as targets, pytest.raises(ValueError, match=wrong):
+        list(steps_of_targets(targets, [*others, Frame(small)], [(7, BOX)], RunClock(), first=7))
 
 
 def test_it_waits_for_a_box(drift: Tracker) -> None:

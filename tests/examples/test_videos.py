@@ -82,6 +82,19 @@ def test_a_folder_of_videos(face_video: Path, face_box: str, tmp_path: Path) -> 
     assert rows[-1]["status"] == "tracked"
 
 
+@pytest.mark.parametrize("line", ["a.avi,1,2,3", "a.avi,1,2,x,4", "a.avi"])
+def test_a_table_without_a_box(
+    tmp_path: Path, line: str, program: Program, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that the table's line is named."""
+    table = tmp_path / "boxes.csv"
+    table.write_text(f"b.avi,1,2,3,4\n{line}\n")
+    with pytest.raises(SystemExit) as stop:
+        program("batch_folder").main([str(tmp_path), "--boxes", str(table)])
+    assert stop.value.code == 2
+    assert f"{table}:2: expected name.mp4,x,y,width,height, got '{line}'" in capsys.readouterr().err
+
+
 def test_the_alarm(
     face_video: Path, face: Scene, face_box: str, program: Program, capsys: pytest.CaptureFixture[str]
 ) -> None:

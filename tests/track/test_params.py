@@ -54,7 +54,7 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "min_score": (-0.1, 1.1),
         "lost_after": (-0.1,),
         "min_lead": (-0.1,),
-        "max_doubt": (-0.1,),
+        "max_time_without_lead": (-0.1,),
         "min_score_to_redetect": (-0.1, 1.1),
         "rate": (0, -1),
     },

@@ -2,6 +2,7 @@
 """Runs a tracker, or several, over a source frame by frame, and measures times."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import perf_counter
 
@@ -51,7 +52,11 @@ def steps(
         if start and not started and box is None:
             continue
         before = perf_counter()
-        track = tracker.update(frame) if started else _started(tracker, frame, box, clock)
+        if started:
+            with _naming_frame(index):
+                track: Track | None = tracker.update(frame)
+        else:
+            track = _started(tracker, frame, box, clock)
         seconds = perf_counter() - before
         if track is None:
             continue
@@ -75,7 +80,8 @@ def steps_of_targets(
     for index, frame in enumerate(_decoded(frames, clock), first):
         starting = [box for number, box in boxes if number == index]
         before = perf_counter()
-        tracks = targets.update(frame)
+        with _naming_frame(index):
+            tracks = targets.update(frame)
         if starting:
             for box in starting:
                 targets.add(frame, box)
@@ -87,6 +93,15 @@ def steps_of_targets(
             clock.tracking, clock.updates = clock.tracking + seconds, clock.updates + 1
         if tracks:
             yield Step(index, frame, next(iter(tracks.values())), seconds, tracks=tracks)
+
+
+@contextmanager
+def _naming_frame(number: int) -> Iterator[None]:
+    """Put a frame's number before what an error says: it may be one of thousands."""
+    try:
+        yield
+    except ValueError as error:
+        raise ValueError(f"frame {number}: {error}") from error
 
 
 def _started(tracker: Tracker, frame: Frame, box: Box | None, clock: RunClock) -> Track | None:

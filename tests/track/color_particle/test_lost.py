@@ -116,9 +116,9 @@ def test_tracked_only_with_a_lead_over_what_is_beside(min_lead, expected, stage,
 
 
 def test_what_is_doubtful_is_not_learned(stage, follow):
-    """Nor is it LOST before max_doubt."""
+    """Nor is it LOST before max_time_without_lead."""
     frames = stage(HERE)
-    tracker = ColorParticleTracker(seed=0, min_lead=1000.0, max_doubt=5 / 30 - 0.001)
+    tracker = ColorParticleTracker(seed=0, min_lead=1000.0, max_time_without_lead=5 / 30 - 0.001)
     follow(tracker, frames[:1], START)
     learned = tracker._state.appearance
     statuses = [tracker.update(frame).status for frame in frames[1:6]]

@@ -220,7 +220,9 @@ class ColorParticleParams(Params):
         low=0,
         doc="of the log-likelihood over that of the windows beside the target, below which it isn't TRACKED",
     )
-    max_doubt: float = parameter(2.0, unit="s", source=OURS, low=0, doc="time below min_lead until LOST")
+    max_time_without_lead: float = parameter(
+        2.0, unit="s", source=OURS, low=0, doc="time below min_lead until LOST"
+    )
     min_score_to_redetect: float = parameter(
         0.6,
         unit="recognition",

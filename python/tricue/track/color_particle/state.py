@@ -55,7 +55,7 @@ class State(NamedTuple):
     def lost(self, p: ColorParticleParams) -> bool:
         """Whether the target is LOST, and is searched for in the whole frame."""
         missed = self.missed_frames >= MIN_MISSED_FRAMES and self.missed_seconds >= p.lost_after
-        return missed or self.doubted_seconds >= p.max_doubt
+        return missed or self.doubted_seconds >= p.max_time_without_lead
 
     def doubtful(self, p: ColorParticleParams) -> bool:
         """Whether the target is hardly more like itself than what is beside it."""
