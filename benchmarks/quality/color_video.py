@@ -10,10 +10,11 @@ There are four protocols, each with the mean success AUC over its runs on a sequ
 the same on the reversed sequence; "third", one pass over every third frame. A run starts on the first of its
 frames with a true box. Groups have the mean over their sequences; a sequence may be in several.
 
-The last two tables pool the frames of all runs, each run once. "Lost": the overlap is under 0.1, or there is
-no target; "on target": above 0.3. AUROC is the chance that a frame on the target scores above a lost one.
+The last three tables pool the frames of all runs, each run once. "Lost": the overlap is under 0.1, or there
+is no target; "on target": above 0.3. AUROC is the chance that a frame on the target scores above a lost one.
 Scores are sorted into ten bins: "deviation" is the largest difference between the mean score and the share on
-the target in a bin with 1 % of the frames, "calibration error" the mean difference.
+the target in a bin with 1 % of the frames, "calibration error" the mean difference. The 95 % bootstrap
+intervals of these numbers, for which recordings are drawn, are wide: few recordings have most lost frames.
 
 With --against, the tables after these have the paired differences to a stored run and their 95 % bootstrap
 interval, for which sequences are drawn. Version 0.1.0's parameters were chosen on the group "tuned", and

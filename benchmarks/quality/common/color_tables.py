@@ -4,10 +4,12 @@
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
+from tricue.evaluation.bootstrap import LEVEL
 
+from benchmarks.quality.common.confidence_intervals import summary_intervals
 from benchmarks.quality.common.confidence_summary import reliability, summarize
 from benchmarks.quality.common.frame_results import Flags, FrameResults
-from benchmarks.quality.common.groups import members
+from benchmarks.quality.common.groups import members, recording
 from benchmarks.quality.common.protocols import PROTOCOLS
 from benchmarks.quality.common.sequence_runs import SequenceResult, by_tracker, mean_auc, pool
 from benchmarks.quality.common.tables import Cell, markdown
@@ -21,7 +23,8 @@ def tables(results: Sequence[SequenceResult]) -> str:
     """Markdown: all tables of this module, one after the other."""
     found = by_tracker(results)
     pooled = {tracker: pool(own) for tracker, own in found.items()}
-    return "\n\n".join([group_table(found), sequence_table(found), *frame_tables(pooled)])
+    frames = [*frame_tables(pooled), interval_table(found)]
+    return "\n\n".join([group_table(found), sequence_table(found), *frames])
 
 
 def group_table(found: Mapping[str, Sequence[SequenceResult]]) -> str:
@@ -63,6 +66,19 @@ def frame_tables(pooled: Mapping[str, FrameResults]) -> list[str]:
         markdown(["tracker", "frames", *SUMMARY, *TIMES], first),
         markdown(["tracker", "score", "mean score", "on target", "frames"], second),
     ]
+
+
+def interval_table(found: Mapping[str, Sequence[SequenceResult]]) -> str:
+    """Between which ends the summary of all frames lies, had other recordings been drawn."""
+    rows: list[list[Cell]] = []
+    for tracker, own in found.items():
+        names = dict.fromkeys(recording(each.sequence) for each in own)
+        by_recording = {name: [each for each in own if recording(each.sequence) == name] for name in names}
+        intervals = summary_intervals({name: pool(results) for name, results in by_recording.items()})
+        rows.append(
+            [tracker, *(f"[{each.low:.3f}, {each.high:.3f}]" if each.known else "-" for each in intervals)]
+        )
+    return markdown([f"tracker, {100 * LEVEL:g} % interval", *SUMMARY], rows)
 
 
 def times(frames: FrameResults) -> list[float]:

@@ -63,3 +63,14 @@ def test_csv_rows():
     ]
     assert {len(row) for row in rows} == {len(color_tables.CSV_COLUMNS)}
     assert rows[2][4] == 1600
+
+
+def test_intervals_hang_on_recordings():
+    """Where one recording is followed and another lost, both may have been drawn alone; two sequences of
+    one recording are none.
+    """
+    followed, lost = result("Panda", 1.0), result("Gull", 0.0)
+    row = color_tables.interval_table({"fused": [followed, lost]}).splitlines()[2]
+    assert row.startswith("| fused | [0.000, 1.000] |")
+    one = color_tables.interval_table({"fused": [result("Couple", 1.0), result("StreetWalker", 0.0)]})
+    assert "| fused | - | - |" in one
