@@ -1,4 +1,7 @@
 # SPDX-License-Identifier: MIT
+import json
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -30,3 +33,33 @@ def test_a_full_disk_names_the_file() -> None:
     assert file._file.closed
     with file:
         pass
+
+
+@pytest.mark.parametrize("limit", range(60, 120, 7))
+def test_a_full_disk_keeps_whole_texts(tmp_path: Path, limit: int) -> None:
+    """It proves that a file that may not grow beyond some size gets its end all the same, wherever in a text
+    the limit is, and that the error is told.
+    """
+    program = f"""
+import resource
+from pathlib import Path
+from tricue.cli.text_file import TextFile
+
+class Numbers(TextFile):
+    def finish(self):
+        self.put("0], 'done': true}}".replace("'", '"'))
+
+resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))
+with Numbers(Path("o.json")) as file:
+    file.put('{{"numbers": [')
+    for number in range(100):
+        file.put(f"{{number}}, ")
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert "File too large: 'o.json'" in done.stderr
+    whole = json.loads((tmp_path / "o.json").read_text())
+    assert whole["done"]
+    assert whole["numbers"] == [*range(len(whole["numbers"]) - 1), 0]
+    assert (tmp_path / "o.json").stat().st_size > limit - 25

@@ -1,22 +1,28 @@
 # SPDX-License-Identifier: MIT
 """Text files that are written line by line: what is written is on the disk, and errors name the file."""
 
+from collections import deque
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+
+ROOM = 8  # of the last texts may be given up for the end of a file on a full disk
 
 
 class TextFile:
     """A new text file, and its folder where there is none; use it in ``with``.
 
     Each :meth:`put` is handed to the system at once, so that it is kept where the process is killed.
-    OSError with the file's name where it can't be written, and at the end where it is no longer there.
+    OSError with the file's name where it can't be written, and at the end where it is no longer there. On a
+    full disk the file still gets its end, without the last texts if there is no room for it.
     """
 
     def __init__(self, path: Path) -> None:
         self.path = path
         path.parent.mkdir(parents=True, exist_ok=True)
-        self._file = path.open("w", encoding="utf-8", newline="")
+        self._file = path.open("wb", buffering=0)
+        self._ends = deque([0], ROOM)  # of the texts, in bytes
+        self._failed = False
 
     @property
     def about(self) -> str:
@@ -24,15 +30,20 @@ class TextFile:
         return str(self.path)
 
     def put(self, text: str) -> None:
-        """Append some text."""
+        """Append some text, or nothing of it."""
+        data = memoryview(text.encode())
+        end = self._ends[-1] + len(data)
         with self._naming():
             try:
-                self._file.write(text)
-                self._file.flush()
+                while data:
+                    data = data[self._file.write(data) :]
             except OSError:
-                with suppress(OSError):
-                    self._file.close()  # which fails, too, and closes it
+                self._failed = True
+                self._cut()
+                if not self._ends[-1]:
+                    self._file.close()
                 raise
+        self._ends.append(end)
 
     def finish(self) -> None:
         """Append what a whole file ends with; does nothing here."""
@@ -41,7 +52,8 @@ class TextFile:
         return self
 
     def __exit__(self, *_: object) -> None:
-        if self._file.closed:
+        if self._failed:
+            self._finish_early()
             return
         try:
             self.finish()
@@ -50,6 +62,24 @@ class TextFile:
                 self._file.close()
         if not self.path.exists():
             raise OSError(f"{self.path}: was removed while it was written")
+
+    def _finish_early(self) -> None:
+        """Append the end to as many of the texts as leave room for it."""
+        while self._ends and self._ends[-1]:
+            with suppress(OSError):
+                self.finish()
+                break
+            self._ends.pop()
+            if self._ends:
+                self._cut()
+        with suppress(OSError):
+            self._file.close()
+
+    def _cut(self) -> None:
+        """Keep the whole texts alone, if the file is no pipe."""
+        with suppress(OSError):
+            self._file.truncate(self._ends[-1])
+            self._file.seek(self._ends[-1])
 
     @contextmanager
     def _naming(self) -> Iterator[None]:
