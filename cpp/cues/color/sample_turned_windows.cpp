@@ -215,7 +215,7 @@ TurnedGrid find_grid(const ImageView& image, const double* window, int rows, int
 void prefetch_row(const ImageView& image, const TurnedGrid& grid, int y) {
     if (y >= grid.rows || std::abs(grid.right_x) <= std::abs(grid.right_y)) return;
     const int samples = std::max(static_cast<int>(kLinePixels / std::max(std::abs(grid.right_x), 1.0)), 1);
-    const double slant = samples * grid.right_y, height = grid.side + 1 + std::abs(slant);
+    const double slant = (samples - 1) * grid.right_y, height = grid.side + 1 + std::abs(slant);
     const double advance = std::abs(grid.down_y - grid.down_x * grid.right_y / grid.right_x);
     const double rows = std::ceil(std::min(advance, height));
     const double first =

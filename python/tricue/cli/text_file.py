@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Text files that are written line by line: what is written is on the disk, and errors name the file."""
 
+import os
 from collections import deque
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -36,7 +37,7 @@ class TextFile:
         with self._naming():
             try:
                 while data:
-                    data = data[self._file.write(data) :]
+                    data = data[os.write(self._file.fileno(), data) :]
             except OSError:
                 self._failed = True
                 self._cut()
