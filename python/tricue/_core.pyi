@@ -1742,7 +1742,8 @@ def learn_patch_colors(
     sides count as a pixel at least. The surround's are those with their centers outside of the box
     times `outer`; where there are none, those outside of the ellipse. Where another cue tells that more
     than half of the ellipse's pixels are the target's, by more than `least_own`, only these are, and
-    those with less than `most_other` are the surround's.
+    those with less than `most_other` are the surround's. A color that neither has tells nothing:
+        table = (target + rare / 2) / (target + surround + rare)
 
     Args:
         patch: uint8 (H, W, 3) BGR

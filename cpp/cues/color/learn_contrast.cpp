@@ -34,6 +34,8 @@ Floats seen_histogram(EllipseSampler& sampler, const double* ellipse, FloatsRef 
     return seen;
 }
 
+constexpr double UNSEEN = 0.0;  // P(target) of a color that neither side has
+
 }  // namespace
 
 ColorContrast learn_contrast(const ImageView& image, VectorRef ellipse, const Windows& windows,
@@ -43,7 +45,8 @@ ColorContrast learn_contrast(const ImageView& image, VectorRef ellipse, const Wi
     EllipseSampler inside(image, windows.inside, "inside"), around(image, windows.around, "around");
     require_histograms(target, surround, rate, rare);
     return learn_histograms(seen_histogram(inside, ellipse.data(), target),
-                            seen_histogram(around, ellipse.data(), surround), target, surround, rate, rare);
+                            seen_histogram(around, ellipse.data(), surround), target, surround, rate, rare,
+                            UNSEEN);
 }
 
 }  // namespace tricue

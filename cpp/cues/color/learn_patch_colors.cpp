@@ -119,6 +119,8 @@ void require_arguments(const ImageView& patch, const PlaneView& other, const Lea
         if (!(number >= 0.0 && number <= 1.0)) refuse(name, "a number in [0, 1]", number);
 }
 
+constexpr double UNSEEN = 0.5;  // P(target) of a color that neither side has: it tells nothing
+
 }  // namespace
 
 ColorContrast learn_patch_colors(const ImageView& patch, const PlaneView& other, const LearnedPixels& pixels,
@@ -127,7 +129,7 @@ ColorContrast learn_patch_colors(const ImageView& patch, const PlaneView& other,
     require_histograms(target, surround, rate, rare);
     const PixelCounts counts(patch, other, pixels, bits_of_cube(target, "target"));
     return learn_histograms(counts.own.shares(target.rows()), counts.around.shares(target.rows()), target,
-                            surround, rate, rare);
+                            surround, rate, rare, UNSEEN);
 }
 
 }  // namespace tricue

@@ -21,7 +21,8 @@ struct LearnedPixels {
 /// The target's pixels are those with their centers in the ellipse that fits into its box; half a box's sides count as a pixel at
 /// least. The surround's are those with their centers outside of the box times `outer`; where there are none, those outside of the
 /// ellipse. Where another cue tells that more than half of the ellipse's pixels are the target's, by more than `least_own`, only these
-/// are, and those with less than `most_other` are the surround's.
+/// are, and those with less than `most_other` are the surround's. A color that neither has tells nothing:
+///     table = (target + rare / 2) / (target + surround + rare)
 ///
 /// @param patch uint8 (H, W, 3) BGR
 /// @param other float32 (H, W), P(target) by another cue, or (0, 0) where there is none

@@ -62,6 +62,16 @@ def test_learns_the_ellipse_and_what_is_outside_of_the_box(kernels: Kernels) -> 
     assert found[2][0, 0, 1] > 0.999
 
 
+def test_a_color_that_neither_has_tells_nothing(kernels: Kernels) -> None:
+    """Its posterior is 1/2; one that was seen once or twice is sure already."""
+    target, surround = EMPTY.copy(), EMPTY.copy()
+    target[0, 0, 0], surround[0, 0, 0], target[0, 0, 1], surround[0, 1, 0] = 1 - 1e-2, 1 - 1e-2, 1e-2, 1e-2
+    arguments = disc_and_ring(), NONE, 30.0, 20.0, 1.0, 0.4, 0.1
+    table = kernels.learn_patch_colors(*arguments, target, surround, 0.0, 1e-4)[2]
+    assert_array_equal(table[1], 0.5)
+    assert_allclose(table[0], [[0.5, 0.995], [0.005, 0.5]], atol=1e-3)
+
+
 def test_another_cue_takes_pixels_away(kernels: Kernels) -> None:
     """What is nearer or farther in the ellipse is the surround's, unless that is most of it."""
     patch = disc_and_ring()

@@ -23,8 +23,9 @@ void blend(const float* __restrict old, float rate, std::ptrdiff_t n, float* __r
 
 TRICUE_MULTIVERSION
 void compute_table(const float* __restrict target, const float* __restrict surround, float rare,
-                   std::ptrdiff_t n, float* __restrict table) {
-    for (std::ptrdiff_t k = 0; k < n; ++k) table[k] = target[k] / (target[k] + surround[k] + rare);
+                   float of_rare, std::ptrdiff_t n, float* __restrict table) {
+    for (std::ptrdiff_t k = 0; k < n; ++k)
+        table[k] = (target[k] + of_rare) / (target[k] + surround[k] + rare);
 }
 
 }  // namespace
@@ -44,12 +45,13 @@ void require_histograms(FloatsRef target, FloatsRef surround, double rate, doubl
 }
 
 ColorContrast learn_histograms(Floats within, Floats without, FloatsRef target, FloatsRef surround,
-                               double rate, double rare) {
+                               double rate, double rare, double unseen) {
     const auto share = static_cast<float>(rate);
     blend(target.data(), share, within.size(), within.data());
     blend(surround.data(), share, without.size(), without.data());
     Floats table(within.rows(), within.cols());
-    compute_table(within.data(), without.data(), static_cast<float>(rare), table.size(), table.data());
+    compute_table(within.data(), without.data(), static_cast<float>(rare), static_cast<float>(unseen * rare),
+                  table.size(), table.data());
     return {std::move(within), std::move(without), std::move(table)};
 }
 

@@ -10,6 +10,8 @@ from tricue.reference.cues.color.sample_ellipses import sample_ellipses
 
 Floats = NDArray[np.float64]
 
+UNSEEN = 0.0  # P(target) of a color that neither side has
+
 
 def learn_contrast(
     image: NDArray[np.uint8],
@@ -24,4 +26,4 @@ def learn_contrast(
     """Learns the samples of both patterns."""
     require_shape("ellipse", ellipse, (4,))
     within, without = (sample_ellipses(image, ellipse[None], pattern) for pattern in (inside, around))
-    return learn_histograms(within, without, target, surround, rate, rare)
+    return learn_histograms(within, without, target, surround, rate, rare, UNSEEN)

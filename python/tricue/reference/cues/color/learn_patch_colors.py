@@ -11,6 +11,8 @@ from tricue.reference.cues.color.detail.learn_histograms import Cube, learn_hist
 
 Mask = NDArray[np.bool_]
 
+UNSEEN = 0.5  # P(target) of a color that neither side has: it tells nothing
+
 
 def learn_patch_colors(
     patch: NDArray[np.uint8],
@@ -50,4 +52,4 @@ def learn_patch_colors(
             around = around | (inside & (other < np.float32(most_other)))
             inside = own
     own_colors, other_colors = (np.ascontiguousarray(patch[each].T)[None] for each in (inside, around))
-    return learn_histograms(own_colors, other_colors, target, surround, rate, rare)
+    return learn_histograms(own_colors, other_colors, target, surround, rate, rare, UNSEEN)

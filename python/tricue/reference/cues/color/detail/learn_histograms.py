@@ -12,9 +12,12 @@ Cube = NDArray[np.float32]
 
 
 def learn_histograms(
-    inside: Samples, around: Samples, target: Cube, surround: Cube, rate: float, rare: float
+    inside: Samples, around: Samples, target: Cube, surround: Cube, rate: float, rare: float, unseen: float
 ) -> tuple[Cube, Cube, Cube]:
-    """Blends the joint histograms of samples (1, 3, n) into both cubes, and divides them."""
+    """Blends the joint histograms of samples (1, 3, n) into both cubes, and divides them.
+
+    unseen: P(target) of a color that neither has.
+    """
     for name, cube in (("target", target), ("surround", surround)):
         side = cube.shape[0]
         if cube.shape != (side, side, side) or side not in (1, 2, 4, 8, 16, 32, 64):
@@ -32,4 +35,5 @@ def learn_histograms(
         return blended
 
     own, other = learned(inside, target), learned(around, surround)
-    return own, other, own / (own + other + np.float32(rare))
+    table: Cube = (own + np.float32(unseen * rare)) / (own + other + np.float32(rare))
+    return own, other, table
