@@ -20,7 +20,7 @@ from itertools import product
 
 from benchmarks.quality.common.arguments import add_dataset, parser
 from benchmarks.quality.common.hidden_runs import COVERED, EMPTY, LENGTHS, HiddenResult, run_sequence
-from benchmarks.quality.common.scene_runs import MAX_LOOKALIKE_FRAMES
+from benchmarks.quality.common.scene_runs import MAX_WRONG_FRAMES
 from benchmarks.quality.common.sequence_runs import find_tasks, run_longest_first
 from benchmarks.quality.common.tables import Cell, markdown, mean, write_csv
 from benchmarks.quality.common.variants import parse_variants
@@ -36,7 +36,7 @@ def rows(results: Sequence[HiddenResult], trackers: Iterable[str]) -> list[list[
     for kind, frames, tracker in product((COVERED, EMPTY), LENGTHS, trackers):
         runs = [each for each in results if (each.tracker, *each.hiding[:2]) == (tracker, kind, frames)]
         taken_up = mean([each.taken_up for each in runs])
-        wrong = mean([each.wrong_frames > MAX_LOOKALIKE_FRAMES for each in runs])
+        wrong = mean([each.wrong_frames > MAX_WRONG_FRAMES for each in runs])
         made.append([kind, frames, tracker, len(runs), taken_up, wrong])
     return made
 

@@ -2,13 +2,14 @@
 """Trackers on rendered stress scenes, tricue.scenes.stress, whose truth is exact.
 
     python -m benchmarks.quality.stress_scenes --trackers fused CSRT
+    python -m benchmarks.quality.stress_scenes --trackers fused CSRT --kinds leaving hidden --away 300
 
 Overlap and position count in frames in which at least half of the target is visible. "recovered": share of
 the absences and occlusions after which the overlap is above 0.5 within 10 frames with the target wholly
-visible; "faithful": share of the scenes with look-alikes in which none was TRACKED for more than 5 frames in
-a row; "LOST reported": share of the scenes with black or unrelated images in which LOST was reported within 3
-frames of them. AUROC is over the frames of all scenes of the row; frames without any visible part of the
-target count as lost.
+visible; "faithful": share of the scenes with look-alikes, or without the target for a while, in which
+nothing else was TRACKED for more than 5 frames in a row; "LOST reported": share of the scenes with black or
+unrelated images in which LOST was reported within 3 frames of them. AUROC is over the frames of all scenes
+of the row; frames without any visible part of the target count as lost.
 """
 
 import sys
@@ -16,6 +17,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
 
 import numpy as np
+from tricue.scenes.stress.plan import AWAY_FRAMES
 from tricue.scenes.stress.scene import STRESS_CHANNELS, STRESS_KINDS
 
 from benchmarks.quality.common.arguments import parser, seeds
@@ -40,10 +42,16 @@ ALL_KINDS = "mean"
 
 
 def tasks(
-    variants: Sequence[Variant], channels: Iterable[str], kinds: Iterable[str], seeds: Iterable[int]
+    variants: Sequence[Variant],
+    channels: Iterable[str],
+    kinds: Iterable[str],
+    seeds: Iterable[int],
+    away: int | None = None,
 ) -> list[SceneTask]:
     """A task per scene, with all trackers."""
-    return [SceneTask(kind, seed, each, variants) for each, kind, seed in product(channels, kinds, seeds)]
+    return [
+        SceneTask(kind, seed, each, variants, away) for each, kind, seed in product(channels, kinds, seeds)
+    ]
 
 
 def numbers_of(runs: Sequence[SceneResult]) -> list[float]:
@@ -105,12 +113,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     made.add_argument("--channels", nargs="+", choices=STRESS_CHANNELS, default=list(STRESS_CHANNELS))
     made.add_argument("--kinds", nargs="+", choices=STRESS_KINDS, default=list(STRESS_KINDS))
     made.add_argument("--seeds", type=seeds, default=seeds("0:20"), metavar="A:B", help="default 0:20")
+    made.add_argument(
+        "--away",
+        type=int,
+        metavar="N",
+        help="frames, instead of 30 and 20, in which leaving and hidden targets are gone",
+    )
     options = made.parse_args(arguments)
+    if options.away is not None and not set(options.kinds) <= set(AWAY_FRAMES):
+        made.error(f"--away: expected --kinds of {', '.join(AWAY_FRAMES)}")
     try:
         variants = parse_variants(options.trackers, options.set)
     except (TypeError, ValueError) as error:
         made.error(str(error))
-    todo = tasks(variants, options.channels, options.kinds, options.seeds)
+    todo = tasks(variants, options.channels, options.kinds, options.seeds, options.away)
     results = [each for several in run_parallel(run_scene, todo, options.jobs) for each in several]
     if not results:
         made.error("--trackers: expected one that can use the channels")

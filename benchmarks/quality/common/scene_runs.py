@@ -23,8 +23,8 @@ MAX_RECOVERY_FRAMES = 10
 """Frames in which a target that is wholly visible again has to be found."""
 MAX_LOST_DELAY = 3
 """Frames without the target in which LOST has to be reported."""
-MAX_LOOKALIKE_FRAMES = 5
-"""Frames in a row in which TRACKED on a look-alike is tolerated."""
+MAX_WRONG_FRAMES = 5
+"""Frames in a row in which TRACKED on something else is tolerated."""
 MIN_LOOKALIKE_OVERLAP, MAX_TARGET_OVERLAP = 0.3, 0.1
 """A box is on a look-alike above this overlap with it and below that with the target."""
 
@@ -36,6 +36,7 @@ class SceneTask(NamedTuple):
     seed: int
     channels: str
     variants: Sequence[Variant]
+    away: int | None = None  # frames, as stress_scene has it
 
 
 class SceneResult(NamedTuple):
@@ -43,9 +44,9 @@ class SceneResult(NamedTuple):
 
     errors: (N,) meters between the positions, NaN where one is unknown. counted: (N,) whether at least half
     of the target is visible. recovered: share of the absences and occlusions after which the target was found
-    again. faithful: 1 where no look-alike was TRACKED for long, else 0. reported_lost: 1 where LOST was
-    reported in time when the image got black or showed another scene, else 0. trouble: the error that ended
-    the tracker, or "".
+    again. faithful: 1 where nothing but the target was TRACKED for long, else 0. reported_lost: 1 where LOST
+    was reported in time when the image got black or showed another scene, else 0. trouble: the error that
+    ended the tracker, or "".
     """
 
     tracker: str
@@ -67,7 +68,7 @@ def run_scene(task: SceneTask) -> list[SceneResult]:
     able = [each for each in task.variants if not each.unsupported(inputs)]
     if not able:
         return []
-    scene = stress_scene(task.kind, task.seed, channels=task.channels)
+    scene = stress_scene(task.kind, task.seed, channels=task.channels, away=task.away)
     return [run_variant(each, scene, task.channels) for each in able]
 
 
@@ -120,16 +121,18 @@ def _first_whole(scene: StressScene | RoomScene, event: str) -> int | None:
 
 
 def faithful(run: Run, scene: StressScene | RoomScene) -> float:
-    """1 where no look-alike was TRACKED for more than MAX_LOOKALIKE_FRAMES in a row, else 0; NaN without
-    look-alikes.
+    """1 where no look-alike, and nothing while the target wasn't visible, was TRACKED for more than
+    MAX_WRONG_FRAMES in a row, else 0; NaN where there is no look-alike and the target is always visible.
     """
-    if "lookalike" not in scene.spans:
+    wrong = scene.visible <= 0
+    if "lookalike" in scene.spans:
+        others = np.nan_to_num([metrics.overlaps(run.boxes, boxes) for boxes in scene.lookalikes])
+        target = np.nan_to_num(metrics.overlaps(run.boxes, scene.boxes))
+        wrong = wrong | ((others.max(axis=0) > MIN_LOOKALIKE_OVERLAP) & (target < MAX_TARGET_OVERLAP))
+    elif not wrong.any():
         return float("nan")
-    others = np.nan_to_num([metrics.overlaps(run.boxes, boxes) for boxes in scene.lookalikes]).max(axis=0)
-    target = np.nan_to_num(metrics.overlaps(run.boxes, scene.boxes))
     tracked = np.array([status is Status.TRACKED for status in run.statuses])
-    wrong = tracked & (others > MIN_LOOKALIKE_OVERLAP) & (target < MAX_TARGET_OVERLAP)
-    return float(longest_run(wrong) <= MAX_LOOKALIKE_FRAMES)
+    return float(longest_run(wrong & tracked) <= MAX_WRONG_FRAMES)
 
 
 def longest_run(flags: Flags) -> int:

@@ -132,6 +132,17 @@ def test_leaving_lasts_30_frames(seed):
     assert np.nanmax(steps) < 0.4 * np.nanmax(made.boxes[:, 2:])
 
 
+@pytest.mark.parametrize("kind", ["leaving", "hidden"])
+@pytest.mark.parametrize("away", [2, 45])
+def test_it_is_away_for_as_long_as_asked(kind, away):
+    """The scene is longer by as many frames; the target is whole before, and again at its end."""
+    made, usual = (stress_scene(kind, 1, (80, 80), away=frames) for frames in (away, None))
+    gone = made.visible == 0
+    assert runs(gone) == [away]
+    assert len(made.frames) - away == len(usual.frames) - int((usual.visible == 0).sum())
+    assert (made.visible[[0, -1]] == 1).all()
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_hiding_lasts_20_frames_behind_something_nearer(seed):
     """For 20 frames on end nothing of the target is seen, where the depth is less than the target's."""
@@ -339,6 +350,9 @@ def test_a_shutter_blurs_what_moves_and_nothing_else():
         ({"seed": -1}, "seed: expected a whole number from 0, got -1"),
         ({"size": (320, 40)}, "size: expected width and height of 80 pixels or more"),
         ({"noise": -1.0}, "noise: expected levels of 255, 0 or more, got -1.0"),
+        ({"away": 30}, "away: expected none for the kind all, got 30"),
+        ({"kind": "hidden", "away": 1}, "away: expected 2 frames or more, got 1"),
+        ({"kind": "hidden", "away": 0}, "away: expected .* got 0"),
         ({"shutter": 1.5}, "shutter: expected a share from 0 to 1, got 1.5"),
     ],
 )

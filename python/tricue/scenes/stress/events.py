@@ -5,7 +5,7 @@ Paths are pixels in the image and meters along z, for trackers follow the target
 camera's pan moves only the room; its shake moves all cards.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -17,7 +17,6 @@ from tricue.scenes.motion import sample_gain_steps, sample_path, sample_sway
 from tricue.scenes.stress.cards import Card, CardCamera, CardPose, face_camera
 
 STRESS_FRAME_RATE = 30.0  # frames per second
-AWAY_FRAMES, HIDDEN_FRAMES = 30, 20  # frames outside of the image, and behind the occluder
 MAX_ROLL, MAX_YAW = np.radians(10), np.radians(12)
 MIN_GAIN, MAX_GAIN = 0.4, 1.3  # of the light
 BLACK_FRAMES, OTHER_ROOM_FRAMES = 8, 24
@@ -65,6 +64,7 @@ class StressMotion:
     light: Array  # (N, 3) gain of each channel
     black: NDArray[np.bool_]  # (N,) frames without light
     in_other_room: NDArray[np.bool_]  # (N,) frames in another room
+    away: Mapping[str, int]  # frames outside of the image, "leaving", and behind the occluder, "hidden"
     spans: dict[str, range] = field(default_factory=dict)  # the frames of each event
 
     def __len__(self) -> int:
@@ -95,11 +95,12 @@ def sample_card_path(
 
 
 def leave_image(motion: StressMotion, span: range, rng: np.random.Generator) -> None:
-    """The target leaves over one edge of the image for AWAY_FRAMES, and returns over another."""
+    """The target leaves over one edge of the image, and returns over another."""
     path, camera = motion.target, motion.camera
     width = 2 * path.half_size(camera, span.start)[0]
     pace = max(0.2 * width, 0.035 * camera.width)
-    out, last = span.start + EVENT_LEAD_FRAMES, span.start + EVENT_LEAD_FRAMES + AWAY_FRAMES - 1
+    out = span.start + EVENT_LEAD_FRAMES
+    last = out + motion.away["leaving"] - 1
     gone = path.pixels[span.start]
     edges = np.array([[-1, 0], [1, 0], [0, -1]])
     leaves, returns = rng.permutation(3)[:2]
@@ -135,16 +136,15 @@ def _cross_edge(motion: StressMotion, frame: int, edge: Array, step: int, pace: 
 
 
 def hide_target(motion: StressMotion, span: range, rng: np.random.Generator) -> None:
-    """The occluder comes fast, moves with the target, hides it for HIDDEN_FRAMES, and leaves."""
+    """The occluder comes fast, moves with the target, hides it, and leaves."""
     path, camera, occluder = motion.target, motion.camera, motion.occluder
     first = span.start + EVENT_LEAD_FRAMES
+    after = first + motion.away["hidden"]
     frames = np.arange(len(motion))
-    halves = np.array(
-        [path.half_size(camera, index) for index in range(first - 1, first + HIDDEN_FRAMES + 1)]
-    )
+    halves = np.array([path.half_size(camera, index) for index in range(first - 1, after + 1)])
     half, tall = halves.max(axis=0)
     margin = 0.35 * half + 3
-    depth = max(0.62 * path.depth[first : first + HIDDEN_FRAMES].min(), MIN_OCCLUDER_DEPTH)
+    depth = max(0.62 * path.depth[first:after].min(), MIN_OCCLUDER_DEPTH)
     occluder.depth[:] = depth
     scale = 2 * depth / camera.fx
     size = (half + margin) * scale * 1.02, (1.6 * tall + margin) * scale
@@ -157,9 +157,9 @@ def hide_target(motion: StressMotion, span: range, rng: np.random.Generator) -> 
         first - 1 - slow,
         first - 1,
         first,
-        first + HIDDEN_FRAMES - 1,
-        first + HIDDEN_FRAMES,
-        first + HIDDEN_FRAMES + slow,
+        after - 1,
+        after,
+        after + slow,
     ]
     offset = np.interp(frames, knots, [-far, -before, -near, near, behind, far])
     occluder.pixels[:] = path.pixels

@@ -22,6 +22,8 @@ FRAME_COUNTS = {
     "blank": 110,
     "all": 300,
 }
+AWAY_FRAMES = {"leaving": 30, "hidden": 20}
+"""The frames outside of the image, and behind the occluder, unless a scene has others."""
 EVENT_LENGTHS = {"camera": 40, "light": 45, "leaving": 70, "lookalike": 65, "hidden": 42, "blank": 32}
 """The frames that each event takes in a scene with all of them; they leave six quiet ones at the start."""
 QUIET_FRAMES = 12  # at the start of a scene with one event
@@ -30,10 +32,21 @@ MAX_SPEED, MAX_FAST_SPEED = 0.08, 0.5  # of the target, in its widths per frame
 
 
 def plan_motion(
-    kind: str, camera: Intrinsics, cards: StressCards, middle: float, rng: np.random.Generator
+    kind: str,
+    away: int | None,
+    camera: Intrinsics,
+    cards: StressCards,
+    middle: float,
+    rng: np.random.Generator,
 ) -> StressMotion:
-    """The motion and the events of a scene. kind: one of FRAME_COUNTS. middle: the mean depth, meters."""
-    frames = FRAME_COUNTS[kind]
+    """The motion and the events of a scene.
+
+    kind: one of FRAME_COUNTS. away: in place of AWAY_FRAMES of that kind, which makes the scene longer.
+    middle: the mean depth, meters.
+    """
+    frames, away_frames = FRAME_COUNTS[kind], AWAY_FRAMES
+    if away is not None:
+        frames, away_frames = frames + away - AWAY_FRAMES[kind], {**AWAY_FRAMES, kind: away}
     depth = _depth(kind, frames, middle, rng)
     speed = MAX_FAST_SPEED if kind == "fast" else MAX_SPEED
     paths = [
@@ -54,6 +67,7 @@ def plan_motion(
         light=np.ones((frames, 3)),
         black=np.zeros(frames, bool),
         in_other_room=np.zeros(frames, bool),
+        away=away_frames,
         spans=_spans(kind, frames, rng),
     )
     for path in motion.lookalikes:

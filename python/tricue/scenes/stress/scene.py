@@ -21,12 +21,13 @@ from tricue.scenes.rendering.depth_sensor import DEPTH_SENSORS, DepthSensor
 from tricue.scenes.rendering.stereo_camera import BLUR_DEVIATION, expose_lit
 from tricue.scenes.stress.cards import CardCamera, CardImage
 from tricue.scenes.stress.events import STRESS_FRAME_RATE
-from tricue.scenes.stress.plan import FRAME_COUNTS
+from tricue.scenes.stress.plan import AWAY_FRAMES, FRAME_COUNTS
 from tricue.scenes.stress.stage import StressStage
 
 STRESS_KINDS = tuple(FRAME_COUNTS)
 STRESS_CHANNELS = ("color", "rgbd", "stereo", "depth")
 MIN_IMAGE_SIDE = 80  # pixels along each side of an image
+MIN_AWAY_FRAMES = 2  # one to be gone by, one to be gone still
 EXPOSURE_SAMPLES = 5  # of which the mean makes a motion-blurred image
 
 
@@ -72,6 +73,7 @@ def stress_scene(
     *,
     noise: float = 2.0,
     shutter: float = 0.0,
+    away: int | None = None,
 ) -> StressScene:
     """A textured card that moves on a smooth path through a room, 30 frames per second, under one difficulty.
 
@@ -93,12 +95,15 @@ def stress_scene(
         seed and size, all have the same truth and the same color images.
     noise: standard deviation in levels of 255, independent in both images. shutter: exposure time as a share
         of a frame's time; above 0 there is motion blur.
+    away: of the kinds "leaving" and "hidden", for how many frames, at least 2, instead of 30 and 20; the
+        scene is longer by as many.
 
     The seed decides the appearance, the room, the path and the times. No shadows are cast. ValueError or
     TypeError names the argument that is wrong.
     """
     _check(kind, seed, size, channels, noise, shutter)
-    stage = StressStage.build(kind, seed, size)
+    _check_away(kind, away)
+    stage = StressStage.build(kind, seed, size, away)
     truths = [stage.truth_at(index) for index in range(len(stage.motion))]
     cameras = _StressCameras(channels, noise, shutter, seed)
     return StressScene(
@@ -190,3 +195,12 @@ def _check(kind: str, seed: int, size: tuple[int, int], channels: str, noise: fl
         raise ValueError(f"noise: expected levels of 255, 0 or more, got {noise!r}")
     if not 0 <= finite(shutter, "shutter", "a share") <= 1:
         raise ValueError(f"shutter: expected a share from 0 to 1, got {shutter!r}")
+
+
+def _check_away(kind: str, away: int | None) -> None:
+    if away is None:
+        return
+    if kind not in AWAY_FRAMES:
+        raise ValueError(f"away: expected none for the kind {kind}, got {away!r}")
+    if positive_whole(away, "away", "frames") < MIN_AWAY_FRAMES:
+        raise ValueError(f"away: expected {MIN_AWAY_FRAMES} frames or more, got {away!r}")

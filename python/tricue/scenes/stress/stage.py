@@ -43,7 +43,7 @@ class StressStage(NamedTuple):
     straight: dict[tuple[float, bool], CardImage]  # cached rooms of a camera that looks straight ahead
 
     @classmethod
-    def build(cls, kind: str, seed: int, size: tuple[int, int]) -> "StressStage":
+    def build(cls, kind: str, seed: int, size: tuple[int, int], away: int | None = None) -> "StressStage":
         camera = Intrinsics.from_fov(*size, FIELD_OF_VIEW)
         rng = np.random.default_rng([seed, 0])
         wall = choose_other(WALL_PHOTOGRAPHS, (), rng)
@@ -52,7 +52,8 @@ class StressStage(NamedTuple):
         other_room = furnish_stress_room(
             camera, choose_other(WALL_PHOTOGRAPHS, (wall, cards.photograph), rng), rng
         )
-        motion = plan_motion(kind, camera, cards, MEAN_TARGET_DEPTH, np.random.default_rng([seed, 1]))
+        rng = np.random.default_rng([seed, 1])
+        motion = plan_motion(kind, away, camera, cards, MEAN_TARGET_DEPTH, rng)
         return cls(motion, (room, other_room), StereoRig(camera, STRESS_BASELINE), {})
 
     def draw(self, camera: CardCamera, index: int, time: float) -> CardImage:

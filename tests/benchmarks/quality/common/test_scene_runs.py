@@ -56,6 +56,14 @@ def test_faithful_for_five_frames():
     assert longest_run(np.array([True, True, False, True])) == 2
 
 
+def test_faithful_while_the_target_is_away():
+    """Whatever is TRACKED where nothing of the target is visible is something else."""
+    one = scene([1, *[0] * 6, 1, 1], hidden=range(9))
+    assert faithful(run([BOX] * 9), one) == 0
+    statuses = [Status.TRACKED] * 6 + [Status.LOST, Status.TRACKED, Status.TRACKED]
+    assert faithful(run([BOX] * 9, statuses), one) == 1
+
+
 def test_lost_has_to_be_reported_in_three_frames():
     """From the first frame without the target on."""
     one = scene([1, 1, 0, 0, 0, 0], blank=range(1, 6))
