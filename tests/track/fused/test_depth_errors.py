@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tricue import Box, Frame, FusedTracker, Status
+from tricue import Box, Frame, FusedTracker, Intrinsics, Status, StereoRig
 from tricue.track.fused import position_filter
 
 ROOMS = [("held", 0), ("held", 1), ("table", 0), ("table", 1)]
@@ -89,3 +89,32 @@ def test_a_guessed_rig_gives_no_depth(drawn, shoot):
             track = [tracker.init(frames[0], box), *map(tracker.update, frames[1:])][-1]
             assert track.position is not None
             assert (track.depth is not None) == expected
+
+
+@pytest.mark.parametrize("width_of_view", [45, 90])
+def test_a_guessed_camera_is_in_the_covariance(rooms, width_of_view):
+    """What the default camera is off by shows to the right and down, and not in the depth."""
+    scene = rooms[2]
+    camera = Intrinsics.from_fov(scene.intrinsics.width, scene.intrinsics.height, width_of_view)
+    known, guessed = (
+        FusedTracker(**cameras).init(scene.frames[0], scene.boxes[0])
+        for cameras in ({"intrinsics": camera}, {})
+    )
+    off = guessed.position - known.position
+    assert abs(off[0]) > 5 * np.sqrt(known.covariance[0, 0])
+    assert np.all(np.abs(off) <= 2 * np.sqrt(np.diag(guessed.covariance)))
+    assert guessed.covariance[2, 2] == pytest.approx(known.covariance[2, 2], rel=0.1)
+    assert np.linalg.eigvalsh(guessed.covariance).min() > 0
+
+
+@pytest.mark.parametrize("baseline", [0.06, 0.2])
+def test_a_guessed_rig_is_in_the_covariance(drawn, shoot, baseline):
+    """All meters of a pair scale with the distance of its cameras."""
+    frame, scene = shoot("plain", "pair")[0], drawn("plain")
+    known, guessed = (
+        FusedTracker(**cameras).init(frame, scene.boxes[0])
+        for cameras in ({"rig": StereoRig(scene.rig.intrinsics, baseline)}, {})
+    )
+    off = guessed.position - known.position
+    assert abs(off[2]) > 5 * np.sqrt(known.covariance[2, 2])
+    assert np.all(np.abs(off) <= 2 * np.sqrt(np.diag(guessed.covariance)))

@@ -3,6 +3,8 @@
 
 from typing import Any
 
+import numpy as np
+
 from tricue import kernels as kernel_sets
 from tricue.camera.box import BoxLike
 from tricue.camera.depth_check import warn_of_depth
@@ -32,6 +34,8 @@ from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.verify import verify
 
+GUESSED_CAMERA_ERROR = 0.4  # of meters to the right and down: 40 or 90 degrees are wide instead of 60
+GUESSED_RIG_ERROR = 0.7  # of all meters: 5 or 25 cm are between the cameras instead of 12, and that as well
 UNTIMED_FACTOR = 2.0  # frames without timestamps may be so much farther apart than ``rate`` says
 
 
@@ -46,8 +50,8 @@ class FusedTracker(TrackerBase[FusedParams, State]):
     alone; channels may come and go. ``position``, ``covariance`` and ``depth`` are given once depth was
     measured, in the frame of the camera that ``intrinsics=``, or ``rig=`` for a stereo pair, describes.
     Without these a default camera is assumed, so that meters to the right and down are a guess, and without
-    ``rig`` all those of a stereo pair, which then has no ``depth``. Nothing is random: ``seed`` is taken as
-    by every tracker and not used.
+    ``rig`` all those of a stereo pair, which then has no ``depth``; ``covariance`` has what such a guess may
+    be off by. Nothing is random: ``seed`` is taken as by every tracker and not used.
 
         tracker = tricue.FusedTracker()
         track = tracker.init(frame, box=(x, y, width, height))
@@ -177,20 +181,26 @@ class FusedTracker(TrackerBase[FusedParams, State]):
             status = Status.OCCLUDED
         else:
             status = Status.LOST
-        return Track(state.outline.apply_to(state.target.upright).box, state.score, status, *_estimate(state))
+        box = state.outline.apply_to(state.target.upright).box
+        return Track(box, state.score, status, *self._estimate(state))
+
+    def _estimate(self, state: State) -> tuple[Floats, Floats, float | None] | tuple[None, None, None]:
+        """A track's position, covariance and depth; None where depth was never measured."""
+        if state.position is None or state.depth is None:
+            return None, None, None
+        position = state.position.position
+        covariance = state.position.error_covariance(state.depth.depth_spread)
+        if not state.is_metric:
+            error = GUESSED_RIG_ERROR * position
+            return position, covariance + np.outer(error, error), None
+        if self.rig is None and self.intrinsics is None:
+            error = GUESSED_CAMERA_ERROR * position * (1, 1, 0)
+            covariance = covariance + np.outer(error, error)
+        return position, covariance, float(position[2])
 
 
 def _target_model(state: State, appearance: AppearanceModels, p: FusedParams) -> TargetModel:
     return TargetModel(appearance, state.depth, state.first_side, state.typical, p)
-
-
-def _estimate(state: State) -> tuple[Floats, Floats, float | None] | tuple[None, None, None]:
-    """A track's position, covariance and depth; None where depth was never measured."""
-    if state.position is None or state.depth is None:
-        return None, None, None
-    position = state.position.position
-    depth = float(position[2]) if state.is_metric else None
-    return position, state.position.error_covariance(state.depth.depth_spread), depth
 
 
 def _expected_depth(state: State) -> ExpectedDepth | None:
