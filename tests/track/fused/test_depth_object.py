@@ -217,13 +217,14 @@ def test_the_outline_of_a_box_gives_that_box():
 
 
 def frame(rectangle: Rectangle, seconds: float, z: float = Z, depth: bool = True) -> Frame:
-    """A textured target before a wall."""
+    """A textured target before a wall. No two depth images are the same, as those of a camera."""
     left, top, right, bottom = rectangle
     rows = np.arange(top, bottom)[:, None] - bottom, np.arange(left, right)[None] - left
     color = ROOM.copy()
     inside = TEXTURE[rows[0] // 6 % 48, rows[1] // 6 % 24]
     color[max(top, 0) : bottom, left:right] = inside[max(-top, 0) :]
-    return Frame(color, depth=depth_of((rectangle, z)) if depth else None, timestamp=seconds)
+    image = depth_of((rectangle, z)) + np.float32(1e-5 * seconds)
+    return Frame(color, depth=image if depth else None, timestamp=seconds)
 
 
 def follow(tracker: FusedTracker, rectangles: list[Rectangle], **changes: object) -> list[Track]:
