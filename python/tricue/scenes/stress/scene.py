@@ -27,7 +27,7 @@ from tricue.scenes.stress.stage import StressStage
 STRESS_KINDS = tuple(FRAME_COUNTS)
 STRESS_CHANNELS = ("color", "rgbd", "stereo", "depth")
 MIN_IMAGE_SIDE = 80  # pixels along each side of an image
-MIN_AWAY_FRAMES = 2  # one to be gone by, one to be gone still
+MIN_AWAY_FRAMES = 2  # the one it is gone in first, and the one it returns after
 EXPOSURE_SAMPLES = 5  # of which the mean makes a motion-blurred image
 
 
