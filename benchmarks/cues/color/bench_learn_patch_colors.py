@@ -29,7 +29,7 @@ def script(patch: Any, other: Any, width: float, height: float, outer: float, *r
     for pixels, old in ((patch[inside], target), (patch[around], surround)):
         seen = cv2.calcHist([pixels[None]], [0, 1, 2], None, 3 * [16], 3 * [0, 256]) / len(pixels)
         learned.append(old + np.float32(rate) * (seen - old))
-    return *learned, learned[0] / (learned[0] + learned[1] + np.float32(rare))
+    return *learned, (learned[0] + np.float32(rare / 2)) / (learned[0] + learned[1] + np.float32(rare))
 
 
 @pytest.mark.benchmark(group="learn_patch_colors, 64x64")
