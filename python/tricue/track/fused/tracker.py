@@ -34,8 +34,9 @@ from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.verify import verify
 
-GUESSED_CAMERA_ERROR = 0.4  # of meters to the right and down: 40 or 90 degrees are wide instead of 60
-GUESSED_RIG_ERROR = 0.7  # of all meters: 5 or 25 cm are between the cameras instead of 12, and that as well
+# Standard deviations, as shares of guessed meters:
+GUESSED_CAMERA_ERROR = 0.4  # to the right and down; cameras 40 and 90 degrees wide are off by 0.4 and 0.7
+GUESSED_RIG_ERROR = 0.7  # of all; pairs 5 and 25 cm apart are off by 0.6 and 1.1
 UNTIMED_FACTOR = 2.0  # frames without timestamps may be so much farther apart than ``rate`` says
 
 
