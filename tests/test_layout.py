@@ -215,10 +215,11 @@ CV2_OF_TRACKERS = {
     "face_cascade": {"cvtColor", "COLOR_BGR2GRAY", "resize", "INTER_LINEAR"},  # of the first frame
     "face_detection": {"cvtColor", "COLOR_BGR2GRAY", "__version__"},  # of the first frame
     "overlay": {"resize", "INTER_NEAREST", "copyMakeBorder", "BORDER_CONSTANT"},  # for the eye
-    "head_in_disparities": {  # of the first frame
+    "heads_in_disparities": {  # of the first frame
         *("resize", "INTER_AREA", "INTER_LINEAR", "copyMakeBorder", "BORDER_REPLICATE"),
         *("matchTemplate", "TM_CCORR", "minMaxLoc"),
     },
+    "head_outline": {"Sobel", "CV_32F"},  # of the first frame
     "target_observation": {"cvtColor", "COLOR_GRAY2BGR"},
     "depth": {"countNonZero"},
     "depth_trust": {"resize", "INTER_AREA", "absdiff"},  # a warning's, alike in every version

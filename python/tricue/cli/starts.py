@@ -5,7 +5,7 @@ from argparse import Namespace
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
-from tricue.camera.rig import StereoRig
+from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.cli.steps import Start
 from tricue.data.open_source import Source
 from tricue.errors import (
@@ -18,8 +18,7 @@ from tricue.errors import (
 from tricue.kernels import Kernels, load
 from tricue.track.base.registry import names, traits
 from tricue.track.base.track import Tracker
-from tricue.track.base.validation import rig_or_default
-from tricue.track.head_detection.head_in_disparities import find_head_in_disparities
+from tricue.track.head_detection.start_box import find_head_or_face
 
 DEFAULT_TRACKER = "fused"  # if no tracker is chosen
 BOX_HINT, FACE_HINT = "give --box x,y,width,height", "--detect face"
@@ -40,18 +39,22 @@ def depth_tracker() -> str:
 
 
 def choose_start(
-    options: Namespace, source: Source, tracker: Tracker, rig: StereoRig | None = None
+    options: Namespace,
+    source: Source,
+    tracker: Tracker,
+    rig: StereoRig | None = None,
+    camera: Intrinsics | None = None,
 ) -> Start | None:
     """The function that gives the first box; None if the tracker detects its target.
 
-    rig: of stereo pairs, in which a head is found by its disparities.
+    rig, camera: of stereo pairs and of depth, in which a head is found by its size in meters.
     """
     if options.detect == "person" and tracker.traits.detects != "person":
         raise ValueError(
             f"--detect person: {options.tracker} doesn't look for people; {BOX_HINT} or {FACE_HINT}"
         )
     if options.detect == "face":
-        return lambda frame: _face(frame, load(options.kernels), rig)
+        return lambda frame: _face(frame, load(options.kernels), rig, camera)
     given = options.box[0].box if options.box else None
     box = given if given or options.detect else source.true_box(options.start)
     return None if box is None else lambda _: box
@@ -77,13 +80,8 @@ def start_hint(error: ValueError, source: Source, tracker: Tracker) -> str:
     return ""
 
 
-def _face(frame: Frame, k: Kernels, rig: StereoRig | None) -> Box | None:
-    """A head on shoulders in a stereo pair, or, in video of one camera, the largest frontal face."""
+def _face(frame: Frame, k: Kernels, rig: StereoRig | None, camera: Intrinsics | None) -> Box | None:
+    """A head on shoulders in a stereo pair or in depth, or the largest frontal face."""
     if frame.color is None:
         raise ValueError("--detect face: expected color images")
-    if frame.right is not None:
-        baseline = rig_or_default(rig, frame.color.shape).baseline
-        return find_head_in_disparities(k, frame.color, frame.right, baseline)
-    from tricue.track.base.face_detection import find_face
-
-    return find_face(frame.color)
+    return find_head_or_face(k, frame, rig, camera)

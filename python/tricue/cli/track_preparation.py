@@ -92,7 +92,7 @@ def prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
     rig = found.rig
     known = rig.intrinsics if rig else found.intrinsics
     first, end = min([frame for frame, _ in boxes], default=options.start), options.end
-    start = choose_start(options, source, tracker, rig)
+    start = choose_start(options, source, tracker, rig, known)
     run = TrackRun(source, tracker, known, start, rig, first=first, end=None if end is None else end + 1)
     run = run._replace(assumed=found.assumed)
     if several:

@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
-from tricue.errors import BoxNeededError, TargetNotFoundError
 from tricue.track.base import face_cascade
 
 Image = NDArray[np.uint8]
@@ -42,20 +41,6 @@ def find_face(image: Image) -> Box | None:
     else:
         square = _find_square(classifier, image, smallest)
     return None if square is None else _crop_to_head(square)
-
-
-def face_to_start_on(image: Image) -> Box:
-    """The largest frontal face, for trackers that got no box.
-
-    TargetNotFoundError without one, BoxNeededError where nothing is installed that detects faces.
-    """
-    try:
-        face = find_face(image)
-    except ImportError as error:
-        raise BoxNeededError(str(error)) from error
-    if face is None:
-        raise TargetNotFoundError("box: expected (x, y, width, height), as no face was found in this frame")
-    return face
 
 
 def _find_square(classifier: Any, image: Image, smallest: int) -> Box | None:

@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 
 from tricue import kernels as kernel_sets
 from tricue.camera.box import Box, BoxLike
-from tricue.camera.frame import FrameLike
+from tricue.camera.frame import FrameLike, as_frame
 from tricue.track.base import validation
-from tricue.track.base.face_detection import face_to_start_on
 from tricue.track.base.random_source import RandomSource
 from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase, read_only
@@ -29,6 +28,7 @@ from tricue.track.color_particle.skin_detection import (
     reference_color,
 )
 from tricue.track.color_particle.state import ParticleSet, State
+from tricue.track.head_detection.start_box import head_or_face_to_start_on
 
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
@@ -96,13 +96,15 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
         """Start, or restart, on the target in ``box``: (x, y, width, height), pixels.
 
-        The box may extend beyond the image. Without a box it starts on the largest frontal face. ValueError
-        where no part of the box is inside, and, without a box, where no face is found (TargetNotFoundError)
-        or nothing is installed that detects faces (BoxNeededError).
+        The box may extend beyond the image. Without a box it starts on the head that stands out in a stereo
+        pair or in depth, if the frame has them, or else on the largest frontal face. ValueError where no part
+        of the box is inside, and, without a box, where none is found (TargetNotFoundError) or nothing is
+        installed that detects faces (BoxNeededError).
         """
         image, timestamp = validation.color_image(frame)
-        given = face_to_start_on(image) if box is None else box
-        k, ellipse = self._k, validation.initial_box(given, image.shape).ellipse
+        k = self._k
+        given = head_or_face_to_start_on(k, as_frame(frame)) if box is None else box
+        ellipse = validation.initial_box(given, image.shape).ellipse
         window = np.array(ellipse)
         appearance = Appearance.create(self.params)
         seen = appearance.observe(k, image, window)

@@ -16,7 +16,7 @@ from tricue.track.base import validation
 from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase
 from tricue.track.base.traits import Channels, Traits
-from tricue.track.head_detection.head_in_disparities import find_head_in_disparities
+from tricue.track.head_detection.find_head import find_head_in_pair
 from tricue.track.stereo_head import head_filter
 from tricue.track.stereo_head.disparity import find_initial_disparity, limits_between
 from tricue.track.stereo_head.head_filter import HeadFilter
@@ -84,7 +84,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         left, right, timestamp = validation.stereo_pair(frame)
         rig = validation.rig_or_default(self.rig, left.shape)
         geometry = StereoGeometry.of(rig)
-        given = find_head_in_disparities(self._k, left, right, rig.baseline) if box is None else as_box(box)
+        given = find_head_in_pair(self._k, left, right, rig.baseline) if box is None else as_box(box)
         if given is None:
             raise TargetNotFoundError(
                 "box: expected (x, y, width, height), as no head on shoulders was found in this frame"

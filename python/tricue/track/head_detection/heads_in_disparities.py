@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""A head in the disparities of a stereo pair: an ellipse of a head's size, on shoulders, before the rest.
+"""Heads in disparities: ellipses of a head's size, on shoulders and a chest, before the rest.
 
-It needs neither a face nor colors. A head's width in pixels follows from its disparity and the baseline
-alone. So each layer of disparities is scaled to the same width of a head, and the same masks are moved over
-all of them.
+A head's width in pixels follows from its disparity and the baseline alone. So each layer of disparities is
+scaled to the same width of a head, and the same masks are moved over all of them.
 """
 
-import math
 from typing import NamedTuple
 
 import cv2
@@ -14,40 +12,41 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
-from tricue.kernels import Kernels
 
-Image = NDArray[np.uint8]
 Map = NDArray[np.float32]
 
 HEAD_WIDTH, HEAD_HEIGHT = 0.17, 0.22  # meters, of a head with hair
-SEARCH_WIDTH = 320  # pixels, about, to which a pair is reduced
-WINDOW, UNIQUENESS, TOLERANCE = 7, 0, 1  # of the matching of blocks
-NEAREST, MAX_DISPARITY = 0.25, 4000  # highest disparity: share of the width, and pixels
 CELLS = 6  # pixels of a head's width where it is looked for
 LAYER_STEP = 1.1  # from one layer's disparity to the next
 LAYER_SHARE, MIN_LAYER = 0.12, 0.8  # half a layer's thickness: of its disparity, and in pixels
 FREE = 1.5  # a layer's half thicknesses that surroundings are from the head, at least
-MIN_SCORE = 0.97  # most scenes without people have less; 1.2 is a perfect head
-MIN_HEAD, MAX_HEAD = 5.0, 0.66  # width of a head: pixels of the reduced image, share of its height
+MIN_HEAD, MAX_HEAD = 5.0, 0.66  # width of a head: pixels, and share of the height of the disparities
 MIN_DISPARITY = 2.0  # pixels; what is behind a farther head differs by less than the matching's errors
-SHOULDERS_HIDDEN = 0.2  # share of the shoulders that may be hidden or unmatched
+ABOVE, BELOW = 1, 2  # heads, by which a layer is continued beyond its border, where people are cut off
+BODY_HIDDEN = 0.2  # share of a shoulder, or of the chest, that may be hidden or unmatched
 FULL_WEIGHT = 0.1  # of the shares' sum, which decides between places that are alike in the least
 
 
-class _Candidate(NamedTuple):
-    score: float
+class Candidate(NamedTuple):
+    """prominence: how much of a head, of a body and of what is free around the head is seen; 1.2 at most.
+
+    box: that of the head's upright ellipse, pixels of the disparities.
+    """
+
+    prominence: float
     box: Box
 
 
 def _masks() -> dict[str, Map]:
-    """The places of head, shoulders and surroundings, in widths of a head from the head's center."""
-    rows, columns = round(3.6 * CELLS), round(3.2 * CELLS)
+    """The places of head, body and surroundings, in widths of a head from the head's center."""
+    rows, columns = round(4.2 * CELLS), round(3.2 * CELLS)
     x = ((np.arange(columns) + 0.5 - columns / 2) / CELLS)[None]
     y = ((np.arange(rows) + 0.5) / CELLS - 1.4)[:, None]
     aspect = HEAD_HEIGHT / HEAD_WIDTH
     radius = np.hypot(x / 0.5, y / (0.5 * aspect))
     beside = (np.abs(y) < 0.55) & (np.abs(x) > 0.68) & (np.abs(x) < 1.25)
     on_shoulders = (y > 1.25) & (y < 1.75) & (np.abs(x) > 0.45) & (np.abs(x) < 1.0)
+    on_chest = (y > 1.8) & (y < 2.8) & (np.abs(x) < 0.8)
     above = (y < -0.85) & (y > -1.35) & (np.abs(x) < 0.5)
     places = {
         "head": radius < 0.9,
@@ -56,6 +55,7 @@ def _masks() -> dict[str, Map]:
         "above": above,
         "left shoulder": on_shoulders & (x < 0),
         "right shoulder": on_shoulders & (x > 0),
+        "chest": on_chest,
     }
     return {name: (place / place.sum()).astype(np.float32) for name, place in places.items()}
 
@@ -65,31 +65,11 @@ MASK_SHAPE = MASKS["head"].shape
 HEAD_CENTER = (MASK_SHAPE[1] / 2, 1.4 * CELLS)  # x, y in the masks
 
 
-def find_head_in_disparities(k: Kernels, left: Image, right: Image, baseline: float) -> Box | None:
-    """The box of the head that stands out most in a rectified pair, BGR or gray each; None without one.
+def heads_in_disparities(disparities: Map, baseline: float) -> list[Candidate]:
+    """The best head of each layer of disparities (H, W), pixels, NaN where there is none.
 
-    baseline: meters, of the rig. The box is that of the head's upright ellipse, in pixels of the left image.
+    baseline: meters, between the cameras.
     """
-    height, width = left.shape[:2]
-    step = max(1, round(width / SEARCH_WIDTH))
-    size = (width // step, height // step)
-    if min(size) < 2 * CELLS:
-        return None
-    nearest = min(math.ceil(size[0] * NEAREST), MAX_DISPARITY)
-    disparities = k.sad_disparity(
-        k.reduce_gray(left, step), k.reduce_gray(right, step), (0, 0, *size), False,
-        0, nearest, WINDOW, UNIQUENESS, True, TOLERANCE,
-    )  # fmt: skip
-    found = max(_candidates(disparities, baseline), key=lambda each: each.score, default=None)
-    if found is None or found.score < MIN_SCORE:
-        return None
-    across, down = width / size[0], height / size[1]
-    x, y, box_width, box_height = found.box
-    return Box(x * across, y * down, box_width * across, box_height * down)
-
-
-def _candidates(disparities: Map, baseline: float) -> list[_Candidate]:
-    """The best head of each layer of disparities."""
     height = disparities.shape[0]
     disparity, found = max(MIN_DISPARITY, MIN_HEAD * baseline / HEAD_WIDTH), []
     while (head := HEAD_WIDTH / baseline * disparity) < MAX_HEAD * height:
@@ -103,7 +83,7 @@ def _candidates(disparities: Map, baseline: float) -> list[_Candidate]:
         if best is not None:
             score, x, y = best
             box = Box.from_ellipse(x, y, head / 2, head / 2 * HEAD_HEIGHT / HEAD_WIDTH)
-            found.append(_Candidate(score, box))
+            found.append(Candidate(score, box))
         disparity *= LAYER_STEP
     return found
 
@@ -113,8 +93,8 @@ def _best_place(layer: Map, outside: Map, scale: float) -> tuple[float, float, f
     height, width = layer.shape
     size = (max(1, round(width * scale)), max(1, round(height * scale)))
     mode = cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR
-    border = (CELLS, CELLS, CELLS, CELLS)
-    if size[0] + 2 * CELLS < MASK_SHAPE[1] or size[1] + 2 * CELLS < MASK_SHAPE[0]:
+    border = (ABOVE * CELLS, BELOW * CELLS, CELLS, CELLS)
+    if size[0] + sum(border[2:]) < MASK_SHAPE[1] or size[1] + sum(border[:2]) < MASK_SHAPE[0]:
         return None
 
     def shares(picture: Map, *names: str) -> Map:
@@ -125,11 +105,11 @@ def _best_place(layer: Map, outside: Map, scale: float) -> tuple[float, float, f
         return np.asarray(np.minimum.reduce(correlated), np.float32)
 
     head, free = shares(layer, "head"), shares(outside, "left", "right", "above")
-    shoulders = shares(layer, "left shoulder", "right shoulder") + np.float32(SHOULDERS_HIDDEN)
-    total = np.minimum(np.minimum(head, free), shoulders) + FULL_WEIGHT * (head + free)
+    body = shares(layer, "left shoulder", "right shoulder", "chest") + np.float32(BODY_HIDDEN)
+    total = np.minimum(np.minimum(head, free), body) + FULL_WEIGHT * (head + free)
     _, score, _, (x, y) = cv2.minMaxLoc(total)
     return (
         float(score),
         (x + HEAD_CENTER[0] - CELLS) * width / size[0],
-        (y + HEAD_CENTER[1] - CELLS) * height / size[1],
+        (y + HEAD_CENTER[1] - ABOVE * CELLS) * height / size[1],
     )

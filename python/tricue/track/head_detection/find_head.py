@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT
+"""Finds a head in a stereo pair, or in an image with depth: by its shape, its outline and its size in meters.
+
+Of all that has a head's size and shape and stands before the rest, it is what has a head's outline, too. It
+needs neither a face nor colors, and nothing that was learned.
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.box import Box
+from tricue.kernels import Kernels
+from tricue.track.head_detection.head_outline import find_outline
+from tricue.track.head_detection.heads_in_disparities import heads_in_disparities
+
+Image = NDArray[np.uint8]
+Map = NDArray[np.float32]
+
+SEARCH_WIDTH = 320  # pixels, about, to which disparities and depth are reduced
+WINDOW, UNIQUENESS, TOLERANCE = 7, 0, 1  # of the matching of blocks
+NEAREST, MAX_DISPARITY = 0.25, 4000  # highest disparity: share of the width, and pixels
+MIN_SIDE = 12  # pixels
+DEPTH_BASELINE = 0.5  # meters, of the disparities that depth stands for
+MIN_PROMINENCE = 0.5  # a ball in the air, without shoulders, has 0.4
+OUTLINE_WEIGHT = 3.0  # of an outline's evidence against a head's prominence
+MIN_SCORE = 2.5  # what isn't a head has less, but for some things on shoulders of their own
+
+
+def find_head_in_pair(k: Kernels, left: Image, right: Image, baseline: float) -> Box | None:
+    """The box of the head that stands out most in a rectified pair, BGR or gray each; None without one.
+
+    baseline: meters, of the rig. The box is that of the head's upright ellipse, in pixels of the left image.
+    """
+    height, width = left.shape[:2]
+    step = max(1, round(width / SEARCH_WIDTH))
+    size = (width // step, height // step)
+    if min(size) < MIN_SIDE:
+        return None
+    nearest = min(math.ceil(size[0] * NEAREST), MAX_DISPARITY)
+    disparities = k.sad_disparity(
+        k.reduce_gray(left, step), k.reduce_gray(right, step), (0, 0, *size), False,
+        0, nearest, WINDOW, UNIQUENESS, True, TOLERANCE,
+    )  # fmt: skip
+    return _best_head(k, left, disparities, baseline)
+
+
+def find_head_in_depth(k: Kernels, image: Image, depth: Map, focal_length: float) -> Box | None:
+    """The same in an image, BGR or gray, with depth (h, w), meters, 0 or NaN where there is none.
+
+    focal_length: pixels of the depth, along x. Depth shows what the image does, but may be a few pixels off.
+    """
+    step = max(1, round(depth.shape[1] / SEARCH_WIDTH))
+    thinned = depth[::step, ::step]
+    if min(thinned.shape) < MIN_SIDE:
+        return None
+    disparities = np.full(thinned.shape, np.nan, np.float32)
+    np.divide(focal_length / step * DEPTH_BASELINE, thinned, out=disparities, where=thinned > 0)
+    return _best_head(k, image, disparities, DEPTH_BASELINE)
+
+
+def _best_head(k: Kernels, image: Image, disparities: Map, baseline: float) -> Box | None:
+    """The head of the highest score in an image and its disparities, which may be of fewer pixels."""
+    (height, width), (rows, columns) = image.shape[:2], disparities.shape
+    across, down = width / columns, height / rows
+    best, found = MIN_SCORE, None
+    for prominence, (x, y, box_width, box_height) in heads_in_disparities(disparities, baseline):
+        if prominence < MIN_PROMINENCE:
+            continue
+        outline = find_outline(k, image, Box(x * across, y * down, box_width * across, box_height * down))
+        score = prominence + OUTLINE_WEIGHT * outline.evidence
+        if score > best:
+            best, found = score, outline.box
+    return found
