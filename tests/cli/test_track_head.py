@@ -11,7 +11,7 @@ import pytest
 from tricue import Box
 from tricue.cli import main
 from tricue.export.table import COVARIANCE
-from tricue.scenes import StereoScene, head
+from tricue.scenes import StereoScene, head, room_scene, write_sequence
 
 FRAMES = 12
 HEAD = ["--tracker", "stereo-head"]
@@ -112,6 +112,23 @@ def test_detect_face_waits_for_a_head(
     assert "started in frame 2" in capsys.readouterr().out
     box = Box(*(float(rows[0][key]) for key in ("x", "y", "width", "height")))
     assert box.iou(scene.boxes[2]) > 0.5
+
+
+def test_detect_face_finds_a_head_in_depth(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that in color with depth --detect face starts on a head, which is followed in meters."""
+    scene = room_scene("walker", 0, channels="rgbd", frames=4)
+    write_sequence(scene, tmp_path / "room")
+    command = ["track", str(tmp_path / "room"), "--detect", "face", "--csv", str(tmp_path / "o.csv")]
+    assert main(command) == 0
+    assert "started in frame" not in capsys.readouterr().out  # in the first
+    rows = list(csv.DictReader((tmp_path / "o.csv").read_text().splitlines()))
+    start = Box(*(float(rows[0][key]) for key in ("x", "y", "width", "height")))
+    x, y, width, _ = scene.boxes[0]
+    assert x < start.center[0] < x + width
+    assert abs(start.y - y) < 5
+    assert start.height < 30
+    assert [row["status"] for row in rows] == ["tracked"] * 4
+    assert all(row["Z_m"] for row in rows)
 
 
 def small(folder: Path) -> None:

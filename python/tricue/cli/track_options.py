@@ -68,7 +68,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
     start.add_argument(
         "--detect",
         choices=("face", "person"),
-        help="start on the first face (stereo: head), or on the first person that a depth tracker detects",
+        help="start on the first face (in stereo and depth: head), or on the first person that a depth "
+        "tracker detects",
     )
     command.add_argument(
         "--start", type=frame_number, default=0, metavar="N", help="the first frame, from 0; default 0"

@@ -100,11 +100,11 @@ def test_no_head_in_depth_is_none(rendered: Callable[..., Any]) -> None:
         assert find_head_in_depth(k, image, np.zeros(shape, np.float32), 300.0) is None
 
 
-@pytest.mark.parametrize("name", ["kitchen-mug", "paper-cup", "yellow-dragon"])
+@pytest.mark.parametrize("name", ["kitchen-mug", "yellow-dragon"])
 def test_recorded_things_are_no_heads(data: Path, name: str) -> None:
-    """It proves that recordings of things and of hands give no box."""
+    """It proves that recordings of things, on a table and of a moving camera, give no box."""
     for index, frame in enumerate(open_source(data / "rgbd" / name)):
-        if index % 30 == 0:
+        if index % 10 == 0:
             assert find_in_depth(frame, 525.0) is None, index
 
 

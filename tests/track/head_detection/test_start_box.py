@@ -22,7 +22,7 @@ def no_cascade(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_color_tracker_starts_on_a_head_of_a_pair(rendered: Callable[..., Any]) -> None:
-    """It proves that the color particle tracker finds a head in a stereo pair, and then follows its colors."""
+    """It proves that the color particle tracker starts on a head in a pair, and follows it in color."""
     scene = rendered(head, seed=1, frames=24)
     tracker = tricue.ColorParticleTracker()
     track = tracker.init(scene.frames[0])
