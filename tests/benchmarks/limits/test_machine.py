@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 from tricue import _core
 
-from benchmarks import report
+from benchmarks import kernel_rows
 from benchmarks.limits import machine
 
 ROOT = Path(__file__).parents[3]
@@ -50,15 +50,15 @@ def test_bandwidth_falls_with_size() -> None:
 )
 def test_row_tells_why_only_where_asked(work: dict[str, Any], seconds: float, told: str) -> None:
     """A kernel below a tenth of the limit has its reason beside it, another has none."""
-    assert report.share_of_limit("resample", work, LIMITS, seconds) == told
+    assert kernel_rows.share_of_limit("resample", work, LIMITS, seconds) == told
 
 
 def test_report_refuses_wrong_work() -> None:
     """A kernel can't be faster than the machine, nor far from it without a reason."""
     with pytest.raises(SystemExit, match=r"resample does .*this machine needs 1e-07"):
-        report.share_of_limit("resample", {"counts": 100}, LIMITS, 9e-8)
+        kernel_rows.share_of_limit("resample", {"counts": 100}, LIMITS, 9e-8)
     with pytest.raises(SystemExit, match="resample is at 5% of the limit by counts; say why"):
-        report.share_of_limit("resample", {"counts": 100}, LIMITS, 2e-6)
+        kernel_rows.share_of_limit("resample", {"counts": 100}, LIMITS, 2e-6)
 
 
 def test_page_has_shares_of_all_kernels() -> None:
@@ -88,7 +88,7 @@ def too_fast(found: Path) -> set[str]:
     assert done.returncode == 0, done.stdout[-2000:]
     results = json.loads(found.read_text())
     times = {each["group"]: each for each in results["benchmarks"] if each["param"].endswith("native")}
-    assert {report.kernel_of(group) for group in times} == set(KERNELS)
+    assert {kernel_rows.kernel_of(group) for group in times} == set(KERNELS)
     return {
         group
         for group, each in times.items()
