@@ -90,7 +90,7 @@ def test_heads_are_found_in_depth(rendered: Callable[..., Any], seed: int) -> No
 
 
 def test_no_head_in_depth_is_none(rendered: Callable[..., Any]) -> None:
-    """It proves that things in the air and on a floor, and no depth, and a few pixels of it, give no box."""
+    """It proves that things in the air and on a floor, and depth of none, few or odd pixels, give no box."""
     for kind in ("fast", "hidden"):
         scene = rendered(stress_scene, kind=kind, seed=0, channels="rgbd")
         assert all(find_in_depth(frame, scene.intrinsics.fx) is None for frame in scene.frames[:30:10])
@@ -98,6 +98,7 @@ def test_no_head_in_depth_is_none(rendered: Callable[..., Any]) -> None:
     for shape in ((40, 40), (3, 3), (1, 1), (2, 200)):
         assert find_head_in_depth(k, image, np.full(shape, np.nan, np.float32), 300.0) is None
         assert find_head_in_depth(k, image, np.zeros(shape, np.float32), 300.0) is None
+        assert find_head_in_depth(k, image, np.full(shape, 1e-40, np.float32), 300.0) is None
 
 
 @pytest.mark.parametrize("name", ["kitchen-mug", "yellow-dragon"])

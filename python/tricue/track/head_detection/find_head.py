@@ -56,7 +56,8 @@ def find_head_in_depth(k: Kernels, image: Image, depth: Map, focal_length: float
     if min(thinned.shape) < MIN_SIDE:
         return None
     disparities = np.full(thinned.shape, np.nan, np.float32)
-    np.divide(focal_length / step * DEPTH_BASELINE, thinned, out=disparities, where=thinned > 0)
+    with np.errstate(over="ignore"):  # depth of next to nothing
+        np.divide(focal_length / step * DEPTH_BASELINE, thinned, out=disparities, where=thinned > 0)
     return _best_head(k, image, disparities, DEPTH_BASELINE)
 
 
