@@ -90,7 +90,7 @@ def test_heads_are_found_in_depth(rendered: Callable[..., Any], seed: int) -> No
 
 
 def test_no_head_in_depth_is_none(rendered: Callable[..., Any]) -> None:
-    """It proves that things in the air and on a floor, and depth of none, few or odd pixels, give no box."""
+    """It proves that things in the air and on a floor, and depth that shows nothing, give no box."""
     for kind in ("fast", "hidden"):
         scene = rendered(stress_scene, kind=kind, seed=0, channels="rgbd")
         assert all(find_in_depth(frame, scene.intrinsics.fx) is None for frame in scene.frames[:30:10])
