@@ -5,11 +5,11 @@
 
 "a box" is the share of frames in which one is found, "on the head" that of boxes that overlap the true one by
 0.5 or more, "overlap" the mean of those. Rendered heads are visible by at least 95 %; "facing" ones show the
-face, others their side or hair alone.
+face, others their side or hair alone; "gray" ones are all of these without colors.
 
 "nobody": what is left of these frames beside the person, rooms with things on tables, and recordings. There
 each box is a false start. Middlebury's pairs and the conveyor's have no known baseline. Of recorded people no
-true head is known: all boxes were looked at. Their depth is registered.
+true head is known: all boxes were looked at.
 """
 
 import argparse
@@ -96,8 +96,16 @@ def _rendered(seeds: Iterable[int]) -> Iterator[Answer]:
                     if scene.visible[index] >= MIN_VISIBLE:
                         side = "facing" if scene.facing[index] < MAX_FACING else "turned"
                         yield _answer(f"head, {camera}, {side}", frame, baseline, true)
+                        yield _answer(f"head, {camera}, gray", _gray(frame), baseline, true)
                         for rest in _beside(frame, true):
                             yield _answer(f"nobody, {camera}", rest, baseline, None)
+
+
+def _gray(frame: Frame) -> Frame:
+    assert frame.color is not None
+    assert frame.right is not None
+    left, right = (cv2.cvtColor(each, cv2.COLOR_BGR2GRAY) for each in (frame.color, frame.right))
+    return Frame(left, right=right)
 
 
 def _beside(frame: Frame, true: Box) -> Iterator[Frame]:
@@ -148,9 +156,10 @@ def _recorded_depth(data: Path) -> Iterator[Answer]:
         calibration = data / "rgbd" / "intrinsics.toml"
         register = read_registration(calibration, source.size, source.size)
         camera = read_intrinsics(calibration, source.size, "color")
-        for index, frame in enumerate(replace(source, register=register)):
-            if index % OFTEN == 0:
-                yield _answer_in_depth("people, recorded color and depth", frame, camera)
+        for registered, as_recorded in ((register, "registered"), (None, "not registered")):
+            for index, frame in enumerate(replace(source, register=registered)):
+                if index % OFTEN == 0:
+                    yield _answer_in_depth(f"{name}, {as_recorded}", frame, camera)
 
 
 def _answer_in_depth(source: str, frame: Frame, camera: Intrinsics) -> Answer:
