@@ -80,6 +80,17 @@ def test_the_box_goes_before_the_truth(sequence: Path, drift_tracker: str, tmp_p
     assert [float(row[key]) for key in ("x", "y", "width", "height")] == [-3, 4, 20.5, 30]
 
 
+@pytest.mark.parametrize(("box", "compared"), [("14,20,20,20", True), ("50,30,20,20", False)])
+def test_another_target_is_not_compared_with_the_truth(
+    sequence: Path, drift_tracker: str, capsys: pytest.CaptureFixture[str], box: str, compared: bool
+) -> None:
+    """It proves that true boxes judge a target that starts on them, and no other one, which is told."""
+    assert main(["track", str(sequence), "--tracker", drift_tracker, "--box", box]) == 0
+    printed = capsys.readouterr().out
+    assert ("against the true boxes: AUC" in printed) is compared
+    assert ("not compared with the true boxes" in printed) is not compared
+
+
 BAD = [
     (["track", "nowhere"], "tricue track: nowhere: there is no such file or folder"),
     (["track", "{walk}/img"], "tricue track: .*; give --box x,y,width,height or --detect face"),

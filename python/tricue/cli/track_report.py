@@ -40,7 +40,10 @@ def report(
         print(f"started in frame {first}")
     truth = run.source.truth
     if truth is not None and np.isfinite(truth[run.first + 1 :]).any():
-        print(_score(truth, found, run.first, clock.decoded))
+        if _starts_on_another(truth, found):
+            print("not compared with the true boxes: the target isn't theirs, it started beside them")
+        else:
+            print(_score(truth, found, run.first, clock.decoded))
 
 
 def not_started(run: TrackRun, clock: RunClock) -> str:
@@ -75,6 +78,18 @@ def plot(path: Path, run: TrackRun, tracks: Mapping[int, Track]) -> str:
 
 def _counts(statuses: Mapping[Status, int]) -> str:
     return ", ".join(f"{statuses[status]} {status}" for status in Status)
+
+
+def _starts_on_another(truth: Any, tracks: Mapping[int, Track]) -> bool:
+    """Whether the first box doesn't touch the true one of its frame, as one that was found may be of another
+    target.
+    """
+    from tricue.evaluation import metrics
+
+    first = min(tracks, default=len(truth))
+    if first >= len(truth) or not np.isfinite(truth[first]).all():
+        return False
+    return bool(metrics.overlaps(np.array([tracks[first].box]), truth[first : first + 1])[0] == 0)
 
 
 def _score(truth: Any, tracks: Mapping[int, Track], first: int, frames: int) -> str:

@@ -49,7 +49,7 @@ class Target(NamedTuple):
 
     def shift(self, right: float, down: float) -> "Target":
         """The target so many pixels farther right and down in the image."""
-        return self._replace(x=self.x + right, y=self.y + down)
+        return Target(self.x + right, self.y + down, self.width, self.height, self.turn)
 
     def along(self, right: float, down: float) -> tuple[float, float]:
         """How far right and down in the image so many pixels along its own axes are."""
@@ -58,7 +58,7 @@ class Target(NamedTuple):
 
     def scale(self, factor: float) -> "Target":
         """The target with its sides multiplied, around the same center."""
-        return self._replace(width=float(self.width * factor), height=float(self.height * factor))
+        return Target(self.x, self.y, float(self.width * factor), float(self.height * factor), self.turn)
 
     def turn_by(self, steps: float) -> "Target":
         """The target turned clockwise around its center, to the nearest step."""
