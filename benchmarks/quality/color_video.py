@@ -4,11 +4,16 @@
     python -m benchmarks.quality.color_video [DATASET] --trackers fused CSRT
     python -m benchmarks.quality.color_video --save before.json --jobs 2
     python -m benchmarks.quality.color_video --set fused.ridge=0.02 --against before.json --jobs 2
+    python -m benchmarks.quality.color_video --draws 3 --mirrored --jobs 2
 
 There are four protocols, each with the mean success AUC over its runs on a sequence: "forward" and
 "backward", one pass each; "starts", from the frames at 0, 1/4, 1/2 and 3/4 of the sequence to its end, and
 the same on the reversed sequence; "third", one pass over every third frame. A run starts on the first of its
 frames with a true box. Groups have the mean over their sequences; a sequence may be in several.
+
+Single runs hang on a few pixels. With --draws each is made several times, from boxes that are moved from the
+true one by a tenth of its size and have other sides; with --mirrored on the mirrored frames. What a change
+brings on all of these it does by its own.
 
 The last three tables pool the frames of all runs, each run once. "Lost": the overlap is under 0.1, or there
 is no target; "on target": above 0.3. AUROC is the chance that a frame on the target scores above a lost one.
@@ -24,9 +29,13 @@ StreetWalker, in "others", is of the recording of one of these.
 import sys
 from collections.abc import Sequence
 
+from tricue.cli.arguments import count
+
 from benchmarks.quality.common import comparison, saved_runs
 from benchmarks.quality.common.arguments import add_dataset, add_runs, parser
 from benchmarks.quality.common.color_tables import CSV_COLUMNS, csv_rows, tables
+from benchmarks.quality.common.protocols import TRUE_BOX
+from benchmarks.quality.common.recordings import MirroredRecording, Recording
 from benchmarks.quality.common.sequence_runs import find_tasks, run_sequences
 from benchmarks.quality.common.tables import write_csv
 from benchmarks.quality.common.variants import parse_variants
@@ -39,6 +48,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     made = parser("color_video", __doc__, TRACKERS)
     add_dataset(made)
     add_runs(made)
+    made.add_argument("--draws", type=count, metavar="N", help="first boxes a run, beside the true one")
+    made.add_argument("--mirrored", action="store_true", help="left and right exchanged")
     options = made.parse_args(arguments)
     try:
         variants = parse_variants(options.trackers, options.set)
@@ -46,7 +57,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         before = saved_runs.load(options.against) if options.against else {}
     except (OSError, TypeError, ValueError) as error:
         made.error(str(error))
-    results = run_sequences(todo, options.jobs)
+    recording = MirroredRecording if options.mirrored else Recording
+    draws = range(1, options.draws + 1) if options.draws else TRUE_BOX
+    results = run_sequences(todo, options.jobs, recording, draws)
     print(tables(results))
     if options.against:
         print(f"\n{comparison.against_stored(results, before)}")

@@ -3,7 +3,8 @@
 
 "forward" and "backward" are one pass each over the whole sequence; "starts" are eight runs, from 0, 1/4, 1/2
 and 3/4 of the sequence to its end and the same on the reversed sequence; "third" is one pass over every third
-frame. A run starts on the first of its frames with a true box. Times increase, also backward.
+frame. A run starts on the first of its frames with a true box, or on boxes beside it. Times increase, also
+backward.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import one_pass
-from tricue.evaluation.protocols import Order, forward_times, orders
+from tricue.evaluation.protocols import Order, forward_times, jittered, orders
 from tricue.evaluation.rows import clip_to_image
 
 from benchmarks.quality.common.frame_results import FrameResults
@@ -28,33 +29,50 @@ PROTOCOLS: Mapping[str, tuple[Order, ...]] = {
 }
 ORDERS = tuple(dict.fromkeys(order for orders in PROTOCOLS.values() for order in orders))
 """Each order once: a run may belong to several protocols."""
+TRUE_BOX = (0,)
+"""The draws of runs that start on the true first box alone."""
+
+
+def belongs(order: Order, protocol: str) -> bool:
+    """Whether a run in this order, on the true first box or beside it, is one of the protocol's."""
+    return order._replace(noise=0) in PROTOCOLS[protocol]
 
 
 def run_orders(
-    variant: Variant, recording: Recording, frames: Sequence[Frame]
+    variant: Variant, recording: Recording, frames: Sequence[Frame], draws: Sequence[int] = TRUE_BOX
 ) -> Mapping[Order, FrameResults]:
     """The tracker's runs in all orders that leave two frames or more from the first true box on.
 
-    frames: the recording's, as the tracker gets them.
+    frames: the recording's, as the tracker gets them. draws: a run each, on the box of that draw beside the
+    true one, 0 on the true one.
     """
-    found = {order: run_order(variant, recording, frames, order.numbers(len(frames))) for order in ORDERS}
+    found = {
+        order._replace(noise=draw): run_order(variant, recording, frames, order.numbers(len(frames)), draw)
+        for order in ORDERS
+        for draw in draws
+    }
     return {order: run for order, run in found.items() if run is not None}
 
 
 def run_order(
-    variant: Variant, recording: Recording, frames: Sequence[Frame], numbers: NDArray[np.intp]
+    variant: Variant,
+    recording: Recording,
+    frames: Sequence[Frame],
+    numbers: NDArray[np.intp],
+    draw: int = 0,
 ) -> FrameResults | None:
     """Track through the frames of these numbers, from the first with a true box; None where fewer than two
-    are left.
+    are left. draw: of the first box, as :func:`run_orders` has it.
     """
     opened = recording.opened
-    truth, absent = opened.truth(len(frames)), opened.absent(len(frames))
+    truth, absent = recording.truth[: len(frames)], opened.absent(len(frames))
     known = ~np.isnan(truth[numbers]).any(axis=1)
     numbers = numbers[int(np.argmax(known)) :] if known.any() else numbers[:0]
     if len(numbers) < 2:
         return None
-    tracker = variant.make(recording.inputs)
-    run = one_pass.run(tracker, in_order(frames, numbers), Box(*truth[numbers[0]].tolist()))
+    first = Box(*truth[numbers[0]].tolist())
+    box = jittered(first, opened.entry.name, draw) if draw else first
+    run = one_pass.run(variant.make(recording.inputs), in_order(frames, numbers), box)
     boxes = clip_to_image(run.boxes, opened)
     return FrameResults.of(run, boxes, truth[numbers], absent[numbers], recording.depths[numbers])
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.quality.common.confidence_summary import summarize
-from benchmarks.quality.common.protocols import PROTOCOLS
+from benchmarks.quality.common.protocols import PROTOCOLS, belongs
 from benchmarks.quality.common.sequence_runs import SequenceResult
 from benchmarks.quality.common.tables import mean
 from benchmarks.quality.common.variants import Variant
@@ -57,9 +57,9 @@ def aucs(results: Iterable[SequenceResult]) -> Aucs:
 
 
 def _runs(result: SequenceResult) -> Iterator[dict[str, Any]]:
-    for protocol, orders in PROTOCOLS.items():
-        for order in orders:
-            if (run := result.runs.get(order)) is not None:
+    for protocol in PROTOCOLS:
+        for order, run in result.runs.items():
+            if belongs(order, protocol):
                 numbers = {"AUC": run.auc, **summarize(run)._asdict(), "milliseconds": run.milliseconds}
                 yield {
                     "tracker": result.tracker,

@@ -12,7 +12,7 @@ from tricue.evaluation.protocols import Order
 
 from benchmarks.quality.common.frame_results import FrameResults
 from benchmarks.quality.common.parallel import run_parallel
-from benchmarks.quality.common.protocols import PROTOCOLS, run_orders
+from benchmarks.quality.common.protocols import TRUE_BOX, belongs, run_orders
 from benchmarks.quality.common.recordings import Recording
 from benchmarks.quality.common.tables import mean
 from benchmarks.quality.common.variants import Variant
@@ -38,7 +38,7 @@ class SequenceResult(NamedTuple):
 
     def runs_of(self, protocol: str) -> list[FrameResults]:
         """The runs of a protocol, as far as the sequence is long enough for them."""
-        return [self.runs[order] for order in PROTOCOLS[protocol] if order in self.runs]
+        return [run for order, run in self.runs.items() if belongs(order, protocol)]
 
     def auc(self, protocol: str) -> float:
         """The mean over the runs of a protocol; NaN without one."""
@@ -77,10 +77,13 @@ def run_longest_first(
 
 
 def run_sequences(
-    tasks: Sequence[SequenceTask], jobs: int, recording: MakeRecording = Recording
+    tasks: Sequence[SequenceTask],
+    jobs: int,
+    recording: MakeRecording = Recording,
+    draws: Sequence[int] = TRUE_BOX,
 ) -> list[SequenceResult]:
     """The results in the order of the tasks. What can't run is named on stderr."""
-    run = partial(run_sequence, recording=recording)
+    run = partial(run_sequence, recording=recording, draws=draws)
     results = [each for several in run_longest_first(run, tasks, jobs) for each in several]
     for each in results:
         if each.unsupported:
@@ -88,7 +91,9 @@ def run_sequences(
     return results
 
 
-def run_sequence(task: SequenceTask, recording: MakeRecording = Recording) -> list[SequenceResult]:
+def run_sequence(
+    task: SequenceTask, recording: MakeRecording = Recording, draws: Sequence[int] = TRUE_BOX
+) -> list[SequenceResult]:
     """Decode a sequence, unless no tracker supports it, and run all trackers by all protocols."""
     found = recording(task.entry.open())
     results = []
@@ -97,7 +102,7 @@ def run_sequence(task: SequenceTask, recording: MakeRecording = Recording) -> li
             results.append(SequenceResult(variant.label, task.entry.name, {}, reason))
         else:
             frames = list(map(variant.view(found.inputs), found.frames))
-            runs = run_orders(variant, found, frames)
+            runs = run_orders(variant, found, frames, draws)
             results.append(SequenceResult(variant.label, task.entry.name, runs))
     return results
 

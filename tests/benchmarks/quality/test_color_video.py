@@ -28,6 +28,23 @@ def test_the_command_prints_and_writes(folders, tmp_path, capsys):
     assert forward["fused", "there"] > forward["still-box", "there"] + 0.2
 
 
+def test_runs_from_other_boxes_and_mirrored(folders, tmp_path):
+    """Each protocol has as many runs as boxes are drawn, and other numbers than from the true box."""
+    aucs = {}
+    for name, how in (("true", []), ("drawn", ["--draws", "2"]), ("mirrored", ["--mirrored"])):
+        words = [str(folders), "--only", "there", "--trackers", "fused", *how, "--csv", str(tmp_path / name)]
+        assert color_video.main(words) == 0
+        lines = list(csv.DictReader((tmp_path / name).read_text().splitlines()))
+        assert [int(line["runs"]) for line in lines] == [
+            runs * (2 if name == "drawn" else 1) for runs in (1, 1, 8, 1)
+        ]
+        aucs[name] = [float(line["AUC"]) for line in lines]
+    assert min(abs(a - b) for a, b in zip(aucs["true"], aucs["drawn"], strict=True)) > 0
+    assert aucs["mirrored"] == pytest.approx(aucs["true"], abs=0.1)
+    with pytest.raises(SystemExit):
+        color_video.main([str(folders), "--draws", "0"])
+
+
 def test_a_run_is_compared_with_a_stored_one(folders, tmp_path, capsys):
     """With itself there is no difference; with another cue there is one. What isn't stored is named."""
     path = str(tmp_path / "runs.json")

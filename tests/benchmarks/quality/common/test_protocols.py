@@ -2,11 +2,19 @@
 import shutil
 
 import numpy as np
+import pytest
 from tricue.camera.frame import Frame
 from tricue.evaluation.dataset import Entry
 
-from benchmarks.quality.common.protocols import ORDERS, PROTOCOLS, in_order, run_order, run_orders
-from benchmarks.quality.common.recordings import Recording
+from benchmarks.quality.common.protocols import (
+    ORDERS,
+    PROTOCOLS,
+    belongs,
+    in_order,
+    run_order,
+    run_orders,
+)
+from benchmarks.quality.common.recordings import MirroredRecording, Recording
 from benchmarks.quality.common.variants import parse_variants
 
 
@@ -48,6 +56,33 @@ def test_a_start_waits_for_truth(folders, tmp_path):
     assert [order.start for order in ran if not order.backward] == [0, 0.25, 0.5, 0.75]
     assert [order.start for order in ran if order.backward] == [0, 0.25]
     assert {order.step for order in ran} == {1}
+
+
+def test_boxes_beside_the_true_one(folders):
+    """Each order runs from each drawn box, which overlaps the true one; all belong to its protocols."""
+    (variant,) = parse_variants(["still-box"])
+    there = Recording(Entry("there", folders / "there").open())
+    runs = run_orders(variant, there, there.frames, draws=(1, 2))
+    assert len(runs) == 2 * len(ORDERS)
+    assert {order.noise for order in runs} == {1, 2}
+    first = [run.overlaps[0] for run in runs.values()]
+    assert 0.5 < min(first) <= max(first) < 1
+    assert len(set(first)) > 2
+    for protocol, orders in PROTOCOLS.items():
+        assert sum(belongs(order, protocol) for order in runs) == 2 * len(orders)
+
+
+def test_a_mirrored_recording(folders):
+    """A box that stays has the same overlaps; its pixels are the others', column by column."""
+    (variant,) = parse_variants(["still-box"])
+    there = Recording(Entry("there", folders / "there").open())
+    mirrored = MirroredRecording(there.opened)
+    assert (mirrored.frames[0].color == there.frames[0].color[:, ::-1]).all()
+    overlaps = [run_order(variant, each, each.frames, np.arange(20)).overlaps for each in (there, mirrored)]
+    assert overlaps[0] == pytest.approx(overlaps[1])
+    x, width = there.truth[3, 0], there.truth[3, 2]
+    assert mirrored.truth[3, 0] + width + x == there.opened.source.size[0]
+    assert there.truth[3, 0] == x
 
 
 def test_times_increase():
