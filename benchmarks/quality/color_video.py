@@ -11,9 +11,9 @@ There are four protocols, each with the mean success AUC over its runs on a sequ
 the same on the reversed sequence; "third", one pass over every third frame. A run starts on the first of its
 frames with a true box. Groups have the mean over their sequences; a sequence may be in several.
 
-Single runs hang on a few pixels. With --draws each is made several times, from boxes that are moved from the
-true one by a tenth of its size and have other sides; with --mirrored on the mirrored frames. What a change
-brings on all of these it does by its own.
+Single runs hang on a few pixels. With --draws each run is made several times, from first boxes that are moved
+by a tenth of the true one's size and differ from it by up to a tenth in their sides; with --mirrored left and
+right are exchanged. Both tell what of a difference is chance.
 
 The last three tables pool the frames of all runs, each run once. "Lost": the overlap is under 0.1, or there
 is no target; "on target": above 0.3. AUROC is the chance that a frame on the target scores above a lost one.

@@ -41,7 +41,7 @@ def report(
     truth = run.source.truth
     if truth is not None and np.isfinite(truth[run.first + 1 :]).any():
         if _starts_on_another(truth, found):
-            print("not compared with the true boxes: the target isn't theirs, it started beside them")
+            print("not compared with the true boxes: the first box doesn't touch the true one of its frame")
         else:
             print(_score(truth, found, run.first, clock.decoded))
 
@@ -81,8 +81,8 @@ def _counts(statuses: Mapping[Status, int]) -> str:
 
 
 def _starts_on_another(truth: Any, tracks: Mapping[int, Track]) -> bool:
-    """Whether the first box doesn't touch the true one of its frame, as one that was found may be of another
-    target.
+    """Whether the first box doesn't touch the true one of its frame: a box that was found or drawn may be of
+    another target.
     """
     from tricue.evaluation import metrics
 
