@@ -43,8 +43,8 @@ class Recording:
 class MirroredRecording(Recording):
     """The color of a sequence with left and right exchanged.
 
-    It is as hard as the sequence, but other pixels decide what hangs on a few of them. So it tells how much of
-    what was chosen on the sequence is chance.
+    It is as hard as the sequence, but other pixels decide what hangs on a few of them. So it tells how much
+    of what was chosen on the sequence is chance.
     """
 
     @cached_property
