@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """That positions and covariances are those of the box's middle and the disparity, and honest."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from tricue import FlowDepthTracker, Frame, Status
@@ -118,6 +120,33 @@ def test_depth_images_need_no_camera(overtakings):
     assert found.depth == pytest.approx(expected.depth, rel=0.03)
     assert expected.depth == expected.position[2]
     assert FlowDepthTracker().init(pair.frames[0], pair.boxes[0]).depth is None
+
+
+def test_depth_goes_before_a_right_image(overtakings):
+    """What is measured goes before what has to be matched, as in the fused tracker: tracks are those of depth
+    alone.
+    """
+    pair, sensor = overtakings(0, 55), overtakings(0, 55, depth=True)
+    both = [
+        replace(known, right=frame.right) for frame, known in zip(pair.frames, sensor.frames, strict=True)
+    ]
+    trackers = [FlowDepthTracker(intrinsics=sensor.rig.intrinsics) for _ in range(2)]
+    for number in range(5):
+        alone, beside = (
+            each.update(frames[number]) if number else each.init(frames[0], sensor.boxes[0])
+            for each, frames in zip(trackers, (sensor.frames, both), strict=True)
+        )
+        assert beside == alone
+        np.testing.assert_array_equal(beside.position, alone.position)
+
+
+def test_a_pair_of_a_guessed_rig_never_gives_meters(overtakings):
+    """Not even where depth images come later: their depths are converted by the rig that was guessed."""
+    pair, sensor = overtakings(0, 55), overtakings(0, 55, depth=True)
+    tracker = FlowDepthTracker(intrinsics=sensor.rig.intrinsics)
+    tracker.init(pair.frames[0], pair.boxes[0])
+    track = tracker.update(sensor.frames[1])
+    assert (track.position, track.depth) == (None, None)
 
 
 def test_the_rig_scales_positions(overtakings):

@@ -102,8 +102,9 @@ def depth_image(
 def stereo_pair(
     frame: FrameLike, shape: tuple[int, ...] | None = None
 ) -> tuple[NDArray[np.uint8], NDArray[np.uint8], float | None]:
-    """The frame's left image, BGR (H, W, 3), its right image, BGR or gray, and its timestamp. ValueError as
-    :func:`color_image`, and if there is no right image.
+    """The frame's left image, BGR (H, W, 3), its right image, gray if the left one was, and its timestamp.
+
+    ValueError as :func:`color_image`, and if there is no right image.
     """
     channels = as_frame(frame)
     channels.require("color", "right")
@@ -137,8 +138,7 @@ def require_cue_channels(
     if shape is not None and image.shape != shape:
         hint = "init starts again on another size"
         raise ValueError(f"frame.{name}: expected the first frame's shape {shape}, got {image.shape}; {hint}")
-    if "disparity" in cues and channels.right is None:
-        assert channels.depth is not None
+    if "disparity" in cues and channels.depth is not None:
         check_depth_size(channels.depth, image.shape[:2])
     return CueInput(channels, image)
 

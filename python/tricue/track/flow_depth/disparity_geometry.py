@@ -15,19 +15,20 @@ class DisparityGeometry(NamedTuple):
 
     camera: (4,) fx, fy, cx, cy, pixels. baseline: meters. angle: radians by which the right camera is turned
     inwards. Its image is turned back and moved by ``offset`` pixels to the right, so that what both cameras
-    see stays in it.
+    see stays in it. is_metric: whether its meters are true, as those of a pair aren't whose rig is guessed.
     """
 
     camera: NDArray[np.float64]
     baseline: float
     angle: float = 0.0
+    is_metric: bool = True
 
     @classmethod
-    def of(cls, rig: StereoRig, vergence: float) -> "DisparityGeometry":
+    def of(cls, rig: StereoRig, vergence: float, is_metric: bool = True) -> "DisparityGeometry":
         """The geometry of a rig; vergence in degrees."""
         camera = rig.intrinsics
         numbers = np.array([camera.fx, camera.fy, camera.cx, camera.cy])
-        return cls(numbers, rig.baseline, math.radians(vergence))
+        return cls(numbers, rig.baseline, math.radians(vergence), is_metric)
 
     @property
     def disparity_times_depth(self) -> float:

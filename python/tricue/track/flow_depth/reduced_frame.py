@@ -74,10 +74,10 @@ def reduce_frame(
     if "disparity" not in p.cues:
         return ReducedFrame(gray, None, None, step)
     offset = geometry.offset / step
-    if frame.right is None:
-        assert frame.depth is not None
+    if frame.depth is not None:
         return ReducedFrame(gray, None, _depth_to_disparity(frame.depth, geometry, step), step, offset)
     right = frame.right
+    assert right is not None
     if geometry.angle:
         right = right if right.ndim == 2 else k.reduce_gray(right, 1)
         camera = geometry.camera

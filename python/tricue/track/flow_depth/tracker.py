@@ -42,9 +42,10 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
     through overtaking and complete occlusion.
 
     Each frame has ``color`` (BGR or gray), rectified, and ``right`` or ``depth``; the depth is that of the
-    color image's pixels. ``cues`` chooses flow, disparity or both. Flow alone needs color alone. Disparity
-    alone with a depth camera needs depth alone. The box is in pixels of the left image. Tracks have a
-    ``position`` and a ``covariance`` with ``rig=`` for a stereo pair, or ``intrinsics=`` for a depth camera.
+    color image's pixels. Where a frame has both, right is left out. ``cues`` chooses flow, disparity or both.
+    Flow alone needs color alone. Disparity alone with a depth camera needs depth alone. The box is in pixels
+    of the left image. Tracks have a ``position`` and a ``covariance`` with ``rig=`` for a stereo pair, or
+    ``intrinsics=`` for a depth camera.
     ``vergence`` is the angle of a verged stereo pair. The tracker isn't random: the seed changes nothing.
 
         tracker = tricue.FlowDepthTracker(rig=rig)
@@ -90,8 +91,9 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         """
         checked = validation.require_cue_channels(frame, self.params.cues)
         target = validation.initial_box(box, checked.image.shape)
-        if "disparity" in self.params.cues and checked.frame.right is not None and not self.params.vergence:
-            warn_of_stereo(checked.frame)  # the right image of a verged pair isn't turned back yet
+        by_pair = "disparity" in self.params.cues and _has_pair_alone(checked.frame)
+        if by_pair and not self.params.vergence:  # the right image of a verged pair isn't turned back yet
+            warn_of_stereo(checked.frame)
         geometry = self._geometry(checked.image.shape, checked.frame)
         reduced = reduce_frame(self._k, checked.frame, geometry, self.params)
         state = initialize(self._k, checked, reduced, geometry, target, self.params)
@@ -194,11 +196,13 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
     _derived = (*TrackerBase._derived, "_reach")
 
     def _geometry(self, shape: tuple[int, ...], frame: Frame) -> DisparityGeometry:
-        """The geometry of the rig; without a right image or a rig, that of a depth camera."""
-        if frame.right is not None or self.rig is not None:
-            return DisparityGeometry.of(validation.rig_or_default(self.rig, shape), self.params.vergence)
+        """The geometry of the rig; without one that of the camera, beside which another is assumed."""
+        by_pair, vergence = _has_pair_alone(frame), self.params.vergence
+        if self.rig is not None:
+            return DisparityGeometry.of(validation.rig_or_default(self.rig, shape), vergence)
         camera = validation.camera_or_default(self.intrinsics, shape)
-        return DisparityGeometry.of(StereoRig(camera, validation.DEFAULT_BASELINE), 0.0)
+        assumed = StereoRig(camera, validation.DEFAULT_BASELINE)
+        return DisparityGeometry.of(assumed, vergence if by_pair else 0.0, is_metric=not by_pair)
 
     def _track(self, state: FlowDepthState) -> Track:
         """The track of a state.
@@ -214,14 +218,19 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
             step * (x0 + left) / 2, step * (y0 + top) / 2, step * (x1 + right) / 2, step * (y1 + bottom) / 2
         )
         status = state.status(self.params)
-        has_depth_image = state.reduced.right is None
-        if "disparity" not in self.params.cues or not (self.rig is not None or has_depth_image):
+        is_measured = self.rig is not None or state.reduced.right is None  # not by a pair without its rig
+        if "disparity" not in self.params.cues or not (is_measured and state.geometry.is_metric):
             return Track(box, state.score, status)
         position, covariance = locate(self._k, box, state, self.params)
         depth = None if position is None else float(position[2])
         if self.rig is None and self.intrinsics is None:
             return Track(box, state.score, status, depth=depth)
         return Track(box, state.score, status, position, covariance, depth)
+
+
+def _has_pair_alone(frame: Frame) -> bool:
+    """Whether a frame's disparity has to be measured in its pair, as it has no depth."""
+    return frame.right is not None and frame.depth is None
 
 
 def _waits(state: FlowDepthState) -> bool:
