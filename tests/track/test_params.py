@@ -246,7 +246,7 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "min_score_to_move": (-0.1, 1.1),
         "jump_weight": (-0.1,),
         "lost_after": (-0.1,),
-        "max_doubt": (-0.1,),
+        "max_missed_seconds": (-0.1,),
         "lost_position_noise": (0, -1),
         "min_score_to_redetect": (-0.1, 1.1),
         "min_score_above_clutter": (-0.1, 1.1),

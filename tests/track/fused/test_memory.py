@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""That models as they were judge what those of today find."""
+"""That models as they were verify what those of today find."""
 
 import importlib
 import math
@@ -11,7 +11,13 @@ from numpy.typing import NDArray
 from tricue import Frame, FusedTracker, Status
 from tricue.track.fused.localize import TargetModel
 from tricue.track.fused.measure import Match
-from tricue.track.fused.memory import FRAMES_APART, LOG_ODDS_ELSEWHERE, SURE_LOG_ODDS, Memory, judge
+from tricue.track.fused.memory import (
+    FRAMES_APART,
+    LOG_ODDS_ELSEWHERE,
+    MAX_VERIFIED_LOG_ODDS,
+    Memory,
+    limit_log_odds,
+)
 from tricue.track.fused.search import search_local
 from tricue.track.fused.state import State
 from tricue.track.fused.target import Target
@@ -20,7 +26,7 @@ Image = NDArray[np.uint8]
 
 TARGET = Target(160.0, 120.0, 48.0, 48.0)
 P = FusedTracker.Params()
-module = importlib.import_module(judge.__module__)
+module = importlib.import_module(limit_log_odds.__module__)
 
 
 def noise(height: int, width: int, seed: int) -> Image:
@@ -80,7 +86,7 @@ def test_snapshots_are_of_recognized_frames_some_time_ago():
 
 
 def test_a_missed_frame_changes_no_snapshot():
-    """As long as the target isn't recognized, the models from before judge."""
+    """As long as the target isn't recognized, the models from before verify."""
     tracker = followed(1)
     before = state_of(tracker).memory
     for _ in range(20):
@@ -89,20 +95,20 @@ def test_a_missed_frame_changes_no_snapshot():
     assert state_of(tracker).memory is before
 
 
-def test_the_same_models_judge_alike():
+def test_the_same_models_find_the_same():
     """A match keeps its log-odds, to a part of them, where nothing has changed since."""
     tracker = followed(1)
     match = in_doubt(match_of(tracker, picture(1)))
-    assert judge(model_of(tracker), match) == match
+    assert limit_log_odds(model_of(tracker), match) == match
 
 
-def test_what_was_learned_since_is_judged_by_what_was_known():
+def test_what_was_learned_since_is_verified_by_what_was_known():
     """A card that today's models know isn't the one that those of before knew."""
     before, today = followed(1), followed(2)
     match = in_doubt(match_of(today, picture(2)))
-    judged = judge(model_of(before), match)
-    assert judged.log_odds < -3.0
-    assert judged._replace(log_odds=match.log_odds) == match
+    limited = limit_log_odds(model_of(before), match)
+    assert limited.log_odds < -3.0
+    assert limited._replace(log_odds=match.log_odds) == match
 
 
 @pytest.mark.parametrize("offset", [20, -30])
@@ -110,23 +116,23 @@ def test_a_target_seen_elsewhere_is_not_here(offset):
     """Models that see their target beside the match say so."""
     tracker = followed(1)
     match = in_doubt(match_of(tracker, picture(1, offset)))
-    assert judge(model_of(tracker), match) == match
-    assert judge(model_of(tracker), match._replace(target=TARGET)).log_odds == LOG_ODDS_ELSEWHERE
+    assert limit_log_odds(model_of(tracker), match) == match
+    assert limit_log_odds(model_of(tracker), match._replace(target=TARGET)).log_odds == LOG_ODDS_ELSEWHERE
 
 
-def test_a_sure_match_needs_no_judge():
+def test_a_match_of_high_log_odds_is_not_verified():
     """What today's models and the first frame's are sure of stays as it is, without another window."""
     before, today = followed(1), followed(2)
     match = match_of(today, picture(2))
-    assert match.log_odds > SURE_LOG_ODDS
-    assert judge(model_of(before), match) is match
-    least = match._replace(log_odds=SURE_LOG_ODDS - 0.01)
-    assert judge(model_of(before), least).log_odds < least.log_odds
+    assert match.log_odds > MAX_VERIFIED_LOG_ODDS
+    assert limit_log_odds(model_of(before), match) is match
+    least = match._replace(log_odds=MAX_VERIFIED_LOG_ODDS - 0.01)
+    assert limit_log_odds(model_of(before), least).log_odds < least.log_odds
 
 
 def test_update_asks_the_memory(monkeypatch):
     """A target that the models as they were don't know isn't TRACKED, and nothing of it is learned."""
-    monkeypatch.setattr(module, "SURE_LOG_ODDS", math.inf)
+    monkeypatch.setattr(module, "MAX_VERIFIED_LOG_ODDS", math.inf)
     tracker, other = followed(1), followed(2)
     assert tracker.update(picture(1)).status is Status.TRACKED
     state = state_of(tracker)

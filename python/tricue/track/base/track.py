@@ -33,8 +33,8 @@ class Track:
     score: confidence in [0, 1].
     position: (3,) float64, meters in the camera frame (x right, y down, z forward), or None without depth.
     covariance: (3, 3) of the position, square meters, or None.
-    depth: meters along the camera's axis, or None where it wasn't measured. It needs no camera where a depth
-        image measures it, and is the position's z where there is a position.
+    depth: meters along the camera's axis; None until it was measured, and where meters are a guess. It needs
+        no camera where a depth image measures it. Where there is a position too, it is its z.
     pose: where the camera stands, or None; see :class:`tricue.Pose`.
     """
 

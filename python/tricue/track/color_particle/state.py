@@ -49,18 +49,18 @@ class State(NamedTuple):
     lead: float  # running mean of its lead over the windows beside it, nats
     missed_frames: int = 0  # in a row
     missed_seconds: float = 0.0
-    doubted_seconds: float = 0.0
+    low_lead_seconds: float = 0.0
     frames: int = 0  # since the first
 
     def lost(self, p: ColorParticleParams) -> bool:
         """Whether the target is LOST, and is searched for in the whole frame."""
         missed = self.missed_frames >= MIN_MISSED_FRAMES and self.missed_seconds >= p.lost_after
-        return missed or self.doubted_seconds >= p.max_time_without_lead
+        return missed or self.low_lead_seconds >= p.max_time_without_lead
 
-    def doubtful(self, p: ColorParticleParams) -> bool:
+    def has_low_lead(self, p: ColorParticleParams) -> bool:
         """Whether the target is hardly more like itself than what is beside it."""
         return self.lead < p.min_lead
 
     def tracked(self, p: ColorParticleParams) -> bool:
         """Whether the target is TRACKED."""
-        return self.missed_frames == 0 and not self.doubtful(p)
+        return self.missed_frames == 0 and not self.has_low_lead(p)

@@ -148,7 +148,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             random=self._random.save(),
             timestamp=timestamp,
             missed_seconds=before.missed_seconds + seconds if state.missed_frames else 0.0,
-            doubted_seconds=before.doubted_seconds + seconds if state.doubtful(self.params) else 0.0,
+            low_lead_seconds=before.low_lead_seconds + seconds if state.has_low_lead(self.params) else 0.0,
             frames=before.frames + 1,
         )
         return self._keep(state, frame)

@@ -51,7 +51,7 @@ class IdentityFeatures(NamedTuple):
     def log_odds(self, typical: "IdentityFeatures | None", weights: Weights) -> float:
         """Of the target against anything else, by the features and their difference from typical ones.
 
-        None if nothing is typical yet.
+        typical: running means of them, None in the first frame.
         """
         change = map(operator.sub, self, typical or self)
         return weights.offset + _weighted_sum(weights.features, self) + _weighted_sum(weights.change, change)

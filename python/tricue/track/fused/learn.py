@@ -26,7 +26,7 @@ from tricue.track.fused.window import CELL_PIXELS, Window, extract_windows
 
 MAX_DRIFT = 0.5  # cells, from one learning to the next
 TURN_EVERY = 2  # times that appearance is learned, its turn too: more often tracks are no better, and slower
-EARLY = 0.25  # of the time between two frames: so much before it is due, appearance is learned
+DUE_TOLERANCE = 0.25  # of the time between two frames: so much before it is due, appearance is learned
 FRAME = 1 / 30  # seconds: learning rates are given for so many
 MIN_FIRST_RESPONSE = 0.2  # of the first frame's filter, which answers about 1 to the target as it was
 
@@ -44,7 +44,7 @@ def update_models(
         return state
     state = _update_depth(state, observation, match, before.is_lost(p), p)
     state = _update_outline(state, match, p)
-    is_due = state.unlearned_seconds + EARLY * state.seconds >= p.learn_every
+    is_due = state.unlearned_seconds + DUE_TOLERANCE * state.seconds >= p.learn_every
     if not state.is_followed(p) or not is_due:
         return state
     if "filter" in p.cues:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The models as they were some frames ago: judges of what those of today find.
+"""The models as they were some frames ago verify what those of today find.
 
-What comes before the target is learned little by little, and soon looks like the target to the models that
-learned it. Those from before it came don't recognize it, or see the target beside it.
+What moves in front of the target is learned little by little, and soon looks like the target to the models
+that learned it. Those from before it came don't recognize it, or see the target beside it.
 """
 
 from typing import NamedTuple
@@ -16,11 +16,11 @@ from tricue.track.fused.window import CELL_PIXELS, extract_windows
 FRAMES_APART = 5  # from one snapshot to the next, of those that were recognized
 MAX_CELLS_OFF = 3  # from a match to where the models as they were see the target, if it is the same
 LOG_ODDS_ELSEWHERE = -5.0  # of a match that is farther off
-SURE_LOG_ODDS = 4.0  # of a match that needs no judge: the first frame's models say it, too
+MAX_VERIFIED_LOG_ODDS = 4.0  # of a match; higher ones are the first frame's models' word, too
 
 
 class Memory(NamedTuple):
-    """Two snapshots of the models; the older one, from 5 to 10 recognized frames ago, judges.
+    """Two snapshots of the models; the older one, from 5 to 10 recognized frames ago, verifies.
 
     frames: recognized since the newer one.
     """
@@ -35,9 +35,9 @@ class Memory(NamedTuple):
         return self._replace(frames=frames) if frames < FRAMES_APART else Memory(self.newer, models)
 
 
-def judge(remembered: TargetModel, match: Match) -> Match:
-    """A match in a color picture, its log-odds at most those by the models as they were; as it is if sure."""
-    if match.log_odds >= SURE_LOG_ODDS:
+def limit_log_odds(remembered: TargetModel, match: Match) -> Match:
+    """A match in a color picture, its log-odds, unless they are high, at most those by the older models."""
+    if match.log_odds >= MAX_VERIFIED_LOG_ODDS:
         return match
     window = extract_windows(match.observation, [match.target], remembered.params.context)[0]
     candidate = localize(remembered, window)

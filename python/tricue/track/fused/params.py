@@ -78,7 +78,7 @@ class FusedParams(  # dataclasses take the fields of the last base first
     lost_after: float = parameter(
         0.08, unit="s", source=OURS, low=0, doc="missed, and in three frames at least, until LOST"
     )
-    max_doubt: float = parameter(
+    max_missed_seconds: float = parameter(
         1 / 3, unit="s", source=OURS, low=0, doc="missed, in which it is still followed and learned"
     )
     learn_every: float = parameter(

@@ -22,7 +22,7 @@ MIN_POSITION_Z = 0.05  # meters in front of the camera
 MAX_POSITION_SIGMA = 3.0  # meters, in the expected depth
 MAX_INNOVATION = 2.0  # standard deviations; a larger one widens the state
 POSITION_MATRIX = np.eye(3, 6)  # from a state to the position that is measured
-SHARED_DEPTH_ERROR = 0.6  # of the depth spread, standard deviation; fitted on recordings (docs/fused.md)
+SHARED_DEPTH_ERROR = 0.6  # of the depth spread, standard deviation; fitted: docs/fused-figures.md
 MISSED_MEAN_FACTORS = np.array([1, 1, 1, 0.8, 0.8, 0.8])
 
 

@@ -68,4 +68,4 @@ class State:
 
     def is_followed(self, p: FusedParams) -> bool:
         """Whether it is where it should be, or was missed for so short a time that it may still be."""
-        return self.missed_frames == 0 or self.missed_seconds <= p.max_doubt + ADDED_TIME_ERROR
+        return self.missed_frames == 0 or self.missed_seconds <= p.max_missed_seconds + ADDED_TIME_ERROR

@@ -23,7 +23,7 @@ from tricue.track.fused.initialize import ensure_models, initialize, initialize_
 from tricue.track.fused.learn import update_models, update_object
 from tricue.track.fused.localize import TargetModel
 from tricue.track.fused.measure import Match
-from tricue.track.fused.memory import judge
+from tricue.track.fused.memory import limit_log_odds
 from tricue.track.fused.models import AppearanceModels
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.proposals import LostTarget
@@ -120,7 +120,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         observation = observed.for_target(self._k, _expected_depth(state))
         state = ensure_models(state, observation, self.params)
         match = self._localize(state, observation)
-        match = self._judge(state, observation, match)
+        match = self._limit_log_odds(state, observation, match)
         state = verify(state, match, self.params)
         state = update_models(before, state, observation, match, self.params)
         state = update_object(state, observation)
@@ -166,14 +166,16 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         lost = LostTarget(last, state.position, state.missed_frames, state.frames)
         return redetect(model, observation, lost, local, state.clutter.min_log_odds(p))
 
-    def _judge(self, state: State, observation: TargetObservation, match: Match) -> Match:
-        """The match, judged by its jump, and by the models as they were, but where depth tells more."""
+    def _limit_log_odds(self, state: State, observation: TargetObservation, match: Match) -> Match:
+        """The match with less log-odds for its jump, and, where no depth tells more, at most those by the
+        models as they were.
+        """
         penalty = state.motion.penalty(state.target, match.target, state.seconds, self.params.jump_weight)
         match = match._replace(log_odds=match.log_odds - penalty)
         models = state.memory.older.get(observation.kind)
         if observation.depth_source is not None or models is None:
             return match
-        return judge(_target_model(state, models, self.params), match)
+        return limit_log_odds(_target_model(state, models, self.params), match)
 
     def _track(self, state: State) -> Track:
         if state.missed_frames == 0:
