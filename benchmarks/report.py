@@ -66,7 +66,7 @@ TRACKERS = """
 ## Trackers on figure 1's scene
 
 320x240, a face of 50x63, 90 frames, 100 particles; {rounds} rounds in turn. Frames/s from each frame's minimum
-over the rounds, p50 and p99 over all updates. A tracker that loses the target and fails fast has a high rate and
+over the rounds, p50 and p99 over all updates. A tracker that has lost the target returns early, so it has a high rate and
 no overlap. This and all that follows was measured in one run, on {machine}
 
 | tracker | frames/s | p50 ms | p99 ms | time / ours | overlap above 0.5 |

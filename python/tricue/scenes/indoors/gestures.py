@@ -51,7 +51,7 @@ class _Moves(NamedTuple):
 
 
 def hand(seed: int = 0, frames: int = 90, *, noise: float = 2.0) -> Scene:
-    """A hand moves, turns, spreads and closes its fingers before a person in a cluttered room, 320x240.
+    """A hand moves, turns, spreads and closes its fingers in front of a person in a cluttered room, 320x240.
 
     The target is the hand without the wrist, some 60 to 110 px long. It passes before the person's face, and
     before wood, clay and a curtain of nearly its color. 30 frames per second, with motion blur.
