@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+import warnings
 from functools import partial
 from pathlib import Path
 
@@ -12,7 +13,7 @@ import cv2
 import numpy as np
 import pytest
 import tricue
-from tricue.cli.program import COMMANDS, main
+from tricue.cli.program import COMMANDS, _one_line_warnings, main
 
 
 @pytest.fixture
@@ -382,3 +383,13 @@ def test_paths_need_not_be_utf_8(tmp_path: Path) -> None:
     done = subprocess.run([*command[:4], folder + b".avi", *command[5:]], capture_output=True, check=False)
     assert done.returncode == 2
     assert b"OpenCV opens only videos whose path is UTF-8; rename it" in done.stderr
+
+
+def test_warnings_are_shown_once_but_for_their_numbers(capsys: pytest.CaptureFixture[str]) -> None:
+    """Frames repeat a warning with other numbers; another one, though of the same line of code, is shown."""
+    with _one_line_warnings("track"):
+        warnings.simplefilter("default")
+        for text in ("frame 1 is dark", "frame 2 is dark", "frame 3 has no depth"):
+            warnings.warn(text, UserWarning, stacklevel=1)
+    told = capsys.readouterr().err.splitlines()
+    assert told == [f"tricue track: warning: {text}" for text in ("frame 1 is dark", "frame 3 has no depth")]

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: MIT
 """The command line: parses the arguments, runs the command, and prints errors on one line.
 
-Exit codes are a Unix tool's: 0, 2 for an error, 128 and the signal's number after a signal.
+Exit codes are a Unix tool's: 0, 1 where evaluate, compare or doctor has something to report, 2 for an error,
+128 and the signal's number after a signal.
 """
 
 import argparse
 import importlib
 import io
 import os
+import re
 import sys
 import warnings
 from collections.abc import Iterator, Sequence
@@ -44,7 +46,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line; the exit code: 0, 2 for an error (one line on stderr), 130 after Ctrl-C."""
+    """Run the command line; the exit code, of which 2 is an error (one line on stderr), 130 Ctrl-C."""
     silence_opencv()
     for stream in (sys.stdout, sys.stderr):  # a terminal may not know all letters of a file's name
         if isinstance(stream, io.TextIOWrapper):
@@ -88,12 +90,13 @@ def parser(chosen: str = "") -> argparse.ArgumentParser:
 
 @contextmanager
 def _one_line_warnings(command: str) -> Iterator[None]:
-    """Print warnings on one line, and each line of code once, because frames would repeat them."""
-    shown: set[tuple[str, int]] = set()
+    """Print warnings on one line, and those that differ in numbers alone once, because frames repeat them."""
+    shown: set[tuple[str, int, str]] = set()
 
     def show(message: Warning | str, _category: object, filename: str, lineno: int, *_: object) -> None:
-        if (filename, lineno) not in shown:
-            shown.add((filename, lineno))
+        warning = filename, lineno, re.sub(r"\d+", "", str(message))
+        if warning not in shown:
+            shown.add(warning)
             print(f"tricue {command}: warning: {message}", file=sys.stderr)
 
     with warnings.catch_warnings():
