@@ -271,6 +271,22 @@ def test_what_is_live(place: str, live: bool, file: bool) -> None:
     assert (is_capture(place), is_file_url(place)) == (live, file)
 
 
+@pytest.mark.parametrize(
+    ("url", "shown"),
+    [
+        ("rtsp://host/x", "rtsp://host/x"),
+        ("rtsp://user:secret@host:554/x?a=1", "rtsp://host:554/x?a=1"),
+        ("rtsp://user:se@cr@et@host/x", "rtsp://host/x"),
+        ("http://user:secret@host?at=@9", "http://host?at=@9"),
+        ("http://host/@me//a@b/video.cgi", "http://host/@me//a@b/video.cgi"),
+        ("udp://@:1234", "udp://:1234"),
+    ],
+)
+def test_passwords_are_hidden(url: str, shown: str) -> None:
+    """It proves that a URL's name lacks user and password, whatever these hold, and nothing else."""
+    assert Capture(url).name == shown
+
+
 class Unplugged:
     """A cv2.VideoCapture that gives two images once, and then can't be opened any more."""
 
@@ -330,6 +346,29 @@ def test_a_device_that_fails_in_its_thread(monkeypatch: pytest.MonkeyPatch) -> N
     """It proves that an error that isn't a matter of connection reaches the reader at once."""
     device = Counter()
     monkeypatch.setattr(device, "read", lambda: {}["color"])
+    with pytest.raises(KeyError, match="color"):
+        Live(device, BRIEF)
+
+
+def stuck() -> None:
+    """A device that can't be closed."""
+    raise RuntimeError("it can't be closed")
+
+
+def test_a_device_that_fails_when_it_is_closed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that an error of closing the device reaches the reader at once, not as a long silence."""
+    device = Counter(count=2, period=0.01)
+    monkeypatch.setattr(device, "close", stuck)
+    live = Live(device, BRIEF)
+    with pytest.raises(RuntimeError, match="it can't be closed"):
+        list(live.moments(["color"]))
+
+
+def test_the_first_error_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that a device that fails, and then can't be closed, is told by what failed first."""
+    device = Counter()
+    monkeypatch.setattr(device, "read", lambda: {}["color"])
+    monkeypatch.setattr(device, "close", stuck)
     with pytest.raises(KeyError, match="color"):
         Live(device, BRIEF)
 

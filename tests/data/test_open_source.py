@@ -283,6 +283,47 @@ def test_what_is_no_place_is_told(place: Any) -> None:
         open_source(place)
 
 
+@pytest.mark.parametrize("right", [True, 1.5, ["a.mp4"]])
+def test_what_is_no_right_place_is_told(tmp_path: Path, right: Any) -> None:
+    """It proves that the argument is named, whatever it is."""
+    with pytest.raises(TypeError, match="right: expected a path, a URL or a camera's number"):
+        open_source(video(tmp_path / "v.avi"), right=right)
+
+
+def test_two_cameras_by_their_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that the right camera may be a whole number as well."""
+    opened: list[int] = []
+    monkeypatch.setattr(cv2, "VideoCapture", lambda number: opened.append(number) or GrayCamera(number))
+    source = open_source(0, right=1)
+    assert (list(source.channels), source.format) == (["color", "right"], "stereo pair")
+    assert opened == [0, 1]
+    for stream in source.channels.values():
+        stream.joint.close()  # type: ignore[attr-defined]
+
+
+ELSEWHERE = ["7", "/dev/video7", "rtsp://me:word@host/x", "realsense:", "oak:", "https://me:word@host/a.mp4"]
+
+
+@pytest.mark.parametrize("place", ELSEWHERE)
+def test_topics_and_targets_of_no_folder(place: str) -> None:
+    """It proves that cameras and URLs refuse topics and a target before they are opened, without telling a
+    password.
+    """
+    with pytest.raises(ValueError, match=r"^--topics: expected with a recording .*; leave it out$") as told:
+        open_source(place, topics={"color": "/a"})
+    assert "word" not in str(told.value)
+    with pytest.raises(ValueError, match=r": expected target to be none, for it has one .* 'Car 1'$") as told:
+        open_source(place, target="Car 1")
+    assert "word" not in str(told.value)
+
+
+def test_passwords_stay_out_of_errors(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that an error about an option names a URL without its password."""
+    monkeypatch.setattr(cv2, "VideoCapture", GrayCamera)
+    with pytest.raises(ValueError, match=r"^https://host/a\.mp4: expected depth images where --depth-scale"):
+        open_source("https://me:p@ss@host/a.mp4", depth_scale=0.001)
+
+
 def test_a_number_is_a_cameras() -> None:
     """It proves that a whole number is taken as cv2 takes it."""
     with pytest.raises(OSError, match="9999"):

@@ -105,6 +105,10 @@ def test_unknown_targets_are_refused(tmp_path: Path) -> None:
     alone = images(tmp_path / "alone", range(2))
     with pytest.raises(ValueError, match="alone: expected target to be none, for it has one target, got '1'"):
         open_source(alone, target="1")
+    recording = alone / "walk.bag"
+    recording.touch()
+    with pytest.raises(ValueError, match=r"walk\.bag: expected target to be none, for it has one target"):
+        open_source(recording, target="1")
     assert list_targets(alone) == ()
 
 

@@ -129,7 +129,7 @@ def _lines(facts: Summary) -> Iterator[str]:
 
 
 def _depth_lines(depth: Summary, frames: int) -> Iterator[str]:
-    yield _line("", f"{depth['metres_per_unit']:g} m per unit, by {depth['unit_from']}")
+    yield _line("", f"{depth['meters_per_unit']:g} m per unit, by {depth['unit_from']}")
     looked = depth["frames_looked_at"]
     sample = "all frames" if looked >= frames else f"{looked} frames, evenly spaced"
     if depth["near_m"] is None:

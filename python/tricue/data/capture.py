@@ -26,7 +26,7 @@ class Capture:
     def __init__(self, place: str) -> None:
         self.place = place
         self.remote = is_url(place)
-        self.name = _without_password(place) if self.remote else f"camera {place}"
+        self.name = without_password(place) if self.remote else f"camera {place}"
         self.fps: float | None = None
         self._capture: cv2.VideoCapture | None = None
 
@@ -74,5 +74,6 @@ def is_file_url(place: str) -> bool:
     return is_url(place) and is_video(Path(urlsplit(place).path))
 
 
-def _without_password(url: str) -> str:
-    return re.sub(r"//[^/@]*@", "//", url)
+def without_password(url: str) -> str:
+    """The URL without its user and password, which end at the last @ in front of the path."""
+    return re.sub(r"^(\w+://)[^/?#]*@", r"\1", url)

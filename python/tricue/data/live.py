@@ -5,7 +5,7 @@ import atexit
 import time
 import warnings
 from collections.abc import Iterator, Sequence
-from threading import Condition, Thread
+from threading import Condition, Event, Thread
 from typing import Any, NamedTuple, Protocol
 from weakref import WeakSet
 
@@ -85,7 +85,7 @@ class Live:
         self.device, self.patience = device, patience or Patience()
         self._news = Condition()
         self._thread: Thread | None = None
-        self._running = False
+        self._running = Event()
         self._dropped = self._reopened = 0
         self._silence = 0.0
         self._stopped_by = ""
@@ -139,31 +139,34 @@ class Live:
     def close(self) -> None:
         """End the reading; iterating again begins anew."""
         with self._news:
-            self._running = False
+            self._running.clear()
             self._news.notify_all()
 
     def _newest_moments(self, channels: Sequence[str]) -> Iterator[Moment]:
         self._start_thread()
-        self._dropped = 0  # those that came before are no loss
+        with self._news:
+            self._dropped = 0  # those that came before are no loss
         try:
             while (newest := self._wait_for_news()) is not None:
                 yield {name: (newest.seconds, newest.images[name]) for name in channels}
         finally:
             self.close()
 
-    # The condition guards what the thread and its reader share: _running, _newest, _trouble, _failure.
+    # The condition guards what the thread and its reader share: _newest, _trouble, _failure, and the counts.
+    # _running is an event, which both ask at any time; who waits for the condition is told when it's cleared.
 
     def _start_thread(self) -> None:
-        if self._running:
+        if self._running.is_set():
             return
         if self._thread is not None:
             self._thread.join()  # the device is still its own
-        self._running = True
         _lives.add(self)
-        self._newest: _Newest | None = None
-        self._trouble = ""
-        self._failure: Exception | None = None
-        self._thread = Thread(target=self._read, name=self.device.name, daemon=True)
+        with self._news:
+            self._newest: _Newest | None = None
+            self._trouble = ""
+            self._failure: Exception | None = None
+        self._running.set()
+        self._thread = Thread(target=self._run, name=self.device.name, daemon=True)
         self._thread.start()
 
     def _wait_for_first(self) -> _Newest:
@@ -187,7 +190,7 @@ class Live:
         while True:
             with self._news:
                 self._news.wait_for(
-                    lambda: self._newest or self._failure or self._trouble or not self._running, 0.5
+                    lambda: self._newest or self._failure or self._trouble or not self._running.is_set(), 0.5
                 )
                 newest, self._newest = self._newest, None
                 trouble, self._trouble = self._trouble, ""
@@ -198,24 +201,31 @@ class Live:
                 return newest
             if failure is not None:
                 raise failure
-            if not self._running:
+            if not self._running.is_set():
                 return None
             silence = time.monotonic() - since
             if silence > self.patience.silence:
                 raise OSError(f"{self.device.name}: no image for {silence:.0f} s; the stream has ended")
 
+    def _run(self) -> None:
+        """The thread: an error that ends it, also of closing the device, has to reach its reader."""
+        try:
+            self._read()
+        except Exception as error:
+            self._fail(error)
+
     def _read(self) -> None:
-        """The thread: open, read, and open again with growing waits."""
+        """Open, read, and open again with growing waits, until it isn't running or an error ends it."""
         wait, stopped = self.patience.first_wait, 0.0
         any_read = False
-        while self._running:
+        while self._running.is_set():
             try:
                 trouble = "it stopped giving frames"
                 self.device.open()
-                while self._running and (images := self.device.read()) is not None:
+                while self._running.is_set() and (images := self.device.read()) is not None:
                     self._put(images, stopped, first=not any_read)
                     any_read, stopped, wait = True, 0.0, self.patience.first_wait
-            except Exception as error:  # a thread's error has to reach its reader
+            except Exception as error:
                 trouble = str(error)
                 if not isinstance(error, OSError) or not (any_read or self.device.remote):
                     self._fail(error)
@@ -239,18 +249,20 @@ class Live:
             self._news.notify_all()
 
     def _fail(self, error: Exception) -> None:
+        """Tell the reader, unless it was told another error before."""
         with self._news:
-            self._failure = error
+            if self._failure is None:
+                self._failure = error
             self._news.notify_all()
 
     def _pause(self, trouble: str, wait: float) -> float:
         """Wait before another try; the next wait. trouble: "" if it is told already."""
         with self._news:
-            if self._running:
+            if self._running.is_set():
                 self._trouble = trouble or self._trouble
                 self._stopped_by = trouble or self._stopped_by
                 self._news.notify_all()
-                self._news.wait_for(lambda: not self._running, wait)
+                self._news.wait_for(lambda: not self._running.is_set(), wait)
         return min(2 * wait, self.patience.longest_wait)
 
 

@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 
 from tricue.data import oak, realsense
 from tricue.data.box_table import find_box_table, find_video_box_table, read_box_table
-from tricue.data.capture import Capture, is_capture, is_file_url
+from tricue.data.capture import Capture, is_capture, is_file_url, without_password
 from tricue.data.files import image_paths, is_image
 from tricue.data.layouts import depth_images, note_box_table, read_layout
 from tricue.data.live import Device, Live, LiveStream, Patience, live_channels
@@ -33,7 +33,7 @@ def open_source(
     depth: str | Path | None = None,
     depth_scale: float | None = None,
     fps: float | None = None,
-    right: str | Path | None = None,
+    right: str | Path | int | None = None,
     target: str | None = None,
     topics: Mapping[str, str] | None = None,
 ) -> Source:
@@ -49,7 +49,8 @@ def open_source(
 
     depth: a folder of 16-bit images, or a sequence folder with depth, for the color images of ``place``;
         they are paired by order.
-    depth_scale: meters per unit of depth; required unless the format defines it (VOT, TUM, Princeton).
+    depth_scale: meters per unit of depth; required unless the format defines it (VOT, TUM, Princeton,
+        recordings, where it goes before the recording's own).
     fps: frames per second of images without times, 30 by default; ValueError for images with times.
     right: the right camera's video, folder, number or URL; ``place`` is the left one's; paired by order.
     target: one of :func:`tricue.data.layouts.list_targets`, for a folder with several. A KITTI sequence is
@@ -57,22 +58,23 @@ def open_source(
     topics: of a recording, by channel: "color", "depth", "right"; guessed by default, which a note says.
     Raises ValueError or OSError that names the place and what is wrong with it.
     """
-    place = _checked(place)
+    place = _checked(place, "place")
     source = _opened(place, depth_scale, target, topics)
+    shown = without_password(str(place))
     if right is not None:
-        source = _with_right(source, place, right)
+        source = _with_right(source, shown, _checked(right, "right"))
     if depth is not None:
-        source = _with_depth(source, place, Path(depth), depth_scale)
+        source = _with_depth(source, shown, Path(depth), depth_scale)
     if depth_scale is not None and "depth" not in source.channels:
-        raise ValueError(f"{place}: expected depth images where --depth-scale is given, found only color")
+        raise ValueError(f"{shown}: expected depth images where --depth-scale is given, found only color")
     return source if fps is None else replace(source, rate=fps)
 
 
-def _checked(place: Any) -> str | Path:
+def _checked(place: Any, name: str) -> str | Path:
     if isinstance(place, int) and not isinstance(place, bool):
         return str(place)  # a camera's
     if not isinstance(place, str | os.PathLike):
-        raise TypeError(f"place: expected a path, a URL or a camera's number, got {place!r:.80}")
+        raise TypeError(f"{name}: expected a path, a URL or a camera's number, got {place!r:.80}")
     return place if isinstance(place, str) else Path(place)
 
 
@@ -83,17 +85,19 @@ def _opened(
     topics: Mapping[str, str] | None = None,
 ) -> Source:
     if isinstance(place, str) and (device := live_device(place)):
+        _refuse_topics(topics, device.name)
+        _refuse_target(target, device.name)
         return _open_live(device)
     if isinstance(place, str) and is_file_url(place):
+        _refuse_topics(topics, without_password(place))
+        _refuse_target(target, without_password(place))
         file = Path(urlsplit(place).path)
         return Source(file.stem, {"color": Video(file, place)}, format="video")
     path = _existing(Path(place))
     if is_recording(path):
+        _refuse_target(target, place)
         return _with_table(open_recording(path, topics, scale), path)
-    if topics is not None:
-        raise ValueError(
-            f"--topics: expected with a recording (.bag, .mcap, .db3), got {place}; leave it out"
-        )
+    _refuse_topics(topics, place)
     if path.is_dir():
         layout = read_layout(path, scale, target)
         name = path.resolve().name if target is None else f"{path.resolve().name} {target}"
@@ -111,9 +115,22 @@ def _opened(
         raise ValueError(f"{place}: expected a video or a folder, got a text")
     if is_image(path):
         raise ValueError(f"{place}: expected a video or a folder, got one picture; give its folder")
-    if target is not None:
-        check_target(target, (), path)
+    _refuse_target(target, place)
     return _with_table(Source(path.stem, {"color": Video(path)}, format="video"), path)
+
+
+def _refuse_topics(topics: Mapping[str, str] | None, place: str | Path) -> None:
+    """ValueError for topics of what is no recording."""
+    if topics is not None:
+        raise ValueError(
+            f"--topics: expected with a recording (.bag, .mcap, .db3), got {place}; leave it out"
+        )
+
+
+def _refuse_target(target: str | None, place: str | Path) -> None:
+    """ValueError for a target of what has one alone."""
+    if target is not None:
+        check_target(target, (), place)
 
 
 def live_device(place: str) -> Device | None:
@@ -146,17 +163,18 @@ def _with_truth(source: Source, truth: Truth | None) -> Source:
     return replace(source, truth=truth.boxes, absent=truth.absent, positions=truth.positions)
 
 
-def _with_right(source: Source, place: str | Path, right: str | Path) -> Source:
+def _with_right(source: Source, shown: str, right: str | Path) -> Source:
     """The source as a stereo pair: its color images are the left ones, those of ``right`` the right ones."""
     streams = [opened.channels.get("color") for opened in (source, _opened(right, None))]
-    for stream, at in zip(streams, (place, f"--right {right}"), strict=True):
+    option = f"--right {without_password(str(right))}"
+    for stream, at in zip(streams, (shown, option), strict=True):
         if stream is None:
             raise ValueError(f"{at}: expected color images of a stereo pair, found only depth")
     left, other = streams
     assert left
     assert other
     if isinstance(left, LiveStream) != isinstance(other, LiveStream):
-        raise ValueError(f"--right {right}: expected two cameras or two recordings, got one of each")
+        raise ValueError(f"{option}: expected two cameras or two recordings, got one of each")
     note = "the two cameras don't expose at one time; what moves fast isn't at one place in both"
     notes = (*source.notes, note) if isinstance(left, LiveStream) else source.notes
     rest = {name: stream for name, stream in source.channels.items() if name not in ("color", "right")}
@@ -164,11 +182,11 @@ def _with_right(source: Source, place: str | Path, right: str | Path) -> Source:
     return replace(source, channels=channels, notes=notes, format="stereo pair")
 
 
-def _with_depth(source: Source, place: str | Path, depth: Path, scale: float | None) -> Source:
+def _with_depth(source: Source, shown: str, depth: Path, scale: float | None) -> Source:
     """The source with the depth images of another place."""
     color = source.channels.get("color")
     if color is None:
-        raise ValueError(f"{place}: expected color images beside --depth {depth}, found only depth")
+        raise ValueError(f"{shown}: expected color images beside --depth {depth}, found only depth")
     if isinstance(color, LiveStream):
         raise ValueError(f"--depth {depth}: expected with a video or a folder, got {source.name}")
     channels = {**source.channels, "depth": _depth_stream(_existing(depth), scale)}

@@ -73,7 +73,7 @@ def summarize_depth(stream: Stream, source: str) -> Summary | None:
         counts += np.bincount(units.astype(np.int64), minlength=DEPTH_LEVELS)
     near, far = (_percentile(counts, share, level) for share in (0.05, 0.95))
     return {
-        "metres_per_unit": scale,
+        "meters_per_unit": scale,
         "unit_from": "Princeton's format" if rotated and source != "--depth-scale" else source,
         "near_m": near,
         "far_m": far,

@@ -123,11 +123,11 @@ def _truth_path(folder: Path, target: str | None) -> Path | None:
     return next((folder / name for name in names if (folder / name).is_file()), None)
 
 
-def check_target(target: str, known: Sequence[str], folder: Path) -> None:
-    """Raise ValueError where the folder has no such target; it lists the known ones."""
+def check_target(target: str, known: Sequence[str], place: str | Path) -> None:
+    """Raise ValueError where a folder, a file or a camera has no such target; it lists the known ones."""
     if target not in known:
         listed = f"one of {', '.join(map(repr, known))}" if known else "none, for it has one target"
-        raise ValueError(f"{folder}: expected target to be {listed}, got {target!r}")
+        raise ValueError(f"{place}: expected target to be {listed}, got {target!r}")
 
 
 def read_box(line: str, place: str, count: int | None = None) -> tuple[float, ...]:

@@ -145,17 +145,39 @@ def test_a_rectified_pair() -> None:
     assert pair(view(info()), view(info(shift=0.125))) == Cameras(rig)
 
 
+BARE = info(p=(0.0,) * 12, r=(0.0,) * 9)
+APART = [
+    Transform("left", "reference 0", (0.0, 0.0, 0.0), IDENTITY),
+    Transform("right", "reference 0", (-0.05, 0.0, 0.0), IDENTITY),
+]
+BENT = {"d": (-0.1, 0.0, 0.0, 0.0, 0.0)}
+
+
+@pytest.mark.parametrize(
+    ("left", "right"),
+    [
+        (view(info(shift=0.125)), view(info())),  # as ROS has it: the left camera's P has no baseline
+        (view(info()), view(info(shift=-0.125))),
+        (view(info(shift=0.125, **BENT), rectified=False), view(info(**BENT), rectified=False)),
+        (view(BARE, "right"), view(BARE, "left")),
+    ],
+)
+def test_a_pair_of_swapped_cameras(left: View, right: View) -> None:
+    """It proves that a pair whose right camera is left of the left one, by P or the extrinsics, is no rig,
+    and that a note says what to do.
+    """
+    found = pair(left, right._replace(topic="/b"), *APART)
+    assert isinstance(found.camera, Intrinsics)
+    assert found.rectify is None
+    assert "the right camera is left of the left one; swap the two cameras" in found.notes[-1]
+
+
 def test_a_pair_of_realsense() -> None:
     """It proves that without P the baseline comes from the extrinsics between both cameras."""
-    bare = info(p=(0.0,) * 12, r=(0.0,) * 9)
-    apart = [
-        Transform("left", "reference 0", (0.0, 0.0, 0.0), IDENTITY),
-        Transform("right", "reference 0", (-0.05, 0.0, 0.0), IDENTITY),
-    ]
-    found = pair(view(bare, "left"), view(bare, "right"), *apart)
+    found = pair(view(BARE, "left"), view(BARE, "right"), *APART)
     assert isinstance(found.camera, StereoRig)
     assert found.camera.baseline == pytest.approx(0.05)
-    assert "the baseline isn't known" in pair(view(bare), view(bare)).notes[0]
+    assert "the baseline isn't known" in pair(view(BARE), view(BARE)).notes[0]
 
 
 def test_a_raw_pair_is_rectified() -> None:

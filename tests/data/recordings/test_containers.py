@@ -9,6 +9,7 @@ import zstandard
 from tricue.data.recordings.bag1 import Bag1
 from tricue.data.recordings.container import Chain, Container
 from tricue.data.recordings.mcap_file import McapFile
+from tricue.data.recordings.messages import decoder
 from tricue.data.recordings.sqlite_file import SqliteFile
 
 from tests.data.recordings.written import (
@@ -107,12 +108,65 @@ def test_compressed_messages_of_ros_2(tmp_path: Path) -> None:
     """It proves that messages that ROS 2 compressed one by one are read."""
     path = next(write_bag2(tmp_path / "b", walk()).glob("*.db3"))
     before = list(SqliteFile(path).messages(SqliteFile(path).topics))
+    rewrite(path, zstandard.compress)
+    assert list(SqliteFile(path).messages(SqliteFile(path).topics)) == before
+
+
+def rewrite(path: Path, pack: Callable[[bytes], object], *numbers: int) -> None:
+    """Put other data in place of a database's messages with these numbers, of all without any."""
     with sqlite3.connect(path) as database:
         for number, data in database.execute("SELECT id, data FROM messages").fetchall():
-            packed = zstandard.compress(data)
-            database.execute("UPDATE messages SET data = ? WHERE id = ?", (packed, number))
+            if number in numbers or not numbers:
+                database.execute("UPDATE messages SET data = ? WHERE id = ?", (pack(data), number))
     database.close()
+
+
+def test_compressed_messages_without_their_size(tmp_path: Path) -> None:
+    """It proves that a compressed message needs no size in its frame, which zstd leaves out where data
+    comes bit by bit.
+    """
+    path = next(write_bag2(tmp_path / "b", walk()).glob("*.db3"))
+    before = list(SqliteFile(path).messages(SqliteFile(path).topics))
+    rewrite(path, zstandard.ZstdCompressor(write_content_size=False).compress)
     assert list(SqliteFile(path).messages(SqliteFile(path).topics)) == before
+
+
+def cut(data: bytes) -> bytes:
+    """A compressed message without its end."""
+    return zstandard.compress(data)[:-5]
+
+
+def flipped(data: bytes) -> bytes:
+    """A compressed message with a damaged header."""
+    return zstandard.compress(data)[:4] + b"\xff" * 20
+
+
+@pytest.mark.parametrize("pack", [cut, flipped, lambda _: "a text", lambda _: 5])
+def test_a_damaged_message_among_others(tmp_path: Path, pack: Callable[[bytes], object]) -> None:
+    """It proves that a message that can't be decompressed, or is no bytes at all, leaves the others as they
+    are: it comes with data that no decoder takes.
+    """
+    path = next(write_bag2(tmp_path / "b", walk(3)).glob("*.db3"))
+    before = list(SqliteFile(path).messages(SqliteFile(path).topics))
+    rewrite(path, zstandard.compress)
+    rewrite(path, lambda data: pack(zstandard.decompress(data)), 6)
+    container = SqliteFile(path)
+    found = list(container.messages(container.topics))
+    assert [each[:2] for each in found] == [each[:2] for each in before]
+    (different,) = [each for each, other in zip(found, before, strict=True) if each.data != other.data]
+    with pytest.raises(ValueError, match="a message that isn't"):
+        decoder(container.topics[different.topic])(different.data)
+
+
+def test_a_lost_topic(tmp_path: Path) -> None:
+    """It proves that messages whose topic's row is lost aren't counted, and that the other topics are."""
+    path = next(write_bag2(tmp_path / "b", walk(4)).glob("*.db3"))
+    with sqlite3.connect(path) as database:
+        database.execute("DELETE FROM topics WHERE id = 1")
+    database.close()
+    counts = SqliteFile(path).counts()
+    assert len(counts) == 3
+    assert set(counts.values()) == {4}
 
 
 def many(count: int = 120) -> list[Sent]:

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tricue.data.recordings.images import is_depth, to_color, to_depth
+from tricue.data.recordings.images import DepthUnits, is_depth, to_color, to_depth
 from tricue.data.recordings.messages import ImageMessage
 
 from tests.data.recordings.written import jpeg, png
@@ -101,15 +101,22 @@ def test_depth_of_16_bits(big_endian: bool) -> None:
     units = np.rint(1000 * METERS).astype(">u2" if big_endian else "<u2")
     sent = message(units, "16UC1", padding=2, big_endian=big_endian)
     assert np.allclose(to_depth(sent), METERS, atol=1e-6)
-    assert np.allclose(to_depth(sent, 0.00025), METERS / 4, atol=1e-6)
+    assert np.allclose(to_depth(sent, DepthUnits(0.00025)), METERS / 4, atol=1e-6)
 
 
-def test_depth_in_meters() -> None:
-    """It proves that floats are meters, whatever unit was told, and that what isn't finite stays so."""
-    image = METERS.astype(np.float32)
+@pytest.mark.parametrize(("encoding", "type_"), [("32FC1", np.float32), ("64FC1", np.float64)])
+def test_depth_of_floats(encoding: str, type_: type[np.floating[Any]]) -> None:
+    """It proves that floats are meters, or in the unit that was told for them, and that what isn't finite
+    stays so.
+    """
+    image = METERS.astype(type_)
     image[0, 0] = np.nan
-    found = to_depth(message(image, "32FC1"), 0.1)
-    assert np.array_equal(found, image, equal_nan=True)
+    sent = message(image, encoding)
+    for units in (DepthUnits(), DepthUnits(integers=0.1)):
+        assert np.array_equal(to_depth(sent, units), image, equal_nan=True)
+    millimeters = to_depth(message(1000 * image, encoding), DepthUnits(floats=0.001))
+    assert np.allclose(millimeters, image, atol=1e-6, equal_nan=True)
+    assert millimeters.dtype == np.float32
 
 
 def test_compressed_depth_of_16_bits() -> None:
@@ -136,6 +143,8 @@ def test_compressed_depth_in_meters() -> None:
     assert np.isnan(found[~measured]).all()
     # a step of the quantized inverse depth is z^2 / quotient
     assert (np.abs(found - METERS)[measured] <= METERS[measured] ** 2 / quotient + 1e-6).all()
+    scaled = to_depth(packed(data, "32FC1; compressedDepth png"), DepthUnits(floats=0.5))
+    assert np.array_equal(scaled, found / 2, equal_nan=True)
 
 
 @pytest.mark.parametrize(

@@ -9,12 +9,15 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
+import zstandard
 from tricue import Frame, Intrinsics, StereoRig, open_source
 from tricue.camera.registration import Reprojection
 from tricue.cli.program import main
 from tricue.data.joint import JointStream
 from tricue.data.source import Source
+from tricue.data.summary import summarize_depth
 
+from tests.data.recordings.test_containers import rewrite
 from tests.data.recordings.written import (
     SECOND,
     START,
@@ -194,6 +197,63 @@ def test_the_frame_before_stands_in_for_a_damaged_one(tmp_path: Path) -> None:
         assert blues(source.frames(numbers)) == pytest.approx(shown, abs=2)
 
 
+@pytest.mark.parametrize("damaged", [{2}, {3, 5, 6}, set(range(4, 31)), set(range(9, 24)) | {25}])
+def test_a_damaged_frame_is_the_same_however_it_is_read(tmp_path: Path, damaged: set[int]) -> None:
+    """It proves that a damaged frame alone has the images of the last whole one before it, as in reading all,
+    however far back that is, and that only the wanted frames count as damaged.
+    """
+    sent = [
+        compressed(
+            "/a/compressed",
+            START + at * SECOND // 30,
+            b"no" if at in damaged else jpeg(color(7 * at)),
+            "jpeg",
+        )
+        for at in range(35)
+    ]
+    source = open_source(mcap(tmp_path, sent))
+    every = blues(source)
+    assert every == pytest.approx([7 * max(set(range(at + 1)) - damaged) for at in range(35)], abs=2)
+    for number in (2, 6, 13, 23, 25, 30, 34):
+        assert blues(source.frames([number])) == [every[number]]
+        assert ("in place of 1 with" in str(source.remarks)) == (number in damaged)
+    assert blues(source.frames([1, 8, 29, 33])) == [every[at] for at in (1, 8, 29, 33)]
+
+
+def test_a_message_that_is_not_decompressed(tmp_path: Path) -> None:
+    """It proves that a compressed message that is damaged is left out, which is told, and others are read."""
+    folder = sqlite(tmp_path, [each for each in walk(6) if each.topic == COLOR])
+    rewrite(next(folder.glob("*.db3")), lambda data: zstandard.compress(data)[:-5], 3)
+    source = open_source(folder)
+    assert blues(source) == [10, 20, 40, 50, 60]
+    assert source.remarks == ("left out 1 unreadable message",)
+
+
+@pytest.mark.parametrize(("encoding", "kind"), [("32FC1", np.float32), ("64FC1", np.float64)])
+def test_depth_of_floats(tmp_path: Path, encoding: str, kind: type) -> None:
+    """It proves that floats are meters, in frames and in the summary, unless a unit is given; RealSense's
+    own unit is that of 16 bits.
+    """
+    image = np.full((24, 32), 1.5, kind)
+    units = Sent(
+        "/device_0/sensor_0/option/Depth Units/value", START, "std_msgs/msg/Float32", {"data": 0.00025}
+    )
+    path = bag1(tmp_path, [units, raw("/depth", START, image, encoding)])
+    for scale, unit in ((None, 1.0), (0.5, 0.5)):
+        source = open_source(path, depth_scale=scale)
+        assert meters(source) == pytest.approx([1.5 * unit])
+        summary = summarize_depth(source.channels["depth"], "its format")
+        assert summary is not None
+        assert summary["meters_per_unit"] == unit
+
+
+@pytest.mark.parametrize("scale", [0, -0.001, float("nan")])
+def test_an_impossible_unit_of_depth(tmp_path: Path, scale: float) -> None:
+    """It proves that a scale that can't be one is an error that names it, not left out."""
+    with pytest.raises(ValueError, match=r"^depth_scale: expected"):
+        open_source(mcap(tmp_path, walk(1)), depth_scale=scale)
+
+
 def test_depth_is_registered_by_transforms(tmp_path: Path) -> None:
     """It proves that depth of another camera is brought into color's pixels by /tf_static: a wall at 2 m,
     half as large in a camera of half the focal length that stands 0.4 m to the left, ends where it has to.
@@ -234,6 +294,12 @@ def test_a_stereo_pair(tmp_path: Path) -> None:
     pairs = [(int(frame.color[0, 0, 0]), int(frame.right[0, 0, 0])) for frame in source]  # type: ignore[index]
     assert pairs == [(0, 100), (10, 110), (20, 120)]
     assert source.camera == StereoRig(Intrinsics(30, 30, 15.5, 11.5, 32, 24), 0.125)
+    topics = {"color": "/stereo/right/image_rect", "right": "/stereo/left/image_rect"}
+    swapped = open_source(tmp_path / "c", topics=topics)
+    assert not isinstance(swapped.camera, StereoRig)
+    assert swapped.notes[-1].endswith(
+        "swap the two cameras: --topics color=/stereo/left/image_rect,right=/stereo/right/image_rect"
+    )
 
 
 def test_a_folder_of_images_beside_its_bag(tmp_path: Path) -> None:

@@ -128,18 +128,28 @@ def _stereo(left: View, right: View, transforms: Sequence[Transform]) -> Cameras
     first, second = left.info, right.info
     if camera is None or first is None or second is None or second.k[0] == 0:
         return Cameras(notes=notes or (f"{right.topic} has no camera_info of a calibrated camera",))
-    if len(second.p) == 12 and second.p[0] and second.p[3]:
-        if left.rectified or not _is_raw(first, second):
-            return Cameras(StereoRig(camera, abs(second.p[3] / second.p[0])))
+    baseline = _place(second) - _place(first)
+    if baseline and not left.rectified and _is_raw(first, second):
         try:
             rectification = _rectification(first, second, left.size)
         except ValueError as error:
             return Cameras(camera, notes=(*notes, f"the pair can't be rectified: {error}"))
         return Cameras(rectification.rig, rectify=rectification, notes=("the raw pair is rectified",))
-    between = find_extrinsics(transforms, left.frame, right.frame)
-    if between is None or not between.translation[0]:
+    between = None if baseline else find_extrinsics(transforms, left.frame, right.frame)
+    if between is not None:
+        baseline = -float(between.translation[0])
+    if not baseline:
         return Cameras(camera, notes=(*notes, "the baseline isn't known: no P of the right camera has it"))
-    return Cameras(StereoRig(camera, float(abs(between.translation[0]))), notes=notes)
+    if baseline < 0:
+        swapped = f"--topics color={right.topic},right={left.topic}"
+        note = f"the right camera is left of the left one; swap the two cameras: {swapped}"
+        return Cameras(camera, notes=(*notes, note))
+    return Cameras(StereoRig(camera, baseline), notes=notes)
+
+
+def _place(info: CameraMessage) -> float:
+    """Where a camera of a rectified pair is by its P: meters to the right of the pair's origin."""
+    return -info.p[3] / info.p[0] if len(info.p) == 12 and info.p[0] else 0.0
 
 
 def _rectification(left: CameraMessage, right: CameraMessage, size: tuple[int, int]) -> Rectification:

@@ -2,7 +2,7 @@
 """Image messages as arrays: color in BGR, depth in meters."""
 
 import struct
-from typing import Any
+from typing import Any, NamedTuple
 
 import cv2
 import numpy as np
@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from tricue.data.recordings.messages import ImageMessage
 
 DEPTH_ENCODINGS = {"16UC1", "mono16", "32FC1", "64FC1", "Z16"}
-METERS_PER_UNIT = 0.001  # of 16-bit depth in ROS, by REP 118
 
 _HEADER = struct.Struct("<iff")  # before the PNG of a compressedDepth: its kind, and two parameters
 _TO_BGR: dict[str, int | None] = {  # of encodings with a byte a channel: cv2's conversion
@@ -37,12 +36,31 @@ _CHANNELS = {"8UC4": 4, "bgra8": 4, "rgba8": 4, "8UC3": 3, "bgr8": 3, "rgb8": 3}
 _TWO_BYTES = {"yuv422", "uyvy", "yuv422_yuy2", "yuyv", "YUYV"}
 
 
+class DepthUnits(NamedTuple):
+    """Meters per unit of recorded depth, by the type of its pixels; by default ROS's, of REP 118."""
+
+    integers: float = 0.001
+    floats: float = 1.0
+
+    def of(self, message: ImageMessage) -> float:
+        """The unit of a depth image, by its encoding."""
+        return self.floats if holds_floats(message) else self.integers
+
+
+ROS_UNITS = DepthUnits()
+
+
 def is_depth(message: ImageMessage) -> bool:
     """Whether the image is one of depth, by its encoding."""
     if message.compressed:
         form = message.encoding
         return "compressedDepth" in form or form.split(";")[0].strip() in ("16UC1", "32FC1")
     return message.encoding in DEPTH_ENCODINGS
+
+
+def holds_floats(message: ImageMessage) -> bool:
+    """Whether the pixels of a depth image are floats, by its encoding."""
+    return message.encoding.lstrip().startswith(("32FC1", "64FC1"))
 
 
 def to_color(message: ImageMessage) -> NDArray[np.uint8]:
@@ -63,44 +81,43 @@ def to_color(message: ImageMessage) -> NDArray[np.uint8]:
     return np.asarray(cv2.cvtColor(np.ascontiguousarray(image), conversion), np.uint8)
 
 
-def to_depth(message: ImageMessage, scale: float = METERS_PER_UNIT) -> NDArray[np.float32]:
+def to_depth(message: ImageMessage, units: DepthUnits = ROS_UNITS) -> NDArray[np.float32]:
     """The depth (H, W), meters, 0 or NaN where nothing was measured.
 
-    scale: meters per unit of integers. ValueError for an encoding that holds no depth.
+    ValueError for an encoding that holds no depth.
     """
     if message.compressed:
-        return _compressed_depth(message, scale)
+        return _compressed_depth(message, units)
     sizes = {"16UC1": 2, "mono16": 2, "Z16": 2, "32FC1": 4, "64FC1": 8}
     if message.encoding not in sizes:
         raise ValueError(f"the encoding {message.encoding!r} isn't one of depth")
-    return _meters(_pixels(message, sizes[message.encoding]), scale)
+    return _meters(_pixels(message, sizes[message.encoding]), units)
 
 
-def _meters(image: NDArray[Any], scale: float) -> NDArray[np.float32]:
+def _meters(image: NDArray[Any], units: DepthUnits) -> NDArray[np.float32]:
     if image.dtype.kind == "f":
-        return image.astype(np.float32)
+        return np.asarray(units.floats * image, np.float32)
     if image.dtype != np.uint16 or image.ndim != 2:
         raise ValueError(f"a depth image of {image.dtype} {image.shape}; 8 bits are a picture, not meters")
-    meters: NDArray[np.float32] = image * np.float32(scale)
+    meters: NDArray[np.float32] = image * np.float32(units.integers)
     return meters
 
 
-def _compressed_depth(message: ImageMessage, scale: float) -> NDArray[np.float32]:
+def _compressed_depth(message: ImageMessage, units: DepthUnits) -> NDArray[np.float32]:
     """By ROS's compressed_depth_image_transport: 16 bits as they are, or the inverse depth of floats."""
     form = message.encoding
     if "compressedDepth" not in form:
-        return _meters(_decoded(message.data, cv2.IMREAD_UNCHANGED), scale)
+        return _meters(_decoded(message.data, cv2.IMREAD_UNCHANGED), units)
     if "rvl" in form.lower():
         raise ValueError(f"depth compressed by RVL ({form!r}) isn't read; record PNG or raw images")
     if len(message.data) <= _HEADER.size:
         raise ValueError("a compressedDepth image without pixels")
     _, quotient, offset = _HEADER.unpack(message.data[: _HEADER.size].tobytes())
-    units = _decoded(message.data[_HEADER.size :], cv2.IMREAD_UNCHANGED)
-    if not form.lstrip().startswith("32FC1"):
-        return _meters(units, scale)
+    image = _decoded(message.data[_HEADER.size :], cv2.IMREAD_UNCHANGED)
+    if not holds_floats(message):
+        return _meters(image, units)
     with np.errstate(divide="ignore"):
-        meters = np.where(units > 0, quotient / (units.astype(np.float64) - offset), np.nan)
-    return meters.astype(np.float32)
+        return _meters(np.where(image > 0, quotient / (image.astype(np.float64) - offset), np.nan), units)
 
 
 def _decoded(data: NDArray[np.uint8], flag: int) -> NDArray[Any]:

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple, TypeVar
 
 from numpy.typing import NDArray
 
+from tricue.camera.numbers import positive
 from tricue.data.files import natural_order
 from tricue.data.joint import JointStream, Moment
 from tricue.data.layouts import find_plain_images
@@ -15,7 +16,7 @@ from tricue.data.recordings.bag1 import Bag1
 from tricue.data.recordings.cameras import View, calibrate, find_info
 from tricue.data.recordings.container import Chain, Container
 from tricue.data.recordings.head import Head, read_head
-from tricue.data.recordings.images import METERS_PER_UNIT, to_color, to_depth
+from tricue.data.recordings.images import DepthUnits, to_color, to_depth
 from tricue.data.recordings.mcap_file import McapFile
 from tricue.data.recordings.messages import IMAGES, ImageMessage, decoder, to_image
 from tricue.data.recordings.pairing import Pairing, Timed
@@ -31,6 +32,7 @@ READERS: dict[str, tuple[str, Callable[[Path], Container]]] = {
 }
 T = TypeVar("T")
 METADATA = "metadata.yaml"  # in the folder of a ROS 2 recording, once it is closed
+MAX_UNDECODED = 10  # moments that are read over, before the last whole one of them is decoded
 
 
 class TopicSummary(NamedTuple):
@@ -53,9 +55,11 @@ class Stored(NamedTuple):
 class Recording:
     """The chosen topics of a container, as a joint of channels; see :class:`tricue.data.joint.Joint`."""
 
-    def __init__(self, container: Container, chosen: Mapping[str, str], head: Head, scale: float) -> None:
+    def __init__(
+        self, container: Container, chosen: Mapping[str, str], head: Head, units: DepthUnits
+    ) -> None:
         self.container, self.chosen, self.head = container, dict(chosen), head
-        self.scale = scale
+        self.units = units
         self._channels = {topic: channel for channel, topic in chosen.items()}
         self._decoders = {topic: decoder(container.topics[topic]) for topic in self._channels}
         self._first = {channel: self.decode(channel, head.images[topic]) for channel, topic in chosen.items()}
@@ -78,7 +82,7 @@ class Recording:
     @property
     def depth_unit(self) -> float:
         """Meters per unit of depth: 1 where it is recorded in meters."""
-        return 1.0 if "32FC1" in self.head.images[self.chosen["depth"]].encoding else self.scale
+        return self.units.of(self.head.images[self.chosen["depth"]])
 
     @property
     def remarks(self) -> tuple[str, ...]:
@@ -102,13 +106,23 @@ class Recording:
         return width, height
 
     def moments(self, channels: Sequence[str], indices: Sequence[int] | None = None) -> Iterator[Moment]:
-        """A moment with a damaged image has the images of the one before, so that all keep their numbers."""
+        """A moment with a damaged image has the images of the one before, so that all keep their numbers.
+
+        These are those of the last whole moment before, whether that was asked for or not; of the topics'
+        first images where there is none.
+        """
         remaining = None if indices is None else deque(indices)
         number = self._unreadable = self._damaged = 0
         images = {channel: self._first[channel] for channel in channels}
+        undecoded: list[dict[str, Timed[Stored]]] = []
         for paired in self._paired():
-            if remaining is None or (remaining and remaining[0] == number):
-                images = self._decoded(paired, images)
+            undecoded.append(paired)
+            wanted = remaining is None or (remaining and remaining[0] == number)
+            if wanted or len(undecoded) == MAX_UNDECODED:
+                images, is_last = self._last_whole(undecoded, images)
+                undecoded.clear()
+            if wanted:
+                self._damaged += not is_last
                 yield {channel: (1e-9 * paired[channel].time, image) for channel, image in images.items()}
                 if remaining:
                     remaining.popleft()
@@ -129,15 +143,20 @@ class Recording:
             for name, topic in sorted(self.container.topics.items())
         ]
 
-    def _decoded(
-        self, paired: dict[str, Timed[Stored]], before: dict[str, NDArray[Any]]
-    ) -> dict[str, NDArray[Any]]:
-        """The images of the channels that were read before; those before where one is damaged."""
-        try:
-            return {channel: self.decode(channel, paired[channel].item.image) for channel in before}
-        except ValueError:
-            self._damaged += 1
-            return before
+    def _last_whole(
+        self, moments: Sequence[dict[str, Timed[Stored]]], before: dict[str, NDArray[Any]]
+    ) -> tuple[dict[str, NDArray[Any]], bool]:
+        """The images of the last moment without a damaged one, and whether that is the last of all.
+
+        before: those of the moment before all of these, with the channels that are read.
+        """
+        for paired in reversed(moments):
+            try:
+                images = {channel: self.decode(channel, paired[channel].item.image) for channel in before}
+            except ValueError:
+                continue
+            return images, paired is moments[-1]
+        return before, False
 
     def _paired(self) -> Iterator[dict[str, Timed[Stored]]]:
         yield from self.paired(self.images())
@@ -176,7 +195,7 @@ class Recording:
 
     def decode(self, channel: str, image: ImageMessage) -> NDArray[Any]:
         """The image as a channel has it; ValueError for a damaged one."""
-        return to_depth(image, self.scale) if channel == "depth" else to_color(image)
+        return to_depth(image, self.units) if channel == "depth" else to_color(image)
 
 
 def is_recording(path: Path) -> bool:
@@ -190,7 +209,8 @@ def open_recording(path: Path, topics: Mapping[str, str] | None = None, scale: f
     """The recording as a source.
 
     topics: by channel: "color", "depth", "right"; chosen by their names and images where none are given.
-    scale: meters per unit of 16-bit depth, 0.001 unless the recording says it.
+    scale: meters per unit of depth, 16 bits or floats; by default 16 bits are in the recording's own unit,
+        else in millimeters, and floats are meters.
     ValueError, OSError or ImportError in one line that says what to do.
     """
     container, format_ = _open_container(path)
@@ -199,7 +219,7 @@ def open_recording(path: Path, topics: Mapping[str, str] | None = None, scale: f
     chosen = dict(topics) if topics else guess_topics(head.images)
     _check_images(container, head, chosen)
     ordered = {channel: chosen[channel] for channel in CHANNELS if channel in chosen}
-    units = scale or head.units or METERS_PER_UNIT
+    units = _depth_units(head, scale)
     try:
         recording = Recording(container, ordered, head, units)
     except ValueError as error:
@@ -267,6 +287,14 @@ def _check_images(container: Container, head: Head, chosen: Mapping[str, str]) -
     if not chosen:
         reason = next((f"{name}: {why}" for name, why in head.unread.items()), "the topics have no messages")
         raise ValueError(f"{container.path}: expected images in the recording, found none: {reason}")
+
+
+def _depth_units(head: Head, scale: float | None) -> DepthUnits:
+    """Those that are given, else the recording's own, else ROS's."""
+    if scale is not None:
+        unit = positive(scale, "depth_scale", "meters per unit")
+        return DepthUnits(unit, unit)
+    return DepthUnits(head.units) if head.units else DepthUnits()
 
 
 def _note_choice(chosen: Mapping[str, str], head: Head) -> str:

@@ -31,7 +31,9 @@ class SqliteFile(Container):
 
     def messages(self, names: Collection[str], start: int = 0) -> Iterator[Message]:
         numbers = [number for number, name in self._names.items() if name in names]
-        query = f"SELECT topic_id, timestamp, data FROM messages WHERE topic_id IN ({_marks(numbers)})"
+        # a damaged row may hold values of other types
+        columns = "topic_id, CAST(IFNULL(timestamp, 0) AS INTEGER), CAST(IFNULL(data, '') AS BLOB)"
+        query = f"SELECT {columns} FROM messages WHERE topic_id IN ({_marks(numbers)})"
         query += " AND timestamp >= ?" * (start > 0)  # which an index finds, but one that may be damaged
         values = [*numbers, *([start] * (start > 0))]
         any_read = False
@@ -51,7 +53,8 @@ class SqliteFile(Container):
         with closing(self._connect()) as database:
             try:
                 for number, count in database.execute("SELECT topic_id, COUNT(*) FROM messages GROUP BY 1"):
-                    counts[self._names[number]] = count
+                    if number in self._names:  # a topic's row may be lost
+                        counts[self._names[number]] += count
             except sqlite3.DatabaseError as error:
                 self.damage = f"it is cut off or damaged ({error})"
         return counts
@@ -82,11 +85,16 @@ def _definitions(database: sqlite3.Connection) -> dict[str, tuple[str, bool]]:
 
 
 def _decompressed(data: bytes) -> bytes:
+    """The message, whether ROS 2 compressed it or not; where it is damaged b"", which no message is."""
     if not data.startswith(_ZSTD):
         return data
     try:
         import zstandard
     except ImportError:
         raise ImportError(f"compressed messages need the package zstandard: {EXTRA}") from None
-    content: bytes = zstandard.decompress(data)
-    return content
+    stream = zstandard.ZstdDecompressor().decompressobj()  # which needs no size in the frame's header
+    try:
+        content: bytes = stream.decompress(data)
+    except zstandard.ZstdError:
+        return b""
+    return content if stream.eof else b""

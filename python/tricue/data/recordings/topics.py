@@ -4,7 +4,7 @@
 import re
 from collections.abc import Collection, Mapping
 
-from tricue.data.recordings.images import is_depth
+from tricue.data.recordings.images import holds_floats, is_depth
 from tricue.data.recordings.messages import ImageMessage
 
 CHANNELS = ("color", "depth", "right")
@@ -41,8 +41,7 @@ def guess_topics(first: Mapping[str, ImageMessage]) -> dict[str, str]:
 
 def is_depth_topic(name: str, image: ImageMessage) -> bool:
     """Whether it is depth, not the 16 bits of an infrared camera."""
-    floats = image.encoding.startswith(("32F", "64F"))
-    return is_depth(image) and (floats or not re.search(_INFRARED, name, re.IGNORECASE))
+    return is_depth(image) and (holds_floats(image) or not re.search(_INFRARED, name, re.IGNORECASE))
 
 
 def stem(name: str) -> str:
