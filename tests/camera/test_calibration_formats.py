@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+import pickle
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,31 @@ KITTI = (
 )
 RAW = "calib_time: 09-Jan-2012 13:57:47\nS_rect_02: 1.242e+03 3.75e+02\n"
 RAW += "P_rect_02: 700 0 600 45 0 700 170 0 0 0 1 0\n"
+
+# As camera_calibration and camera_info_manager write them.
+CAMERA_INFO = """\
+image_width: 640
+image_height: 480
+camera_name: narrow_stereo/left
+camera_matrix:
+  rows: 3
+  cols: 3
+  data: [500.25,   0.  , 320.5 ,
+           0.  , 501.  , 240.  ,
+           0.  ,   0.  ,   1.  ]
+distortion_model: plumb_bob
+distortion_coefficients:
+  rows: 1
+  cols: 5
+  data: [-0.361976, 0.110510, 0.001014, -0.000505, 0.000000]
+rectification_matrix:
+  rows: 3
+  cols: 3
+  data: [1, 0, 0, 0, 1, 0, 0, 0, 1]
+projection_matrix: {rows: 3, cols: 4, data: [480, 0, 318.75, 0, 0, 481, 239, 0, 0, 0, 1, 0]}
+"""
+LENS = "-0.361976, 0.110510, 0.001014, -0.000505, 0.000000"
+STRAIGHT = CAMERA_INFO.replace(LENS, "0, 0., 0.0, 0, 0")
 
 
 def right(tx: float = -60.0, ty: float = 0.0, cx: float = 320.0) -> NDArray[np.float64]:
@@ -142,13 +168,37 @@ def text(content: str, read: Callable[..., Any], **options: Any) -> Callable[[Pa
         ),
         (
             text("This is no calibration.\n", Intrinsics.from_opencv),
-            "expected a file that cv2.FileStorage wrote",
+            "expected a file that cv2.FileStorage wrote, or ROS's camera_info",
         ),
         (
             text("%YAML:1.0\n---\nP1: [1, 2\n", Intrinsics.from_opencv),
             "expected a file that cv2.FileStorage wrote",
         ),
         (text("", Intrinsics.from_opencv), "expected a file that cv2.FileStorage wrote"),
+        (
+            text(STRAIGHT.replace("320.5 ,", ""), Intrinsics.from_opencv),
+            "camera_matrix: .* as many numbers as",
+        ),
+        (
+            text(STRAIGHT.replace("320.5", "wide"), Intrinsics.from_opencv),
+            "camera_matrix: .* as many numbers",
+        ),
+        (
+            text(STRAIGHT.replace("data: [500", "date: [500"), Intrinsics.from_opencv),
+            "camera_matrix: expected a",
+        ),
+        (
+            text(STRAIGHT.replace("rows: 3", "rows: -1", 1), Intrinsics.from_opencv),
+            "camera_matrix: expected a",
+        ),
+        (
+            text(STRAIGHT.replace("cols: 5", "cols: 6"), Intrinsics.from_opencv),
+            "distortion_coefficients: expe",
+        ),
+        (
+            text(STRAIGHT.replace("data: [0,", "data: [" + "0," * 65), Intrinsics.from_opencv),
+            "distortion_coefficients: expected",
+        ),
         (text(KITTI, Intrinsics.from_kitti), r"pass size=\(width, height\)"),
         (text(KITTI, Intrinsics.from_kitti, camera=1), "expected a line P1 or P_rect_01 with 12 numbers"),
         (text("P2: 1 2 3\n", Intrinsics.from_kitti), "expected a line P2 or P_rect_02 with 12 numbers"),
@@ -165,6 +215,132 @@ def test_bad_files_are_refused(tmp_path: Path, read: Callable[[Path], Any], mess
     """It proves that each kind of unusable file is a ValueError with the file's name and the reason."""
     with pytest.raises(ValueError, match=rf"c\.\w+: .*{message}"):
         read(tmp_path)
+
+
+SIZED = {
+    "yml": Intrinsics.from_opencv,
+    "txt": Intrinsics.from_kitti,
+    "toml": Intrinsics.from_toml,
+    "rig.yml": StereoRig.from_opencv,
+    "rig.txt": StereoRig.from_kitti,
+    "rig.toml": StereoRig.from_toml,
+}
+
+
+def sized_file(path: Path) -> Path:
+    """A camera, or a rig, for images of 640x480 in a file of each format, named by its suffix."""
+    if path.suffix == ".yml":
+        return opencv_file(path, image_width=640, image_height=480, P1=LEFT, P2=right())
+    if path.suffix == ".toml":
+        path.write_text("fx = 500\nfy = 500\ncx = 320\ncy = 240\nwidth = 640\nheight = 480\nbaseline = 0.1\n")
+    else:
+        path.write_text(KITTI + "S_rect_02: 6.4e+02 4.8e+02\n")
+    return path
+
+
+@pytest.mark.parametrize("suffix", SIZED)
+def test_a_size_other_than_the_files_is_refused(tmp_path: Path, suffix: str) -> None:
+    """It proves that no given size replaces the file's, whose focal length would be wrong for it; the file's
+    own may be given, as any sequence.
+    """
+    path, read = sized_file(tmp_path / f"c.{suffix}"), SIZED[suffix]
+    assert read(path) == read(path, size=SIZE) == read(path, size=list(SIZE))
+    with pytest.raises(
+        ValueError, match=rf"c\.{suffix}: .* images of 320x240 pixels, got one for 640x480"
+    ) as error:
+        read(path, size=(320, 240))
+    assert str(pickle.loads(pickle.dumps(error.value))) == str(error.value)
+
+
+def test_a_part_of_the_size_counts_too(tmp_path: Path) -> None:
+    """It proves that a TOML file with the width alone takes the height that is given, and no other width."""
+    path = tmp_path / "c.toml"
+    path.write_text("fx = 500\nfy = 500\ncx = 320\ncy = 240\nwidth = 640\n")
+    assert Intrinsics.from_toml(path, size=SIZE).height == 480
+    with pytest.raises(ValueError, match="images of 320x480 pixels, got one for 640x480"):
+        Intrinsics.from_toml(path, size=(320, 480))
+
+
+BENT = np.array([-0.3, 0.1, 0.0, 0.0, 0.0])
+
+
+@pytest.mark.parametrize(
+    ("values", "key"),
+    [
+        ({"camera_matrix": LEFT[:, :3], "distortion_coefficients": BENT}, None),
+        ({"cameraMatrix": LEFT[:, :3], "distCoeffs": BENT[:, None]}, None),
+        ({"K": LEFT[:, :3], "D": BENT}, None),
+        ({"M1": LEFT[:, :3], "D1": BENT, "D2": 0 * BENT}, None),
+        ({"M1": LEFT[:, :3], "D1": 0 * BENT, "M2": LEFT[:, :3], "D2": BENT}, "M2"),
+        ({"K1": LEFT[:, :3], "distCoeffs1": BENT}, None),
+    ],
+)
+def test_distortion_is_told(tmp_path: Path, values: dict[str, Any], key: str | None) -> None:
+    """It proves that a lens that bends is warned of, by the file's name, where the caller reads it."""
+    path = opencv_file(tmp_path / "c.yml", **values)
+    with pytest.warns(UserWarning, match=r"c\.yml: its lens' distortion isn't taken out") as told:
+        assert Intrinsics.from_opencv(path, key=key, size=SIZE).fx == 500
+    assert [each.filename for each in told] == [__file__]
+
+
+def test_a_list_of_coefficients_is_told(tmp_path: Path) -> None:
+    """It proves that coefficients that C++ wrote as a std::vector count as those in a matrix."""
+    path = tmp_path / "c.json"
+    matrix = (
+        '{"type_id": "opencv-matrix", "rows": 3, "cols": 3, "dt": "d", "data": [5, 0, 3, 0, 5, 2, 0, 0, 1]}'
+    )
+    path.write_text(f'{{"camera_matrix": {matrix}, "distCoeffs": [-0.3, 0.1, 0, 0]}}')
+    with pytest.warns(UserWarning, match=r"c\.json: its lens' distortion isn't taken out"):
+        Intrinsics.from_opencv(path, size=SIZE)
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"camera_matrix": LEFT[:, :3], "distortion_coefficients": 0 * BENT},
+        {"camera_matrix": LEFT[:, :3]},
+        {"P1": LEFT, "M1": 2 * LEFT[:, :3], "D1": BENT, "P2": right()},
+    ],
+)
+def test_where_no_lens_bends_nothing_is_told(tmp_path: Path, values: dict[str, Any]) -> None:
+    """It proves that zeros, no coefficients, and those of the raw cameras of a rectified pair don't warn."""
+    path = opencv_file(tmp_path / "c.yml", **values)
+    assert Intrinsics.from_opencv(path, size=SIZE).fx == 500
+    if "P2" in values:
+        assert StereoRig.from_opencv(path, size=SIZE).intrinsics.fx == 500
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda text: text,
+        lambda text: text.replace("narrow_stereo/left", "00b09d0100990bb2"),  # a FireWire camera's number
+        lambda text: text.replace("camera_name: narrow_stereo/left", "camera_name:"),
+        lambda text: f"# Saved by hand\n---\n{text}",
+        lambda text: f"\ufeff{text}",
+        lambda text: text.replace("\n", "\r\n"),
+        lambda text: f"%YAML:1.0\n---\n{text}",
+        lambda text: text.replace("cols: 5", "cols: 0").replace("0, 0., 0.0, 0, 0", ""),
+    ],
+)
+def test_ros_camera_info_is_read(tmp_path: Path, change: Callable[[str], str]) -> None:
+    """It proves that ROS's file gives its camera matrix and size, and by name the one of rectified images,
+    whatever the camera is called.
+    """
+    path = tmp_path / "c.yaml"
+    path.write_text(change(STRAIGHT), encoding="utf-8", newline="")
+    assert Intrinsics.from_opencv(path) == Intrinsics(500.25, 501, 320.5, 240, 640, 480)
+    rectified = Intrinsics.from_opencv(path, key="projection_matrix")
+    assert rectified == Intrinsics(480, 481, 318.75, 239, 640, 480)
+
+
+def test_ros_distortion_is_told(tmp_path: Path) -> None:
+    """It proves that the lens of a camera_info is warned of, but not for rectified images."""
+    path = tmp_path / "c.yaml"
+    path.write_text(CAMERA_INFO)
+    with pytest.warns(UserWarning, match=r"c\.yaml: its lens' distortion isn't taken out"):
+        assert Intrinsics.from_opencv(path).fx == 500.25
+    assert Intrinsics.from_opencv(path, key="projection_matrix").fx == 480
 
 
 @pytest.mark.parametrize("read", [Intrinsics.from_opencv, Intrinsics.from_kitti, Intrinsics.from_toml])

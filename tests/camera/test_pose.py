@@ -97,6 +97,20 @@ def test_a_matrix_that_is_no_pose_is_named():
         Pose.from_matrix(matrix)
     with pytest.raises(ValueError, match=r"pose: expected numbers of shape \(4, 4\)"):
         Intrinsics(**CAMERA, pose=np.eye(3))
+    assert Pose.from_matrix(POSE.matrix[:3]) == POSE
+
+
+@pytest.mark.parametrize("pose", [(TURN, PLACE), [TURN.tolist(), PLACE.tolist()], [[1, 2], [3]], "north", {}])
+def test_what_is_no_matrix_is_named(pose):
+    """Rotation and translation side by side, and rows of different lengths, are errors that name the pose."""
+    image = np.zeros((4, 4), np.uint8)
+    for make in (
+        Pose.from_matrix,
+        lambda pose: Intrinsics(**CAMERA, pose=pose),
+        lambda p: Frame(image, pose=p),
+    ):
+        with pytest.raises(TypeError, match=r"^pose: expected numbers of shape \(4, 4\), got "):
+            make(pose)
 
 
 def toml(*lines: str) -> str:

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 from tricue import Intrinsics
-from tricue.camera.read_calibration import read_intrinsics, read_registration
+from tricue.camera.read_calibration import read_intrinsics, read_registration, read_rig
 
 SIZE = (640, 480)
 CAMERA = Intrinsics(500.0, 510.0, 320.0, 240.0, *SIZE)
@@ -44,6 +44,29 @@ def test_every_format_is_known(tmp_path: Path) -> None:
     files.append(opencv(tmp_path / "d.yml").rename(tmp_path / "yaml.txt"))  # known by what is in it
     for path in files:
         assert read_intrinsics(path, SIZE, "depth") == CAMERA, path
+
+
+def test_ros_file_is_known(tmp_path: Path) -> None:
+    """It proves that a camera_info is read, with one warning of its lens, for images of its size alone."""
+    path, numbers = tmp_path / "c.yaml", ", ".join(map(str, CAMERA.matrix.ravel()))
+    path.write_text(
+        "image_width: 640\nimage_height: 480\ncamera_name: head\n"
+        f"camera_matrix:\n  rows: 3\n  cols: 3\n  data: [{numbers}]\n"
+        "distortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [0.1, 0, 0, 0, 0]\n"
+    )
+    with pytest.warns(UserWarning, match="its lens' distortion isn't taken out") as told:
+        assert read_intrinsics(path, SIZE, "color") == CAMERA
+    assert len(told) == 1
+    with pytest.raises(ValueError, match="the color images of 320x240 pixels, got one for 640x480"):
+        read_intrinsics(path, (320, 240), "color")
+
+
+def test_a_rig_of_another_size_is_refused(tmp_path: Path) -> None:
+    """It proves that the size in a rig's file, of any format, is checked against the images'."""
+    path = toml(tmp_path / "c.toml", "width = 640\nheight = 480\nbaseline = 0.1\n")
+    assert read_rig(path, SIZE).intrinsics == CAMERA
+    with pytest.raises(ValueError, match="the color images of 320x240 pixels, got one for 640x480"):
+        read_rig(path, (320, 240))
 
 
 def test_the_channel_chooses_the_table(tmp_path: Path) -> None:

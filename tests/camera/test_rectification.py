@@ -165,6 +165,20 @@ def test_the_conveyors_raw_cameras(data: Path) -> None:
     assert (made.rig.intrinsics.cx, made.rig.intrinsics.cy) == pytest.approx((640, 360), abs=20)
 
 
+def test_another_size_than_the_files_is_refused(tmp_path: Path) -> None:
+    """It proves that raw cameras aren't taken for images of another size: not for a given one, nor for that
+    of the other file.
+    """
+    path = stereo_file(tmp_path / "c.yml")
+    assert Rectification.from_opencv(path, size=SIZE).rig == Rectification.from_opencv(path).rig
+    message = r"c\.yml: expected a calibration for images of 160x120 pixels, got one for 640x480"
+    with pytest.raises(ValueError, match=message):
+        Rectification.from_opencv(path, size=(160, 120))
+    small = opencv_file(tmp_path / "small.yml", image_width=160, image_height=120)
+    with pytest.raises(ValueError, match=message):
+        Rectification.from_opencv(small, path)
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [

@@ -172,7 +172,7 @@ def test_a_recording_without_a_head_is_named(still, tmp_path, capsys):
     box = ["--box", ",".join(map(str, still.boxes[0]))]
     assert "pair: expected a box" in failing(["stereo-noise", str(folder), *calibrated, *ending], capsys)
     same = failing(["stereo-noise", str(folder), *calibrated, "--output", str(folder / "rig.toml")], capsys)
-    assert "rig.toml: expected another file than --calibration" in same
+    assert "rig.toml: expected a file to write to that isn't read" in same
     for path in sorted(folder.glob("*/*.png"))[::-1]:
         if int(path.stem) > 5:
             path.unlink()
@@ -183,6 +183,43 @@ def test_a_recording_without_a_head_is_named(still, tmp_path, capsys):
     line = failing(["stereo-noise", str(folder), *box, *calibrated, *ending], capsys)
     assert "pair: box: expected a head with a disparity" in line
     assert not out.exists()
+
+
+@pytest.mark.parametrize("what", ["skin-threshold", "head-colors"])
+@pytest.mark.parametrize("name", ["image/1.png", "mask/1.png"])
+def test_samples_are_never_overwritten(what, name, tmp_path, capsys):
+    """An output that is an image or a mask, also by another name, is refused, and the file stays as it is."""
+    skin, hair = write_masks(tmp_path / "skin", SKIN), write_masks(tmp_path / "hair", HAIR)
+    folder = skin if what == "skin-threshold" else hair
+    places = [str(skin)] if what == "skin-threshold" else ["--skin", str(skin), "--hair", str(hair)]
+    before = (folder / name).read_bytes()
+    link = tmp_path / "link.toml"
+    link.symlink_to(folder / name)
+    for output in (folder / name, link):
+        line = failing([what, *places, "--output", str(output)], capsys)
+        assert f"{output}: expected a file to write to that isn't read" in line
+    assert (folder / name).read_bytes() == before
+
+
+def test_boxes_of_samples_are_never_overwritten(tmp_path, capsys):
+    """The same for the images and boxes of a recording that samples are taken from."""
+    hair, folder = write_masks(tmp_path / "hair", HAIR), write_masks(tmp_path / "boxed", SKIN) / "image"
+    (folder / "boxes.csv").write_text("frame,x,y,width,height\n0,0,0,16,24\n")
+    for name in ("boxes.csv", "0.png"):
+        output = str(folder / name)
+        line = failing(["head-colors", f"--skin={folder}", f"--hair={hair}", "--output", output], capsys)
+        assert f"{name}: expected a file to write to that isn't read" in line
+
+
+def test_a_stereo_pair_is_never_overwritten(still, tmp_path, capsys):
+    """The left images, and those that --right names."""
+    folder = write_pair(still, tmp_path / "pair")
+    box = ",".join(map(str, still.boxes[0]))
+    places = [str(folder / "left"), "--right", str(folder / "right"), "--box", box]
+    for output in (folder / "left" / "0003.png", folder / "right" / "0003.png", folder / "right"):
+        line = failing(["stereo-noise", *places, "--output", str(output)], capsys)
+        assert f"{output}: expected a file to write to that isn't read" in line
+    assert cv2.imread(str(folder / "right" / "0003.png")) is not None
 
 
 def test_a_broken_parameter_file_is_named(tmp_path, capsys):

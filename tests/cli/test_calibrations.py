@@ -155,6 +155,76 @@ def test_color_alone_needs_no_camera(rgbd: Path, tracker: str, capsys: pytest.Ca
     assert "position" not in printed.out + printed.err
 
 
+def raw_cameras(path: Path, size: tuple[int, int] = (160, 120)) -> Path:
+    """Raw cameras of a stereo pair, whose lenses bend, as cv2.stereoCalibrate gives them."""
+    camera = Intrinsics.from_fov(*size, 60.0).matrix
+    bent = np.array([-0.1, 0.02, 0.0, 0.0, 0.0])
+    values = {
+        "M1": camera,
+        "D1": bent,
+        "M2": camera,
+        "D2": bent,
+        "R": np.eye(3),
+        "T": np.array([-0.12, 0, 0]),
+    }
+    storage = cv2.FileStorage(str(path), cv2.FILE_STORAGE_WRITE)
+    for name, value in {"image_width": size[0], "image_height": size[1], **values}.items():
+        storage.write(name, value)
+    storage.release()
+    return path
+
+
+@pytest.mark.filterwarnings("default")  # they are to be printed
+def test_raw_cameras_of_another_size_do_not_rectify(
+    pair: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that --rectify refuses a calibration for larger images in one line, and doesn't warn of
+    distortion, which it takes out.
+    """
+    words = ["track", str(pair), "--tracker", "stereo-head", "--rectify", "--calibration"]
+    assert main([*words, str(raw_cameras(tmp_path / "c.yml"))]) == 0
+    assert "distortion" not in capsys.readouterr().err
+    assert main([*words, str(raw_cameras(tmp_path / "raw640.yml", (640, 480)))]) == 2
+    error = capsys.readouterr().err
+    assert "raw640.yml: expected a calibration for images of 160x120 pixels, got one for 640x480" in error
+    assert error.count("\n") == 1
+
+
+CAMERA_INFO = """\
+image_width: 160
+image_height: 120
+camera_name: 00b09d0100990bb2
+camera_matrix:
+  rows: 3
+  cols: 3
+  data: [140, 0, 79.5, 0, 140, 59.5, 0, 0, 1]
+distortion_model: plumb_bob
+distortion_coefficients: {rows: 1, cols: 5, data: [-0.1, 0.02, 0, 0, 0]}
+"""
+
+
+@pytest.mark.filterwarnings("default")  # they are to be printed
+def test_distortion_is_told_once(rgbd: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that ROS's camera_info is a calibration, and its lens' distortion is told in one line."""
+    path = tmp_path / "c.yaml"
+    path.write_text(CAMERA_INFO)
+    content = tracked(rgbd, *MM, "--calibration", str(path))
+    assert (content["intrinsics"]["fx"], content["intrinsics"]["cx"]) == (140, 79.5)
+    assert has_positions(content)
+    error = capsys.readouterr().err
+    assert error == f"tricue track: warning: {path}: its lens' distortion isn't taken out\n"
+    path.write_text(CAMERA_INFO.replace("-0.1, 0.02", "0, 0"))
+    assert tracked(rgbd, *MM, "--calibration", str(path))["tracks"] == content["tracks"]
+    assert not capsys.readouterr().err
+    path.write_text(CAMERA_INFO.replace("160", "320"))
+    assert main(["track", str(rgbd), *MM, "--calibration", str(path)]) == 2
+    error = capsys.readouterr().err
+    assert (
+        "c.yaml: expected a calibration for the depth images of 160x120 pixels, got one for 320x120" in error
+    )
+    assert error.count("\n") == 1
+
+
 DEPTH = Intrinsics(60.0, 60.0, 39.5, 29.5, 80, 60)
 COLOR = Intrinsics(180.0, 180.0, 84.5, 54.5, 160, 120)  # of twice the pixels, longer, and off to the right
 NEAR, WALL = 2000, 4000  # millimeters

@@ -30,7 +30,7 @@ def test_mot(tmp_path: Path) -> None:
             output.write(step)
     assert (tmp_path / "new" / "mot.txt").read_text().splitlines() == [
         "1,1,2,3,30,40.5,0.5,-1,-1,-1",
-        "1,3,1.33333,-1,3,4,0.25,0.1,0.2,3",
+        "1,3,1.333333,-1,3,4,0.25,0.1,0.2,3",
         "2,3,1,1,3,4,1,1.1,2.2,3.5",
     ]
 

@@ -88,6 +88,25 @@ def moving(head: PanTilt) -> float:
     return 0.2
 
 
+@pytest.mark.parametrize("timestamp", [59 * STEP, 58 * STEP, 0.0])
+def test_times_that_do_not_increase_count_as_a_frame(timestamp):
+    """A target that moves on as before is as fast as before, also in a frame of the same time or before."""
+    head = PanTilt(CAMERA, velocity_time=0.0)
+    speed = moving(head)
+    head.command(track_of(np.array([0.2 * 60 * STEP, 0.0]), np.zeros(2)), 0.0, 0.0, timestamp=timestamp)
+    hidden = head.command(track_at(0.0, 0.0, OCCLUDED), 0.0, 0.0)
+    assert hidden.pan_speed == pytest.approx(speed, rel=0.02)
+
+
+def test_a_target_that_was_hidden_for_long_has_its_mean_velocity():
+    """The time since it was last seen counts, however long, not that since the frame before."""
+    head = PanTilt(CAMERA, velocity_time=0.0, max_acceleration=100)
+    head.command(track_at(0.0, 0.0), 0.0, 0.0, timestamp=0.0)
+    head.command(track_at(0.0, 0.0, OCCLUDED), 0.0, 0.0, timestamp=3.9)
+    head.command(track_of(np.array([0.4, 0.0]), np.zeros(2)), 0.0, 0.0, timestamp=4.0)
+    assert head.command(track_at(0.0, 0.0, OCCLUDED), 0.0, 0.0).pan_speed == pytest.approx(0.1)
+
+
 @pytest.mark.parametrize("track", [track_at(0.2, 0.1, OCCLUDED), track_at(0.2, 0.1, score=0.0)])
 def test_it_moves_on_while_the_target_is_hidden(track):
     """A predicted box isn't turned to; the head goes on as the target last did."""
@@ -155,6 +174,13 @@ def test_a_position_does_without_intrinsics():
         ({"max_speed": math.inf}, ValueError),
         ({"dead_band": "small"}, TypeError),
         ({"tilt_limits": (1, -1)}, ValueError),
+        ({"pan_limits": 3}, TypeError),
+        ({"pan_limits": None}, TypeError),
+        ({"pan_limits": (1,)}, ValueError),
+        ({"tilt_limits": (-1, 0, 1)}, ValueError),
+        ({"tilt_limits": ("low", "high")}, TypeError),
+        ({"velocity_gain": 2}, ValueError),
+        ({"velocity_gain": -0.1}, ValueError),
         ({"intrinsics": 5}, TypeError),
     ],
 )

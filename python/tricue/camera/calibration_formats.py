@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""One reader for each calibration format: OpenCV's, KITTI's, the Princeton Tracking Benchmark's, TOML.
+"""One reader for each calibration format: OpenCV's (and ROS's), KITTI's, the Princeton Benchmark's, TOML.
 
 The readers return checked numbers; :class:`tricue.Intrinsics` and :class:`tricue.StereoRig` are made of them.
-Many files don't hold the image's size: then ``size=(width, height)`` gives it. Errors name the file and the
-key: ValueError, or OSError for a file that isn't there.
+Many files don't hold the image's size: then ``size=(width, height)`` gives it. It is an error where the file
+holds another size, ImageSizeError. Errors name the file and the key: ValueError, or OSError for a file that
+isn't there.
 """
 
 import pathlib
+import warnings
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple, TypeVar
 
@@ -21,6 +23,17 @@ from tricue.camera.types import Matrix, PathLike, Size
 T = TypeVar("T")
 # Names that OpenCV's samples and tutorials write. In the file of a rectified stereo pair P1 is the camera's.
 _OPENCV_KEYS = ("camera_matrix", "cameraMatrix", "K", "P1", "M1", "K1")
+NUMBERED_DISTORTION_KEYS = ("D{}", "distCoeffs{}", "dist_coeffs_{}", "distortion_{}")
+"""Of the left camera (1) and of the right one (2): first that of OpenCV's sample stereo_calib."""
+_DISTORTION_KEYS = ("distortion_coefficients", "distCoeffs", "dist_coeffs", "dist_coeff", "distortion", "D")
+
+
+class ImageSizeError(ValueError):
+    """A calibration is for images of another size than those that it is read for. own: the file's size."""
+
+    def __init__(self, message: str, own: Size = (0, 0)) -> None:
+        super().__init__(message)
+        self.own = own
 
 
 class PinholeParameters(NamedTuple):
@@ -45,16 +58,22 @@ class RigParameters(NamedTuple):
 def read_opencv_camera(
     path: PathLike, *, key: str | None = None, size: Size | None = None
 ) -> PinholeParameters:
-    """The camera matrix in a file of ``cv2.FileStorage``: YAML, XML or JSON.
+    """The camera matrix in a file of ``cv2.FileStorage``, YAML, XML or JSON, or in ROS's camera_info, YAML.
 
-    key: its name in the file; by default the first of camera_matrix, cameraMatrix, K, P1, M1, K1.
+    key: its name in the file; by default the first of camera_matrix, cameraMatrix, K, P1, M1, K1. Rectified
+        images have a projection matrix (3, 4): P1 or, in a camera_info, projection_matrix.
+    Warns (UserWarning) where the file tells of distortion, unless the matrix is a projection matrix.
     """
     with OpenCVFile(path) as file:
         keys = (key,) if key else _OPENCV_KEYS
-        matrix = next((m for m in map(file.matrix, keys) if m is not None), None)
+        matrices = ((name, file.matrix(name)) for name in keys)
+        name, matrix = next(((name, found) for name, found in matrices if found is not None), ("", None))
         if matrix is None:
             raise ValueError(f"{path}: expected a camera matrix named {' or '.join(keys)}, found none")
-        return _camera_of_matrix(matrix, size or file.size(), path)
+        camera = _camera_of_matrix(matrix, image_size(file.size(), size, path), path)
+        if matrix.shape == (3, 3) and _is_distorted(file, name):
+            warnings.warn(f"{path}: its lens' distortion isn't taken out", stacklevel=3)
+        return camera
 
 
 def read_opencv_rig(path: PathLike, *, unit: float = 1.0, size: Size | None = None) -> RigParameters:
@@ -68,7 +87,8 @@ def read_opencv_rig(path: PathLike, *, unit: float = 1.0, size: Size | None = No
             raise ValueError(
                 f"{path}: expected P1 and P2 of a rectified rig, as cv2.stereoRectify gives them"
             )
-        return rig_of_projections(left, right, positive(unit, "unit", "meters"), size or file.size(), path)
+        own = image_size(file.size(), size, path)
+        return rig_of_projections(left, right, positive(unit, "unit", "meters"), own, path)
 
 
 def read_kitti_camera(path: PathLike, *, camera: int = 2, size: Size | None = None) -> PinholeParameters:
@@ -78,7 +98,7 @@ def read_kitti_camera(path: PathLike, *, camera: int = 2, size: Size | None = No
     """
     values = _kitti_values(path)
     projection = _kitti_projection(values, camera, path)
-    return _camera_of_matrix(projection, size or _kitti_size(values, camera), path)
+    return _camera_of_matrix(projection, image_size(_kitti_size(values, camera), size, path), path)
 
 
 def read_kitti_rig(
@@ -87,7 +107,7 @@ def read_kitti_rig(
     """Two rectified cameras in a KITTI calibration, left first: (2, 3) are color, (0, 1) gray."""
     values = _kitti_values(path)
     left, right = (_kitti_projection(values, camera, path) for camera in cameras)
-    return rig_of_projections(left, right, 1.0, size or _kitti_size(values, cameras[0]), path)
+    return rig_of_projections(left, right, 1.0, image_size(_kitti_size(values, cameras[0]), size, path), path)
 
 
 def read_kitti_offset(path: PathLike, *, camera: int = 2) -> Matrix:
@@ -123,7 +143,7 @@ def read_princeton_camera(path: PathLike, *, size: Size | None = None) -> Pinhol
 def read_toml_camera(
     path: PathLike, *, table: str | None = None, size: Size | None = None
 ) -> PinholeParameters:
-    """The keys fx, fy, cx, cy, and width, height unless ``size`` is given; and, where there is one, the pose.
+    """The keys fx, fy, cx, cy, and width, height or else ``size``; and, where there is one, the pose.
 
     The pose is the key ``pose``, (4, 4), or ``rotation``, (3, 3), and ``translation``, (3,), one of them or
     both.
@@ -138,6 +158,22 @@ def read_toml_rig(path: PathLike, *, table: str | None = None, size: Size | None
     camera = _toml_camera(values, size, path)
     baseline = _required(values, "baseline", path)
     return RigParameters(camera, _name_file(path, lambda: positive(baseline, "baseline", "meters")))
+
+
+def image_size(own: Size | None, given: Size | None, path: PathLike) -> Size | None:
+    """The size that the file holds, else the given one; ImageSizeError where they differ."""
+    if own is not None and given is not None and tuple(given) != own:
+        raise other_size(own, given, path)
+    return given if own is None else own
+
+
+def other_size(own: Size, given: Size, path: PathLike, images: str = "images") -> ImageSizeError:
+    """The error of a file for images of its own size, where those of another size are given."""
+    return ImageSizeError(
+        f"{path}: expected a calibration for {images} of {given[0]}x{given[1]} pixels, "
+        f"got one for {own[0]}x{own[1]}",
+        own,
+    )
 
 
 def rig_of_projections(
@@ -172,6 +208,14 @@ def _camera_of_matrix(matrix: Matrix, size: Size | None, path: PathLike) -> Pinh
         raise ValueError(f"{path}: the file doesn't hold the image's size; pass size=(width, height)")
     fx, fy, cx, cy = map(float, (matrix[0, 0], matrix[1, 1], matrix[0, 2], matrix[1, 2]))
     return _name_file(path, lambda: PinholeParameters(*pinhole(fx, fy, cx, cy, *size)))
+
+
+def _is_distorted(file: OpenCVFile, key: str) -> bool:
+    """Whether the file has distortion, other than 0, of the camera whose matrix has this name."""
+    number = key[-1] if key[-1].isdigit() else ""
+    names = [each.format(number) for each in NUMBERED_DISTORTION_KEYS] if number else _DISTORTION_KEYS
+    found = next((numbers for numbers in map(file.numbers, names) if numbers is not None), None)
+    return found is not None and bool(np.any(found != 0))
 
 
 def _name_file(path: PathLike, check: Callable[[], T]) -> T:
@@ -226,10 +270,13 @@ def _toml_camera(values: Mapping[str, Any], size: Size | None, path: PathLike) -
     if size is None and not ("width" in values and "height" in values):
         raise ValueError(f"{path}: the file doesn't hold the image's size; pass size=(width, height)")
     fx, fy, cx, cy = (_required(values, key, path) for key in ("fx", "fy", "cx", "cy"))
-    width, height = size or (values["width"], values["height"])
-    return _name_file(
+    width, height = size or (0, 0)
+    width, height = values.get("width", width), values.get("height", height)
+    camera = _name_file(
         path, lambda: PinholeParameters(*pinhole(fx, fy, cx, cy, width, height), _toml_pose(values))
     )
+    image_size((camera.width, camera.height), size, path)
+    return camera
 
 
 def _toml_pose(values: Mapping[str, Any]) -> Pose | None:

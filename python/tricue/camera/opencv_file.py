@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: MIT
 """Files of ``cv2.FileStorage`` (YAML, XML, JSON), whose failures are exceptions that name the file.
 
+ROS's camera_info in YAML, as camera_calibration writes it, is read too: it has no header, and its matrices
+don't tell the type of their numbers.
+
 cv2 gets the text, not the path, as it can't open every path, and only text that is nested no deeper than a
 calibration, as its parser crashes on some thousand levels.
 """
 
 import pathlib
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import cv2
 import numpy as np
@@ -19,6 +22,10 @@ if TYPE_CHECKING:
 
 MAX_BYTES = 1 << 20
 MAX_LEVELS = 64
+MAX_NUMBERS = 64  # of a list; a calibration's have 16 at most, and cv2 counts to each from the start
+_HEADS = ("%", "<", "{")  # of YAML, XML and JSON as cv2 writes them
+_NAME = re.compile(r"^camera_name:.*$", re.MULTILINE)
+"""Free text in a camera_info, at which cv2's parser may fail: 00b09d0100990bb2 begins like a number."""
 _BRACKETS = re.compile(r"(?P<opening>[\[{]|<[^/?!])|[\]}]|</")
 _DASHES = re.compile(rf"(?:[-?]\s+){{{MAX_LEVELS}}}")
 """Lists of lists on one line of YAML; on more lines they need more indentation than MAX_BYTES holds."""
@@ -27,7 +34,7 @@ _DASHES = re.compile(rf"(?:[-?]\s+){{{MAX_LEVELS}}}")
 class OpenCVFile:
     """A ``cv2.FileStorage`` opened for reading, used in ``with``.
 
-    OSError for a file that isn't there, ValueError for one that FileStorage didn't write.
+    OSError for a file that isn't there, ValueError for one that FileStorage can't read.
     """
 
     def __init__(self, path: PathLike) -> None:
@@ -35,7 +42,7 @@ class OpenCVFile:
         content = pathlib.Path(path).read_bytes()
         if len(content) > MAX_BYTES:
             raise ValueError(f"{path}: expected a calibration of at most 1 MB, got {len(content):,} bytes")
-        self._text = content.decode("utf-8", "replace").replace("\0", " ")
+        self._text = _with_head(content.decode("utf-8-sig", "replace").replace("\0", " "))
         if _levels(self._text) > MAX_LEVELS or _DASHES.search(self._text):
             raise ValueError(f"{path}: expected a calibration, its values are nested too deeply")
 
@@ -57,12 +64,23 @@ class OpenCVFile:
         """The matrix of that name, None where there is none; ValueError for a wrong count of numbers."""
         node = self.storage.getNode(key)
         try:
-            matrix = None if node.empty() or not node.isMap() else node.mat()
-        except cv2.error:
+            matrix = _matrix(node) if node.isMap() else None
+        except (cv2.error, ValueError):
             raise ValueError(
                 f"{self.path}: {key}: expected a matrix with as many numbers as rows and cols say"
             ) from None
         return None if matrix is None else np.asarray(matrix, np.float64)
+
+    def numbers(self, key: str) -> Matrix | None:
+        """The numbers (n,) of a list or a matrix, None where there is neither; ValueError as ``matrix``."""
+        node = self.storage.getNode(key)
+        if not node.isSeq():
+            matrix = self.matrix(key)
+            return None if matrix is None else matrix.ravel()
+        try:
+            return np.array(_listed(node), np.float64)
+        except ValueError:
+            raise ValueError(f"{self.path}: {key}: expected at most {MAX_NUMBERS} numbers") from None
 
     def size(self) -> Size | None:
         """Width and height of the images, None where the file doesn't hold them."""
@@ -73,7 +91,34 @@ class OpenCVFile:
         return None
 
     def _foreign(self) -> ValueError:
-        return ValueError(f"{self.path}: expected a file that cv2.FileStorage wrote")
+        return ValueError(f"{self.path}: expected a file that cv2.FileStorage wrote, or ROS's camera_info")
+
+
+def _with_head(text: str) -> str:
+    """The text as cv2 can read it: YAML gets the first line that cv2 knows it by."""
+    if not text.strip() or text.lstrip().startswith(_HEADS):
+        return text
+    return "%YAML:1.0\n" + _NAME.sub("", text)
+
+
+def _matrix(node: cv2.FileNode) -> Any:
+    """A map as a matrix; ValueError or cv2.error where it isn't a whole one."""
+    if not node.getNode("dt").empty():
+        return node.mat()
+    rows, cols, data = (node.getNode(name) for name in ("rows", "cols", "data"))
+    if not (rows.isInt() and cols.isInt() and rows.real() >= 0 and cols.real() >= 0):
+        raise ValueError
+    return np.reshape(np.array(_listed(data), np.float64), (int(rows.real()), int(cols.real())))
+
+
+def _listed(node: cv2.FileNode) -> list[float]:
+    """The numbers of a list; ValueError or cv2.error for anything else."""
+    if node.size() > MAX_NUMBERS:
+        raise ValueError
+    items = [node.at(index) for index in range(node.size())]
+    if not all(item.isInt() or item.isReal() for item in items):
+        raise ValueError
+    return [item.real() for item in items]
 
 
 def _levels(text: str) -> int:

@@ -34,8 +34,7 @@ class Pose:
     @classmethod
     def from_matrix(cls, matrix: ArrayLike) -> "Pose":
         """From a (4, 4) matrix [R t; 0 0 0 1], or its first three rows."""
-        shape = (3, 4) if np.shape(matrix) == (3, 4) else (4, 4)
-        rows = _numbers(matrix, "pose", shape)
+        rows = _numbers(matrix, "pose", (4, 4), (3, 4))
         if len(rows) == 4 and not np.allclose(rows[3], [0, 0, 0, 1]):
             raise ValueError(f"pose: expected the last row 0, 0, 0, 1, got {rows[3].tolist()}")
         return cls(rows[:3, :3], rows[:3, 3])
@@ -68,12 +67,13 @@ def as_pose(value: Any) -> Pose | None:
     return value if value is None or isinstance(value, Pose) else Pose.from_matrix(value)
 
 
-def _numbers(value: ArrayLike, name: str, shape: tuple[int, ...]) -> Floats:
+def _numbers(value: ArrayLike, name: str, shape: tuple[int, ...], *others: tuple[int, ...]) -> Floats:
+    """Finite numbers of the shape, or of one of the others."""
     try:
         array = np.asarray(value, np.float64)
     except (TypeError, ValueError, OverflowError):
         raise TypeError(f"{name}: expected numbers of shape {shape}, got {value!r:.80}") from None
-    if array.shape != shape:
+    if array.shape not in (shape, *others):
         raise ValueError(f"{name}: expected numbers of shape {shape}, got shape {array.shape}")
     if not np.isfinite(array).all():
         raise ValueError(f"{name}: expected finite numbers, got {array.tolist()}")

@@ -5,35 +5,27 @@ import re
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
 from tricue.camera import toml
-from tricue.camera.calibration_formats import read_princeton_camera
+from tricue.camera.calibration_formats import ImageSizeError, other_size, read_princeton_camera
 from tricue.camera.registration import Registration
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.camera.types import Size
 
 TOML, PRINCETON, OPENCV, KITTI = "toml", "princeton", "opencv", "kitti"
+T = TypeVar("T", Intrinsics, StereoRig)
 
 
 def read_intrinsics(path: Path, size: Size, channel: str) -> Intrinsics:
-    """The intrinsics in a file by OpenCV (YAML, XML, JSON), by KITTI (.txt), in TOML, or in Princeton's .mat.
+    """The intrinsics in a file by OpenCV (YAML, XML, JSON), ROS (YAML) or KITTI (.txt), in TOML, or in
+    Princeton's .mat.
 
     size: width and height of the images, pixels. channel: "depth" or "color", which table to take of a TOML
     file with several. ValueError or OSError names the file, also where it holds another image size: then
-    every position would be wrong.
+    every position would be wrong. Warns (UserWarning) of distortion, which isn't taken out.
     """
-    read = _reader(path, channel)
-    found = read(size=size)  # many files don't hold the size
-    try:
-        own = read()
-    except ValueError:
-        return found
-    if (own.width, own.height) != size:
-        raise ValueError(
-            f"{path}: expected a calibration for the {channel} images of {size[0]}x{size[1]} pixels, "
-            f"got one for {own.width}x{own.height}"
-        )
-    return own
+    return _read_for(channel, path, size, _reader(path, channel))
 
 
 def read_registration(path: Path, depth: Size, color: Size) -> Registration | None:
@@ -61,12 +53,23 @@ def read_rig(path: Path, size: Size, unit: float | None = None) -> StereoRig:
         raise ValueError(f"--unit: expected with a calibration by OpenCV, got {path}, which is in meters")
     if kind == PRINCETON:
         raise ValueError(f"{path}: expected the calibration of a stereo pair, got one camera's")
-    read_intrinsics(path, size, "color")  # refuses a calibration for images of another size
+    return _read_for("color", path, size, _rig_reader(path, kind, unit))
+
+
+def _read_for(channel: str, path: Path, size: Size, read: Callable[..., T]) -> T:
+    """What ``read`` finds; the error about another size says whose images these are."""
+    try:
+        return read(size=size)
+    except ImageSizeError as error:
+        raise other_size(error.own, size, path, f"the {channel} images") from None
+
+
+def _rig_reader(path: Path, kind: str, unit: float | None) -> Callable[..., StereoRig]:
     if kind == OPENCV:
-        return StereoRig.from_opencv(path, unit=1.0 if unit is None else unit, size=size)
+        return partial(StereoRig.from_opencv, path, unit=1.0 if unit is None else unit)
     if kind == KITTI:
-        return StereoRig.from_kitti(path, size=size)
-    return StereoRig.from_toml(path, table=_table(path, "color"), size=size)
+        return partial(StereoRig.from_kitti, path)
+    return partial(StereoRig.from_toml, path, table=_table(path, "color"))
 
 
 def _reader(path: Path, channel: str) -> Callable[..., Intrinsics]:
@@ -92,8 +95,8 @@ def _format(path: Path) -> str:
     if re.search(r"^P(_rect_)?\d+:? ", text, re.MULTILINE):
         return KITTI
     raise ValueError(
-        f"{path}: expected a calibration by OpenCV (.yml, .xml, .json), KITTI (.txt), Princeton (.mat) "
-        "or in .toml"
+        f"{path}: expected a calibration by OpenCV or ROS (.yml, .xml, .json), KITTI (.txt), "
+        "Princeton (.mat) or in .toml"
     )
 
 

@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.camera.calibration_formats import rig_of_projections
+from tricue.camera.calibration_formats import NUMBERED_DISTORTION_KEYS, image_size, rig_of_projections
 from tricue.camera.frame import Frame
 from tricue.camera.numbers import positive
 from tricue.camera.opencv_file import OpenCVFile
@@ -22,7 +22,6 @@ from tricue.camera.types import Matrix, PathLike, Size
 
 # Keys of the left camera (1) and the right one (2): first those of OpenCV's sample stereo_calib.
 _CAMERA_KEYS = ("M{}", "K{}", "cameraMatrix{}", "camera_matrix_{}", "CM{}")
-_DISTORTION_KEYS = ("D{}", "distCoeffs{}", "dist_coeffs_{}", "distortion_{}")
 _ZERO_DISPARITY = 0x400  # cv2.CALIB_ZERO_DISPARITY, which has another name in cv2 5
 
 
@@ -70,7 +69,7 @@ class Rectification:
         paths: one file, or several that together hold all, as intrinsics.yml and extrinsics.yml of OpenCV's
             sample. unit: meters per unit of the board, 0.001 for millimeters. size: of the raw images, needed
             where the files don't hold it.
-        ValueError or OSError names the file and what it lacks.
+        ValueError or OSError names the file and what it lacks, or that it is for images of another size.
         """
         if not paths:
             raise ValueError("paths: expected a calibration file, got none")
@@ -80,9 +79,7 @@ class Rectification:
                 [stack.enter_context(OpenCVFile(path)) for path in paths], " and ".join(map(str, paths))
             )
             rectified = files.rectified()
-            made._prepare(
-                files.raw(posed=rectified is None), size or files.size(), unit, rectified, files.names
-            )
+            made._prepare(files.raw(posed=rectified is None), files.size(size), unit, rectified, files.names)
         return made
 
     def __call__(self, left: NDArray[Any], right: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
@@ -160,7 +157,7 @@ class _CalibrationFiles(NamedTuple):
 
     def raw(self, posed: bool) -> StereoCalibration:
         """The raw cameras. posed: whether R and T are required; else they may be missing."""
-        cameras, distortions = self.pair(_CAMERA_KEYS), self.pair(_DISTORTION_KEYS)
+        cameras, distortions = self.pair(_CAMERA_KEYS), self.pair(NUMBERED_DISTORTION_KEYS)
         rotation, translation = self._first(("R", "rotation")), self._first(("T", "translation"))
         there = {"M1 and M2": cameras is not None, "D1 and D2": distortions is not None}
         if posed:
@@ -202,8 +199,10 @@ class _CalibrationFiles(NamedTuple):
                 return left, right
         return None
 
-    def size(self) -> Size:
-        size = next((size for file in self.files if (size := file.size())), None)
+    def size(self, size: Size | None) -> Size:
+        """The raw images' size, in the files or given; ValueError where there is none, or more than one."""
+        for file in self.files:
+            size = image_size(file.size(), size, file.path)
         if size is None:
             raise ValueError(
                 f"{self.names}: the file doesn't hold the image's size; pass size=(width, height)"

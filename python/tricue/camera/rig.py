@@ -60,7 +60,13 @@ class Intrinsics:
 
     @classmethod
     def from_opencv(cls, path: PathLike, *, key: str | None = None, size: Size | None = None) -> "Intrinsics":
-        """From a file of ``cv2.FileStorage``: the camera matrix named ``key``, or the first known name."""
+        """From a file of ``cv2.FileStorage`` or ROS's camera_info: the camera matrix named ``key``, or the
+        first known name.
+
+        Warns (UserWarning) of distortion in the file, for it isn't taken out. Rectified images have none;
+        their matrix is the projection matrix, ``key="P1"`` or, in a camera_info, ``key="projection_matrix"``.
+        ValueError for a ``size`` other than the file's.
+        """
         from tricue.camera.calibration_formats import read_opencv_camera
 
         return cls(*read_opencv_camera(path, key=key, size=size))

@@ -2,17 +2,19 @@
 """``tricue calibrate WHAT``: parameters of the trackers, measured on the user's own images."""
 
 import argparse
-from collections.abc import Mapping
-from itertools import tee
+from collections.abc import Iterator, Mapping
+from itertools import chain, tee
 from pathlib import Path
 from typing import Any
 
 from tricue.camera import toml
 from tricue.cli.arguments import box
 from tricue.cli.calibrations import find_calibration
+from tricue.cli.track_preparation import _check_not_read
 from tricue.data.color_samples import read_color_samples
+from tricue.data.input_files import input_files
 from tricue.data.open_source import open_source
-from tricue.data.skin_masks import find_masked_images
+from tricue.data.skin_masks import find_masked_images, is_mask_folder
 from tricue.track.base.params import Params
 from tricue.track.base.registry import tracker_class
 
@@ -85,6 +87,7 @@ def _skin_threshold(options: argparse.Namespace, _params: Any) -> dict[str, Any]
     from tricue.papers.roc import skin_roc
 
     pairs = find_masked_images(options.place)
+    _check_not_read([options.output], chain.from_iterable(pairs))
     images, masks = tee(pair.read() for pair in pairs)
     try:
         curve = skin_roc((image for image, _ in images), (mask for _, mask in masks))
@@ -103,6 +106,7 @@ def _skin_threshold(options: argparse.Namespace, _params: Any) -> dict[str, Any]
 def _head_colors(options: argparse.Namespace, params: Any) -> dict[str, Any]:
     from tricue.track.stereo_head.color_samples import head_colors
 
+    _check_not_read([options.output], chain(_sample_files(options.skin), _sample_files(options.hair)))
     weight = params.hair if options.hair_weight is None else options.hair_weight
     skin, hair = read_color_samples(options.skin), read_color_samples(options.hair)
     colors = head_colors(skin, hair, weight, params)
@@ -110,13 +114,19 @@ def _head_colors(options: argparse.Namespace, params: Any) -> dict[str, Any]:
     return {"bins": params.bins, "max_chroma": params.max_chroma, "head_colors": colors}
 
 
+def _sample_files(place: Path) -> Iterator[Path]:
+    """The files that the samples of a color are read from."""
+    if is_mask_folder(place):
+        return chain.from_iterable(find_masked_images(place))
+    return input_files(open_source(place), place)
+
+
 def _stereo_noise(options: argparse.Namespace, params: Any) -> dict[str, Any]:
     from tricue.track.stereo_head.static_head import measure_static_head
 
-    calibration, output = options.calibration, options.output
-    if calibration and output.exists() and calibration.exists() and output.samefile(calibration):
-        raise ValueError(f"{output}: expected another file than --calibration to write to")
     source = open_source(options.input, right=options.right)
+    given = [Path(place) for place in (options.input, options.right, options.calibration) if place]
+    _check_not_read([options.output], chain(given, input_files(source, given[0])))
     found = find_calibration(options, source)
     head = options.box or source.first_box
     if head is None:

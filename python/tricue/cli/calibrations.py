@@ -61,7 +61,8 @@ def find_calibration(options: Namespace, source: Source) -> Calibration:
     """The calibration of --calibration, --fov or --assume-fov; without them, of the file beside the sequence.
 
     ValueError for an option that the tracker doesn't use, and for a file for another image size. A file
-    beside the sequence is left out then, with a note. Warns (UserWarning) if positions will be missing.
+    beside the sequence is left out then, with a note. Warns (UserWarning) if positions will be missing, and
+    of distortion that isn't taken out.
     """
     cameras = traits(options.tracker).camera
     if options.assume_fov:

@@ -40,7 +40,7 @@ def add_source_options(command: argparse.ArgumentParser) -> Any:
         "--calibration",
         type=Path,
         metavar="FILE",
-        help="of the camera or stereo pair, by OpenCV, KITTI, Princeton or in TOML",
+        help="of the camera or stereo pair, by OpenCV, ROS, KITTI, Princeton or in TOML",
     )
     camera.add_argument(
         "--fov", type=angles, metavar="H[,V]", help="the camera's angles of view instead, in degrees"

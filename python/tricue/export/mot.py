@@ -10,11 +10,19 @@ def mot_line(number: int, target: int, track: Track) -> str:
     """The line of a target in a frame, from 0; "" where it is LOST.
 
     Frames, ids and pixels count from 1. x, y, z are meters in the world, in the camera's frame where that has
-    no pose, and -1 where nothing was measured.
+    no pose, and -1 where nothing was measured. Numbers have at most six decimals, and no exponents.
     """
     if track.status is Status.LOST:
         return ""
     place = track.position if track.world_position is None else track.world_position
     x, y, width, height = track.box
     numbers = [x + 1, y + 1, width, height, track.score, *(NO_POSITION if place is None else place)]
-    return ",".join([str(number + 1), str(target), *(f"{value:.6g}" for value in numbers)]) + "\n"
+    return ",".join([str(number + 1), str(target), *map(_decimal, numbers)]) + "\n"
+
+
+def _decimal(value: float) -> str:
+    """Six decimals, as in a table, without zeros at the end; they aren't significant digits, so that those
+    of a world's coordinates, which may be millions of meters, stay.
+    """
+    rounded = round(float(value), 6) + 0.0  # no -0
+    return f"{rounded:.6f}".rstrip("0").rstrip(".")

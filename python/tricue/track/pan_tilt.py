@@ -69,7 +69,7 @@ class PanTilt:
     ) -> None:
         self.intrinsics = validation.intrinsics(intrinsics)
         self.gain = positive(gain, "gain", "1/s")
-        self.velocity_gain = _at_least_zero(velocity_gain, "velocity_gain", "a share")
+        self.velocity_gain = _share(velocity_gain, "velocity_gain")
         self.velocity_time = _at_least_zero(velocity_time, "velocity_time", "seconds")
         self.latency = _at_least_zero(latency, "latency", "seconds")
         self.dead_band = _at_least_zero(dead_band, "dead_band", "radians")
@@ -112,7 +112,7 @@ class PanTilt:
         elif track.status is Status.OCCLUDED or not track.score:
             speeds = self.velocity_gain * self._velocity
         else:
-            self._measure(self._direction(track, angles))
+            self._measure(self._direction(track, angles), interval)
             speeds = self._speeds(angles)
         return self._limited(speeds, angles, interval)
 
@@ -135,11 +135,17 @@ class PanTilt:
         x, y, z = track.position.tolist()
         return x, y, z
 
-    def _measure(self, direction: np.ndarray) -> None:
-        """Take the target's direction, and average its velocity over ``velocity_time``."""
+    def _measure(self, direction: np.ndarray, interval: float) -> None:
+        """Take the target's direction, and average its velocity over ``velocity_time``.
+
+        interval: seconds since the frame before. It counts where times don't increase since the target was
+        last seen.
+        """
         assert self._now is not None
         if self._target is not None and self._seen is not None:
-            seconds = max(self._now - self._seen, validation.MIN_FRAME_INTERVAL)
+            seconds = self._now - self._seen
+            if seconds < validation.MIN_FRAME_INTERVAL:
+                seconds = interval
             weight = 1 - math.exp(-seconds / self.velocity_time) if self.velocity_time else 1.0
             self._velocity += weight * (_wrapped(direction - self._target) / seconds - self._velocity)
         self._target, self._seen = direction, self._now
@@ -169,6 +175,12 @@ def _wrapped(angle: np.ndarray) -> np.ndarray:
     return np.asarray((angle + math.pi) % (2 * math.pi) - math.pi)
 
 
+def _share(value: float, name: str) -> float:
+    if not 0 <= finite(value, name, "a share") <= 1:
+        raise ValueError(f"{name}: expected a share, 0 to 1, got {value!r}")
+    return float(value)
+
+
 def _at_least_zero(value: float, name: str, unit: str) -> float:
     if finite(value, name, unit) < 0:
         raise ValueError(f"{name}: expected {unit}, 0 or more, got {value!r}")
@@ -176,7 +188,12 @@ def _at_least_zero(value: float, name: str, unit: str) -> float:
 
 
 def _limits(value: Angles, name: str) -> Angles:
-    low, high = (finite(each, name, "radians") for each in value)
+    message = f"{name}: expected a lower limit and a higher one, radians, got {value!r:.80}"
+    try:
+        first, second = value
+    except (TypeError, ValueError) as error:  # no sequence, or one of another length
+        raise type(error)(message) from None
+    low, high = finite(first, name, "radians"), finite(second, name, "radians")
     if not low < high:
-        raise ValueError(f"{name}: expected a lower limit and a higher one, radians, got {value!r}")
+        raise ValueError(message)
     return low, high
