@@ -281,3 +281,14 @@ def test_a_time_beyond_floats_is_refused() -> None:
     """It proves that a whole number that no float holds is refused by name."""
     with pytest.raises(ValueError, match="timestamp: expected a finite number, seconds, got 1000"):
         Frame(GRAY, timestamp=10**400)
+
+
+@pytest.mark.parametrize(
+    ("timestamp", "unit"),
+    [(1.7e12, "milliseconds; divide by 1000"), (1.7e15, "microseconds"), (1_700_000_000 * 10**9, "nano")],
+)
+def test_timestamps_in_another_unit_are_told(timestamp, unit):
+    """Of the clocks of 1970 on, in which drivers have them; they are kept, as any clock is right."""
+    with pytest.warns(UserWarning, match=f"timestamp: expected seconds, got .*, which look like {unit}"):
+        assert Frame(GRAY, timestamp=timestamp).timestamp == timestamp
+    assert Frame(GRAY, timestamp=1.7e9).timestamp == 1.7e9

@@ -15,6 +15,8 @@ from tricue.errors import MissingChannelError
 MAX_DEPTH = 1e6  # meters; some drivers write the largest number of their type where nothing was measured
 MAX_DEPTH_SCALE = 1e3  # meters per unit
 MIN_MEDIAN_DEPTH, MAX_MEDIAN_DEPTH = 0.05, 50.0  # meters; a median outside is most likely in another unit
+MAX_TIMESTAMP = 1e11  # seconds, 3,000 years
+SMALLER_UNITS = (("milliseconds", 1e3), ("microseconds", 1e6), ("nanoseconds", 1e9))
 _UINT8 = np.dtype(np.uint8)
 _CHANNELS = ("color", "depth", "right")
 
@@ -28,7 +30,7 @@ class Frame:
         ``depth_scale``. It is kept as float32, with NaN where the input is 0, negative, NaN, beyond
         a million meters or masked. Its size may differ from the color image's.
     right: the right image of a rectified stereo pair, of the same shape as ``color``.
-    timestamp: seconds.
+    timestamp: seconds of any clock. Trackers take more than a second between two frames for one.
     pose: where the camera stands in this frame, a :class:`tricue.Pose` or its (4, 4) matrix, of the camera in
         whose frame positions are: it counts before that of the tracker's camera. None for no other.
     depth_scale: meters per unit of ``depth``, 0.001 for millimeters.
@@ -36,7 +38,7 @@ class Frame:
     Color images are not copied where the pixels of a row are contiguous, as in whole arrays and crops. Any
     other layout (mirrored, channels reversed, Fortran order) is copied once. A TypeError or ValueError
     names the channel. Warns (UserWarning) where the median depth is above 50 m, which looks like millimeters,
-    or below 5 cm.
+    or below 5 cm, and where a timestamp is so late that it looks like milliseconds or less.
     """
 
     color: NDArray[np.uint8] | None
@@ -64,7 +66,7 @@ class Frame:
         assign(self, "color", None if color is None else _image(color, "color"))
         assign(self, "depth", None if depth is None else _depth(depth, depth_scale))
         assign(self, "right", None if right is None else _right(right, self.color))
-        assign(self, "timestamp", None if timestamp is None else finite(timestamp, "timestamp", "seconds"))
+        assign(self, "timestamp", None if timestamp is None else _seconds(timestamp))
         assign(self, "pose", as_pose(pose))
 
     @property
@@ -209,6 +211,19 @@ def _warn_of_unit(meters: NDArray[np.float32], scale: float | None) -> None:
         f"depth: its median is {median:.{4 if median > MAX_MEDIAN_DEPTH else 2}g} m, which looks like {why}"
     )
     warnings.warn(message, UserWarning, stacklevel=4)  # names the line that made the frame
+
+
+def _seconds(timestamp: Any) -> float:
+    seconds = finite(timestamp, "timestamp", "seconds")
+    if seconds > MAX_TIMESTAMP:
+        unit, scale = next(
+            (each for each in SMALLER_UNITS if seconds <= each[1] * MAX_TIMESTAMP), SMALLER_UNITS[-1]
+        )
+        message = (
+            f"timestamp: expected seconds, got {seconds:.4g}, which look like {unit}; divide by {scale:g}"
+        )
+        warnings.warn(message, UserWarning, stacklevel=3)  # names the line that made the frame
+    return seconds
 
 
 def _described(array: NDArray[Any]) -> str:
