@@ -87,11 +87,27 @@ def test_depths_beside_the_boxes(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
+    "files",
+    [{"absence.label": "0\n1\n0\n1\n"}, {"full_occlusion.txt": "0,1,0,0\n", "out_of_view.txt": "0,0,0,1\n"}],
+    ids=["GOT-10k", "LaSOT"],
+)
+def test_absent_targets_of_other_data_sets(tmp_path: Path, files: dict[str, str]) -> None:
+    """GOT-10k has a line for each frame, LaSOT two files of one line; boxes of such frames are left out."""
+    (tmp_path / "groundtruth.txt").write_text("1,2,3,4\n" * 4)
+    for name, text in files.items():
+        (tmp_path / name).write_text(text)
+    truth = find_truth(tmp_path)
+    assert truth is not None
+    assert truth.absent.tolist() == np.isnan(truth.boxes).all(axis=1).tolist() == [False, True, False, True]
+
+
+@pytest.mark.parametrize(
     ("name", "text", "message"),
     [
         (VOT_TRUTH, "1,2,3,4\n1,2,inf,4\n", "line 2: expected four numbers"),
         ("absent.tag", "0\n2\n", "line 2: expected 0, or 1 for an absent target, got '2'"),
         ("absent.tag", "0\n\n1\n", "line 2: expected 0, or 1"),
+        ("out_of_view.txt", "0,1,,0\n", "line 1: expected 0, or 1 for an absent target, got ''"),
         ("position_z_mm.txt", "1\n-5\n", "line 2: expected a depth in millimeters, 0 if unknown, got '-5'"),
         ("position_z_mm.txt", "1\ninf\n", "line 2: expected a depth"),
         ("position_z_mm.txt", "1\n\n5\n", "line 2: expected a depth"),

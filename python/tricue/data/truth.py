@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Files of true boxes: OTB's groundtruth_rect.txt counts pixels from 1, VOT's groundtruth.txt from 0.
+"""Files of true boxes: OTB's groundtruth_rect.txt counts pixels from 1, groundtruth.txt, VOT's, GOT-10k's and
+LaSOT's, is taken to count from 0.
 
 Princeton's are <sequence>.txt, which is public for few sequences, and init.txt, the first box alone. Folders
 without any of them may have a table, boxes.csv; see :mod:`tricue.data.box_table`.
@@ -14,7 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 OTB_TRUTH, VOT_TRUTH, PRINCETON_FIRST_BOX = "groundtruth_rect.txt", "groundtruth.txt", "init.txt"
-ABSENT_TAG = "absent.tag"  # VOT's: one line per frame, 1 where the target can't be seen
+ABSENT_TAGS = ("absent.tag", "absence.label", "full_occlusion.txt", "out_of_view.txt")
+"""Of VOT, GOT-10k and, the last two, LaSOT: a number per frame, 1 where the target can't be seen."""
 MAX_FRAME_NUMBER = 10_000_000  # a day at 100 frames per second; a larger number can't be a frame's
 DEPTHS_FILE = (
     "position_z_mm.txt"  # one line per frame: the target's median depth in millimeters, 0 or NaN if unknown
@@ -69,16 +71,17 @@ def otb_targets(folder: Path) -> tuple[str, ...]:
 
 def truth_files(folder: Path) -> list[Path]:
     """All that this module reads in a folder."""
-    names = [OTB_TRUTH, VOT_TRUTH, ABSENT_TAG, DEPTHS_FILE]
+    names = [OTB_TRUTH, VOT_TRUTH, *ABSENT_TAGS, DEPTHS_FILE]
     names += [PRINCETON_FIRST_BOX, f"{folder.resolve().name}.txt"]
     names += [f"groundtruth_rect.{target}.txt" for target in otb_targets(folder)]
     return [folder / name for name in names if (folder / name).is_file()]
 
 
 def add_tags_and_depths(truth: Truth, folder: Path) -> Truth:
-    """Add VOT's tags of absent frames and the file of depths, where the folder has them."""
-    if (folder / ABSENT_TAG).is_file():
-        truth = _apply_tag(truth, _read_tag(folder / ABSENT_TAG))
+    """Add the tags of absent frames and the file of depths, where the folder has them."""
+    for path in (folder / name for name in ABSENT_TAGS):
+        if path.is_file():
+            truth = _apply_tag(truth, _read_tag(path))
     if truth.positions is None and (folder / DEPTHS_FILE).is_file():
         depths = _read_depths(folder / DEPTHS_FILE)
         unknown = np.full(len(depths), np.nan)
@@ -160,13 +163,16 @@ def _apply_tag(truth: Truth, tag: NDArray[np.bool_]) -> Truth:
 
 
 def _read_tag(path: Path) -> NDArray[np.bool_]:
-    words = [line.strip() for line in read_lines(path)]
-    for number, word in enumerate(words, 1):
-        if word not in ("0", "1"):
-            raise ValueError(
-                f"{path}, line {number}: expected 0, or 1 for an absent target, got {word!r:.60}"
-            )
-    return np.array([word == "1" for word in words], np.bool_)
+    """(M,) a tag on each line, or, as LaSOT has them, all on one."""
+    tags = []
+    for number, line in enumerate(read_lines(path), 1):
+        for word in re.split(r"\s*,\s*|\s+", line.strip()):
+            if word not in ("0", "1"):
+                raise ValueError(
+                    f"{path}, line {number}: expected 0, or 1 for an absent target, got {word!r:.60}"
+                )
+            tags.append(word == "1")
+    return np.array(tags, np.bool_)
 
 
 def _read_depths(path: Path) -> NDArray[np.float64]:
