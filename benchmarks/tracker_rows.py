@@ -11,8 +11,8 @@ import tricue
 from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.evaluation import baselines, metrics
+from tricue.evaluation.frame_views import depth_as_picture
 from tricue.evaluation.one_pass import AnyTracker, Run, run
-from tricue.evaluation.tracker_spec import depth_as_picture
 from tricue.scenes import (
     DepthScene,
     Scene,

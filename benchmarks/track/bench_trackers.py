@@ -13,7 +13,7 @@ from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import baselines as opencv_trackers
 from tricue.evaluation import metrics
-from tricue.evaluation.tracker_spec import depth_as_picture
+from tricue.evaluation.frame_views import depth_as_picture
 from tricue.scenes import face_over_clutter, head, overtaking, walker
 from tricue.scenes.stress.scene import stress_scene
 from tricue.track.base.track import Status

@@ -174,6 +174,10 @@ def test_parameters_of_trackers_are_set_by_name(dataset, tmp_path):
     [
         (["--set", "particles=3"], "--set: expected tracker.name=value, got 'particles=3'"),
         (["--set", "color-particle.particels=3"], "particels"),
+        (
+            ["--trackers", "still-box", "--set", "fused.max_speed=3"],
+            "--set: expected a parameter of a tracker that runs (still-box), got one of 'fused'",
+        ),
         (["--trackers", "CRST"], "got 'CRST'"),
         (["--trackers", "nobody.py:Nobody"], "nobody.py: there is no such file"),
         (

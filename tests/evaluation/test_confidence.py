@@ -40,6 +40,15 @@ def test_auroc_has_its_closed_forms():
     assert confidence.auroc(overlaps, [0.4] * 4) == 0.5
 
 
+@given(frames)
+def test_auroc_depends_on_the_order_of_scores_alone(pairs):
+    """Scores of any range count as those in [0, 1] of the same order; NaN is the lowest of all."""
+    overlaps, scores = np.array(pairs).T
+    expected = confidence.auroc(overlaps, scores / 4)
+    for other in (1e6 * scores - 3e6, np.where(scores == 0, np.nan, np.log(np.maximum(scores, 1)) - 9)):
+        np.testing.assert_allclose(confidence.auroc(overlaps, other), expected, rtol=1e-12)
+
+
 def test_absent_frames_are_lost_and_unknown_ones_do_not_count():
     """Beside a true absence the overlap doesn't matter, NaN or not; NaN alone leaves the frame out."""
     overlaps, absent = np.array([0.9, np.nan, 0.9, np.nan]), np.array([False, True, True, False])
@@ -47,6 +56,7 @@ def test_absent_frames_are_lost_and_unknown_ones_do_not_count():
     assert confidence.auroc(overlaps, [0.8, 0.2, 0.9, 0.0], absent) == 0.5
     said = np.array([True, True, False, True])
     assert confidence.tracked_while_lost(overlaps, said, absent) == (0.5, 1 / 3)
+    assert confidence.tracked(overlaps, said, absent) == 2 / 3
     np.testing.assert_array_equal(
         confidence.reliability(overlaps, [0.8, 0.2, 0.9, 0.0], absent).counts.sum(), 3
     )
@@ -66,6 +76,7 @@ def test_empty_classes_are_nan():
     assert np.isnan(confidence.auroc([np.nan], [0.1]))
     np.testing.assert_array_equal(confidence.tracked_while_lost([0.8], np.array([True])), [np.nan, 0.0])
     np.testing.assert_array_equal(confidence.tracked_while_lost([np.nan], np.array([True])), [np.nan, np.nan])
+    assert np.isnan(confidence.tracked([np.nan], np.array([True])))
 
 
 def test_reliability_is_the_mean_in_each_bin():
@@ -93,8 +104,8 @@ def test_reliability_of_few_frames_has_gaps():
     [
         (lambda: confidence.auroc([[0.5]], [0.5]), "overlaps: expected an array of shape"),
         (lambda: confidence.auroc([0.5], [0.5, 0.6]), "scores: expected an array of shape"),
-        (lambda: confidence.auroc([0.5], [1.5]), r"scores: expected numbers in \[0, 1\]"),
-        (lambda: confidence.auroc([0.5], [np.nan]), r"scores: expected numbers in \[0, 1\]"),
+        (lambda: confidence.reliability([0.5], [1.5]), r"scores: expected numbers in \[0, 1\]"),
+        (lambda: confidence.reliability([0.5], [np.nan]), r"scores: expected numbers in \[0, 1\]"),
         (lambda: confidence.auroc([0.5], [0.5], [1]), "absent: expected bool"),
         (lambda: confidence.tracked_while_lost([0.5], [0.9]), "reported_present: expected bool"),
         (lambda: confidence.reliability([0.5], [0.5], bins=0), "bins: expected 1 or more"),

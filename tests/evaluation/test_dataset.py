@@ -2,18 +2,22 @@
 """Entries of a data set, and what each tracker is shown of them."""
 
 import pickle
+from dataclasses import replace
+from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
-from tricue.evaluation.dataset import Entry, ReadOptions, find_entries
+from tricue.camera.box import Box
+from tricue.evaluation.baselines import StillBox
+from tricue.evaluation.dataset import Entry, ReadOptions, find_entries, short_names
 from tricue.evaluation.one_pass import Run
 from tricue.evaluation.record import Record
-from tricue.evaluation.rows import make_row, score_run
-from tricue.evaluation.tasks import Task, perform
+from tricue.evaluation.rows import make_row, measure_robustness, score_run
+from tricue.evaluation.tasks import RESTARTS, Task, perform
 from tricue.evaluation.tracker_spec import TrackerSpec
 from tricue.evaluation.trackers import tracker_specs
-from tricue.track.base.track import Status
+from tricue.track.base.track import Status, Track
 
 from tests.data.recordings.written import compressed, jpeg, write_mcap
 
@@ -72,6 +76,22 @@ def test_entries_are_named_by_their_folders_and_can_be_sent(tmp_path):
     for entry in found:
         assert pickle.loads(pickle.dumps(entry)).open().digest == entry.open().digest
     assert [entry.name for entry in find_entries(tmp_path / "a" / "walk")] == ["walk"]
+
+
+@pytest.mark.parametrize(
+    ("names", "short"),
+    [
+        (["color/David", "color/Girl"], ["David", "Girl"]),
+        (["data/tum/seq", "data/princeton/seq", "seq"], ["tum/seq", "princeton/seq", "seq"]),
+        (["a/x/one", "b/x/one", "b/x/two"], ["a/x/one", "b/x/one", "two"]),
+        (["OTB/Jogging/1:", "OTB/Jogging/2:"], ["Jogging/1", "Jogging/2"]),
+        (["a/Jogging/1:", "b/Jogging/1:"], ["a/Jogging/1", "b/Jogging/1"]),
+    ],
+)
+def test_short_names_tell_sequences_apart(names, short):
+    """The fewest last parts that no other name ends with; of a target (here with a colon) two at least."""
+    entries = [Entry(name.rstrip(":"), Path(), "1" if name.endswith(":") else None) for name in names]
+    assert list(short_names(entries).values()) == short
 
 
 def test_a_digest_is_of_the_images_not_of_their_place(tmp_path):
@@ -172,23 +192,54 @@ def test_a_depth_tracker_is_judged_in_meters(tmp_path):
     assert row.group == "depth"
 
 
+def made_run(boxes):
+    """A run with these boxes, all TRACKED."""
+    count = len(boxes)
+    nothing = np.full((count, 3), np.nan), np.full((count, 3, 3), np.nan)
+    return Run(boxes, np.ones(count), (Status.TRACKED,) * count, *nothing, np.ones(count - 1))
+
+
 def test_of_boxes_beyond_the_edge_only_the_part_inside_counts(tmp_path):
-    """In VOT's sequences, whose truth ends there, and in no others."""
+    """In VOT's sequences, and in no others."""
     inside = np.tile([40.0, 6, 8, 20], (4, 1))
-    boxes = inside + [0, 0, 20, 0]
-    run = Run(
-        boxes,
-        np.ones(4),
-        (Status.TRACKED,) * 4,
-        np.full((4, 3), np.nan),
-        np.full((4, 3, 3), np.nan),
-        np.ones(3),
-    )
+    run = made_run(inside + [0, 0, 20, 0])
     vot = Entry("vot", write_rgbd(tmp_path / "vot", 4, "40,6,8,20\n")).open()
     pair = write_pair(tmp_path / "pair")
     (pair / "groundtruth.txt").write_text("40,6,8,20\n" * 4)
     np.testing.assert_array_equal(score_run(Record(run), vot).overlaps, 1)
     np.testing.assert_allclose(score_run(Record(run), Entry("pair", pair).open()).overlaps, 8 / 28)
+
+
+def test_of_truth_beyond_the_edge_only_the_part_inside_counts(tmp_path):
+    """Whoever says the true boxes, or their parts in the image, overlaps wholly with all that are in it, with
+    and without restarts; a true box outside of it counts for nothing.
+    """
+    truth = np.array([[x, 6.3, 16.7, 20.1] for x in (8.1, 24.3, 40.6, 47.9, 60)] + [[-9.5, 20, 16, 30]])
+    folder = write_rgbd(tmp_path / "walk", len(truth))
+    np.savetxt(folder / "groundtruth.txt", truth, fmt="%.17g", delimiter=",")
+    opened = Entry("walk", folder).open()
+    parts = np.concatenate(
+        [low := truth[:, :2].clip(0), (truth[:, :2] + truth[:, 2:]).clip(0, (48, 36)) - low], 1
+    )
+    parts[4] = np.nan
+    for boxes in (truth, parts):
+        record = Record(made_run(boxes))
+        row = make_row(opened, "oracle", 0, score_run(record, opened), measure_robustness(record, opened))
+        assert (row.auc, row.precision, row.failures) == (pytest.approx(20 / 21), 1, 0)
+        np.testing.assert_allclose(score_run(record, opened).overlaps, [1, 1, 1, 1, np.nan, 1])
+    np.testing.assert_array_equal(opened.boxes, truth)
+    np.testing.assert_array_equal(opened.truth(6)[0], truth[0])
+
+
+def test_a_failure_is_one_in_the_image(tmp_path, monkeypatch):
+    """A box that overlaps the true one beyond the image alone has lost it; the next starts on all of it."""
+    folder = write_rgbd(tmp_path / "walk", 12, "40,6,16,20\n")
+    entry = Entry("walk", folder)
+    monkeypatch.setattr(StillBox, "update", lambda self, frame: Track(Box(50, 6, 16, 20), 1, Status.TRACKED))
+    record = perform(Task(TrackerSpec("still-box"), entry, kind=RESTARTS))
+    assert record.starts == (0, 6)
+    np.testing.assert_array_equal(record.run.boxes[[0, 6]], [[40, 6, 16, 20]] * 2)
+    assert measure_robustness(record, entry.open()).failures == 2
 
 
 def test_runs_start_where_the_truth_starts(tmp_path):
@@ -212,6 +263,18 @@ def test_absent_frames_make_rates(tmp_path):
     record = perform(Task(TrackerSpec("still-box"), entry))
     row = make_row(entry.open(), "still-box", 0, score_run(record, entry.open()))
     assert (row.true_positive, row.true_negative, row.ok_while_lost) == (1.0, 0.0, 0.5)
+
+
+def test_frames_of_unknown_truth_are_not_counted_as_tracked(tmp_path):
+    """TRACKED in the two labeled frames of four; of frames without the target all count."""
+    pair = write_pair(tmp_path / "pair", 4)
+    (pair / "groundtruth.txt").write_text(BOX * 2)
+    walk = write_rgbd(tmp_path / "walk", 4)
+    (walk / "groundtruth.txt").write_text(BOX * 2 + "nan,nan,nan,nan\n" * 2)
+    run = replace(made_run(np.tile([8.0, 6, 16, 20], (4, 1))), statuses=(Status.TRACKED, *[Status.LOST] * 3))
+    for folder, share in ((pair, 0.5), (walk, 0.25)):
+        opened = Entry(folder.name, folder).open()
+        assert make_row(opened, "made", 0, score_run(Record(run), opened)).tracked == share
 
 
 def test_kitti_has_ten_pairs_a_second(data):

@@ -165,6 +165,11 @@ def test_a_tracker_that_breaks_finds_nothing_from_there(folders, tmp_path, monke
         ),
         (Options(settings={"color-particle": {"particles": -1}}), "particles"),
         (Options(settings={"still-box": {"scales": 2}}), "got one of still-box"),
+        (
+            Options(("color-particle", "still-box"), {"fused": {"max_speed": 3}}),
+            r"--set: expected a parameter of a tracker that runs \(color-particle, .*\), got one of 'fused'",
+        ),
+        (Options(settings={"fussed": {"max_speed": 3}}), "--set: .*color-particle.* got one of 'fussed'"),
     ],
 )
 def test_wrong_options_are_told_before_anything_runs(folders, tmp_path, options, message):

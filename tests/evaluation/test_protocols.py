@@ -11,6 +11,7 @@ from tricue.data.open_source import open_source
 from tricue.evaluation import metrics, protocols, tables
 from tricue.evaluation.dataset import Entry
 from tricue.evaluation.evaluate import RUNS, Options, evaluate
+from tricue.evaluation.markdown import markdown
 from tricue.evaluation.protocols import NOISE, Order, forward_times, jittered, orders, read_frames
 from tricue.evaluation.tasks import perform
 
@@ -145,9 +146,7 @@ def test_a_protocol_is_a_line_of_the_summary(evaluated, tmp_path):
     assert (line["protocol"], line["runs"]) == ("starts", 24)
     tables.write(evaluation, tmp_path, {})
     assert len((tmp_path / tables.SUMMARY).read_text().splitlines()) == 1 + 2 * 5
-    assert "| one-pass | backward | starts | every-3 | noisy-2 |" in " ".join(
-        tables.markdown(evaluation).split()
-    )
+    assert "| one-pass | backward | starts | every-3 | noisy-2 |" in " ".join(markdown(evaluation).split())
 
 
 def test_further_protocols_reuse_what_was_run(folders, tmp_path, monkeypatch):

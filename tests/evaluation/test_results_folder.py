@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tricue.evaluation import tables
 from tricue.evaluation.dataset import Entry, find_entries
 from tricue.evaluation.evaluate import Options, evaluate
+from tricue.evaluation.markdown import markdown
 from tricue.evaluation.results_folder import ResultError, results_spec, sequence_names
 from tricue.track.base.track import Status
 
@@ -125,6 +125,18 @@ def test_vot_with_confidences(tmp_path, there, found, experiment):
     assert record.run.frames_per_second == pytest.approx(4)
 
 
+def test_vots_confidences_are_any_numbers(tmp_path, folders, found):
+    """It proves that results whose confidences are no probabilities are compared with the others."""
+    write_lines(tmp_path / "longterm" / "there" / "there_001.txt", lines(found))
+    told = ["", *(f"{-index}" for index in range(2, FRAMES)), "nan"]
+    write_lines(tmp_path / "longterm" / "there" / "there_001_confidence.value", told)
+    options = Options(("still-box",), restarts=False, results=(f"theirs={tmp_path}",))
+    evaluation = evaluate(folders / "there", tmp_path / "out", options)
+    assert {each.row.tracker for each in evaluation.results} == {"still-box", "theirs"}
+    (theirs,) = [each for each in evaluation.results if each.row.tracker == "theirs"]
+    assert theirs.scored.scores.tolist() == [1, *range(-2, -FRAMES, -1), 1]
+
+
 @pytest.mark.parametrize(
     ("first", "form"),
     [("1", "vot"), ("m3,4,5,6,0,30", "vot"), ("31.0,41.0,40.0,40.0", "got10k")],
@@ -151,7 +163,7 @@ def test_vot_with_restarts(tmp_path, folders, found, there):
     assert np.isnan(row.auc)
     assert np.isnan(row.iou)
     assert "started again after failures" in evaluation.notes[-1]
-    assert "nan" not in tables.markdown(evaluation)
+    assert "nan" not in markdown(evaluation)
 
 
 def test_results_are_compared_as_if_they_had_been_run(tmp_path, folders, patrol):
@@ -173,7 +185,7 @@ def test_results_are_compared_as_if_they_had_been_run(tmp_path, folders, patrol)
     }
     assert evaluation.notes == ("theirs: results in otb form, 1 of 3 sequences, pixels counted from 1",)
     assert not evaluation.failed
-    shown = tables.markdown(evaluation)
+    shown = markdown(evaluation)
     line = next(line for line in shown.splitlines() if line.startswith("| theirs"))
     assert [cell.strip() for cell in line.split("|")[-3:]] == ["-", "-", ""]
 

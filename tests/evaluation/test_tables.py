@@ -58,17 +58,6 @@ def test_times_are_apart_from_what_is_the_same_everywhere(found, tmp_path):
         assert len(list(csv.DictReader(file))) == len(found.results)
 
 
-def test_printed_tables_are_aligned_and_leave_out_empty_columns(found):
-    """Every line of a table is as wide as its head; no position was measured, no target was absent."""
-    table, told, by_sequence = tables.markdown(found).split("\n\n")
-    assert told.startswith("Of 3 recordings nothing can be told")
-    for text in (table, by_sequence):
-        assert len({len(line) for line in text.splitlines()}) == 1
-    assert "position" not in table
-    assert "TNR" not in table
-    assert [cell.strip() for cell in by_sequence.splitlines()[0].split("|")[2:5]] == ["back", "gap", "there"]
-
-
 def test_settings_tell_what_was_run(found):
     """Versions, machine, all parameters, and those that were changed."""
     about = tables.settings(found, jobs=3)

@@ -19,6 +19,7 @@ from tricue.evaluation.figures import FOLDER as FIGURES
 from tricue.evaluation.figures import check_formats, write_figures
 from tricue.evaluation.foreign.spec import DEFAULT_TIME_LIMIT, is_foreign
 from tricue.evaluation.latex import write_latex
+from tricue.evaluation.markdown import markdown
 from tricue.evaluation.protocols import ONE_PASS, RESTARTS
 from tricue.evaluation.raw_results import check_folder, write_raw
 from tricue.evaluation.report import svg
@@ -229,7 +230,7 @@ def _report(evaluation: Evaluation, folder: Path, options: argparse.Namespace) -
         written.append(write_latex(evaluation, options.latex))
     if options.figures:
         written += write_figures(evaluation, folder / FIGURES, options.figures)
-    print(tables.markdown(evaluation))
+    print(markdown(evaluation))
     for each in evaluation.results:
         if each.row.trouble:
             print(f"{each.row.tracker} on {each.row.sequence}, seed {each.row.seed}: {each.row.trouble}")

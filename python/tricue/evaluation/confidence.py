@@ -2,7 +2,7 @@
 """How well a tracker's score predicts its overlap with the truth.
 
 A frame counts as lost if the overlap is below LOST_OVERLAP or the target is absent. Frames whose truth is
-unknown (overlap NaN, not absent) are excluded.
+unknown (overlap NaN, not absent) are excluded. Only :func:`reliability` needs scores that are probabilities.
 """
 
 from dataclasses import dataclass
@@ -53,14 +53,25 @@ def auroc(overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None = Non
 
     The area under the ROC curve of "lost" by falling score, by the rank sum of Mann and Whitney (1947). 0.5
     is chance, at 1 one threshold on the score separates both. NaN unless there are frames of both kinds.
+    Scores may be any numbers, for their order alone counts; NaN is the lowest.
     """
     overlap, score, gone = _frames(overlaps, scores, absent)
     bad = lost(overlap, gone)
     good = int((~bad).sum())
     if good in (0, bad.size):
         return float("nan")
-    wins = _ranks(score)[~bad].sum() - good * (good + 1) / 2
+    ordered = np.where(np.isnan(score), -np.inf, score)
+    wins = _ranks(ordered)[~bad].sum() - good * (good + 1) / 2
     return float(wins / (good * (bad.size - good)))
+
+
+def tracked(overlaps: ArrayLike, reported_present: ArrayLike, absent: ArrayLike | None = None) -> float:
+    """How often a tracker reported the target as present, (M,) bool: the share of the frames whose truth is
+    known, NaN without any.
+    """
+    overlap = np.asarray(overlaps, dtype=np.float64)
+    present = _flags(reported_present, "reported_present", overlap.shape)
+    return _share(present[_known(overlap, lost(overlap, absent))])
 
 
 def tracked_while_lost(
@@ -70,17 +81,21 @@ def tracked_while_lost(
     overlap = np.asarray(overlaps, dtype=np.float64)
     present = _flags(reported_present, "reported_present", overlap.shape)
     bad = lost(overlap, absent)
-    known = bad | ~np.isnan(overlap)
-    return FalselyTracked(_share(present[bad]), _share((present & bad)[known]))
+    return FalselyTracked(_share(present[bad]), _share((present & bad)[_known(overlap, bad)]))
 
 
 def reliability(
     overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None = None, bins: int = 10
 ) -> Reliability:
-    """Mean overlap by score, for a reliability diagram; in absent frames the overlap is 0."""
+    """Mean overlap by score, for a reliability diagram; in absent frames the overlap is 0.
+
+    ValueError for a score outside [0, 1] in a frame that counts.
+    """
     if bins < 1:
         raise ValueError(f"bins: expected 1 or more, got {bins}")
     overlap, score, gone = _frames(overlaps, scores, absent)
+    if not np.all((score >= 0) & (score <= 1)):
+        raise ValueError("scores: expected numbers in [0, 1]")
     overlap[gone] = 0.0
     edges = np.linspace(0.0, 1.0, bins + 1)
     bin_index = np.searchsorted(edges[1:-1], score, side="right")
@@ -101,11 +116,15 @@ def _frames(overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None) ->
         raise ValueError(f"overlaps: expected an array of shape (M,), got {overlap.shape}")
     if score.shape != overlap.shape:
         raise ValueError(f"scores: expected an array of shape {overlap.shape}, got {score.shape}")
-    if not np.all((score >= 0) & (score <= 1)):
-        raise ValueError("scores: expected numbers in [0, 1]")
     gone = np.zeros(overlap.shape, bool) if absent is None else _flags(absent, "absent", overlap.shape)
-    known = gone | ~np.isnan(overlap)
+    known = _known(overlap, gone)
     return overlap[known], score[known], gone[known]
+
+
+def _known(overlap: Array, bad: Flags) -> Flags:
+    """The frames whose truth is known. bad: those that are lost, or without the target."""
+    known: Flags = bad | ~np.isnan(overlap)
+    return known
 
 
 def _ranks(values: Array) -> Array:

@@ -5,6 +5,7 @@ An :class:`Entry` is small: it can be sent to another process or machine, which 
 """
 
 import hashlib
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -26,7 +27,8 @@ FORMAT_RATES = {"KITTI tracking": 10.0}
 STEREO_CALIBRATION = "calibration.yml"
 """File name of OpenCV's calibration of a stereo pair, searched beside its images."""
 CLIPPED_FORMATS = ("VOT", "VOT RGB-D", "KITTI tracking")
-"""Formats whose true boxes are clipped to the image; so tracked boxes are clipped before they are compared.
+"""Formats whose boxes end at the image's edge: both the true and the tracked ones are clipped to the image
+before they are compared, as the VOT toolkit does.
 """
 
 
@@ -118,7 +120,7 @@ class OpenedSequence:
 
     @property
     def clipped(self) -> bool:
-        """Whether the true boxes are clipped to the image."""
+        """Whether boxes are clipped to the image before they are compared."""
         return self.source.format in CLIPPED_FORMATS
 
     @cached_property
@@ -145,7 +147,7 @@ class OpenedSequence:
 
     @property
     def boxes(self) -> NDArray[np.float64]:
-        """(M, 4) the labeled boxes; M may differ from the number of frames."""
+        """(M, 4) the labeled boxes, on which trackers start; M may differ from the number of frames."""
         known = self.source.truth
         return np.empty((0, 4)) if known is None else known
 
@@ -162,8 +164,25 @@ class OpenedSequence:
         return int(known[0])
 
     def truth(self, frames: int) -> NDArray[np.float64]:
-        """(frames, 4) true boxes, NaN where the target is absent or its box unknown."""
-        return _fit_to_frames(self.boxes, frames, np.nan)
+        """(frames, 4) true boxes to compare others with, NaN where the target is absent, its box unknown, or
+        all of it outside an image to which boxes are clipped.
+        """
+        boxes: NDArray[np.float64] = _fit_to_frames(self.boxes, frames, np.nan)
+        return self.clip(boxes)
+
+    def clip(self, boxes: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(M, 4) boxes as they are compared: clipped to the image in formats that do so, and then NaN for one
+        outside of it.
+        """
+        if not self.clipped:
+            return boxes
+        low, high = boxes[:, :2], boxes[:, :2] + boxes[:, 2:]
+        crossing = ~((low >= 0) & (high <= self.size)).all(axis=1)  # the others keep their bits
+        low, high = np.clip(low, 0, self.size), np.clip(high, 0, self.size)
+        found: NDArray[np.float64] = boxes.copy()
+        found[crossing] = np.concatenate([low, high - low], axis=1)[crossing]
+        found[~(found[:, 2:] > 0).all(axis=1)] = np.nan
+        return found
 
     def absent(self, frames: int) -> NDArray[np.bool_]:
         """(frames,) whether the target is labeled as absent."""
@@ -205,6 +224,25 @@ def find_entries(root: Path, reading: ReadOptions = ReadOptions()) -> list[Entry
     if not entries:
         raise ValueError(f"{root}: expected sequences with true boxes, found none")
     return entries
+
+
+def short_names(entries: Sequence[Entry]) -> dict[str, str]:
+    """By name, the fewest last parts of each entry's name that no other's ends with; of a target at least the
+    sequence that it is in and its own, such as "Jogging/2".
+    """
+    parts = {each.name: each.name.split("/") for each in entries}
+
+    def is_shared(tail: list[str]) -> bool:
+        return sum(other[-len(tail) :] == tail for other in parts.values()) > 1
+
+    found = {}
+    for entry in entries:
+        whole = parts[entry.name]
+        count = 1 if entry.target is None else 2
+        while count < len(whole) and is_shared(whole[-count:]):
+            count += 1
+        found[entry.name] = "/".join(whole[-count:])
+    return found
 
 
 def _relative_name(root: Path, place: Path) -> str:

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.doctor.install import commit
-from tricue.evaluation.dataset import Entry, OpenedSequence
+from tricue.evaluation.dataset import OpenedSequence, short_names
 from tricue.evaluation.evaluate import RUNS, Evaluation, RunResult
 from tricue.evaluation.one_pass import Run
 from tricue.evaluation.record import Record
@@ -83,7 +83,7 @@ def write_raw(
     store = Store(finished / RUNS)
     stored = [each for each in evaluation.one_pass if store.path(each.task).is_file()]
     trackers = file_names({each.task.tracker.name: each.task.tracker.name for each in stored})
-    sequences = file_names({each.entry.name: _short_name(each.entry) for each in evaluation.opened})
+    sequences = file_names(short_names([each.entry for each in evaluation.opened]))
     frames: dict[str, int] = {}
     for (tracker, sequence), results in _grouped(stored).items():
         repetitions = [_repetition(store, number, each) for number, each in enumerate(results, 1)]
@@ -133,11 +133,6 @@ def file_names(names: Mapping[str, str]) -> dict[str, str]:
             chosen = f"{whole}-{number}"
         found[name] = chosen
     return found
-
-
-def _short_name(entry: Entry) -> str:
-    """The last part of a sequence's name; of a target's, also the sequence that it is in."""
-    return "/".join(entry.name.split("/")[-1 if entry.target is None else -2 :])
 
 
 def _plain(name: str) -> str:

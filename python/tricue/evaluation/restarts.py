@@ -33,14 +33,22 @@ class Robustness(NamedTuple):
     accuracy: float
 
 
-def run(make: Callable[[], AnyTracker], frames: Iterable[Frame], truth: NDArray[np.float64]) -> Record:
-    """Track with restarts. truth: (M, 4); in frames where it is NaN, and beyond M, no tracker starts or
-    fails. Boxes are NaN where no tracker runs.
+def run(
+    make: Callable[[], AnyTracker],
+    frames: Iterable[Frame],
+    truth: NDArray[np.float64],
+    compared: NDArray[np.float64] | None = None,
+) -> Record:
+    """Track with restarts. truth: (M, 4), on which trackers start. compared: (M, 4), what they have to
+    overlap, such as the truth's part in the image; None for all of it. In frames where it is NaN, and beyond
+    M, no tracker starts or fails. Boxes are NaN where no tracker runs.
     """
+    compared = truth if compared is None else compared
     log, starts, resume = RunLog(), [], 0
     tracker: AnyTracker | None = None
     with one_thread():
-        for frame, true in zip(frames, chain(truth, repeat(_NO_BOX)), strict=False):
+        labels = chain(zip(truth, compared, strict=True), repeat((_NO_BOX, _NO_BOX)))
+        for frame, (start, true) in zip(frames, labels, strict=False):
             index, known = len(log.tracks), not np.isnan(true).any()
             if tracker is not None:
                 track = log.update(tracker, frame)
@@ -48,7 +56,7 @@ def run(make: Callable[[], AnyTracker], frames: Iterable[Frame], truth: NDArray[
                     tracker, resume = None, index + RESTART_DELAY
             elif known and index >= resume:
                 tracker = make()
-                log.init(tracker, frame, Box(*true.tolist()))
+                log.init(tracker, frame, Box(*start.tolist()))
                 starts.append(index)
             else:
                 log.skip()

@@ -57,7 +57,7 @@ class Row:
     iou: float
     """Mean overlap."""
     tracked: float
-    """Share of the frames with status TRACKED, right or wrong."""
+    """Share of the frames with status TRACKED, right or wrong, of those whose truth is known."""
     true_positive: float
     true_negative: float
     f_score: float
@@ -119,14 +119,8 @@ def without_truth(run: ScoredRun) -> ScoredRun:
 
 
 def clip_to_image(boxes: Array, opened: OpenedSequence) -> Array:
-    """The boxes, clipped to the image if the true boxes are; NaN for one that is outside."""
-    if not opened.clipped:
-        return boxes
-    low = np.clip(boxes[:, :2], 0, opened.size)
-    high = np.clip(boxes[:, :2] + boxes[:, 2:], 0, opened.size)
-    inside: Array = np.concatenate([low, high - low], axis=1)
-    inside[~(inside[:, 2:] > 0).all(axis=1)] = np.nan
-    return inside
+    """The boxes as they are compared with the truth: :meth:`OpenedSequence.clip`."""
+    return opened.clip(boxes)
 
 
 def make_row(
@@ -151,7 +145,7 @@ def make_row(
         score.norm_precision,
         score.success,
         _mean(run.overlaps),
-        float(run.tracked.mean()),
+        confidence.tracked(run.overlaps, run.tracked, run.absent),
         rates.true_positive,
         rates.true_negative,
         best_f([run]),

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,12 +23,21 @@ from tricue.evaluation import one_pass, protocols, restarts
 from tricue.evaluation.dataset import Entry, OpenedSequence
 from tricue.evaluation.protocols import ONE_PASS, RESTARTS, Order
 from tricue.evaluation.record import Record
-from tricue.evaluation.tracker_spec import Make, SafeTracker, TrackerSpec
+from tricue.evaluation.safe_tracker import SafeTracker
+from tricue.evaluation.tracker_spec import Make, TrackerSpec
 
 _RESULT_SOURCES = (
-    *("_core*.so", "_core*.pyd", "camera/**/*.py", "data/**/*.py", "reference/**/*.py", "track/**/*.py"),
-    *(f"evaluation/{name}.py" for name in ("tracker_spec", "one_pass", "baselines", "restarts", "foreign/*")),
+    *("_core*.so", "_core*.pyd", "kernels.py", "reference/**/*.py", "track/**/*.py"),
+    *("camera/**/*.py", "data/**/*.py", "imgproc.py", "errors.py"),
+    *("draw/canvas.py", "draw/depth_pictures.py"),  # the depth that baselines see
+    *(f"evaluation/{name}.py" for name in ("tasks", "dataset", "frame_views", "one_pass", "restarts")),
+    *(f"evaluation/{name}.py" for name in ("tracker_spec", "safe_tracker", "baselines", "foreign/*")),
+    *(f"evaluation/{name}.py" for name in ("metrics", "record")),
+    *(f"evaluation/toolkits/{name}.py" for name in ("trax_client", "trax_server")),
 )
+"""What a run depends on: all that this module and ``foreign`` import, whose files are named here so that what
+only scores a run may change. ``protocols`` counts for its own runs (:meth:`Task.fingerprint`).
+"""
 
 
 @dataclass(frozen=True)
@@ -51,7 +61,8 @@ class Task:
         spec's.
         """
         known = () if self.kind in (ONE_PASS, RESTARTS) else (_digest_of(Path(protocols.__file__)),)
-        parts = (self.name, digest, description, code_digest(), *known)
+        versions = cv2.__version__, np.__version__  # which decode images and draw random numbers
+        parts = (self.name, digest, description, code_digest(), *versions, *known)
         return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
@@ -103,7 +114,7 @@ def _run_with_restarts(make: Make, task: Task, opened: OpenedSequence, frames: I
         made.append(make(task.seed + len(made)))
         return made[-1]
 
-    record = restarts.run(make_next, frames, opened.boxes)
+    record = restarts.run(make_next, frames, opened.boxes, opened.clip(opened.boxes))
     return Record(record.run, record.starts, _error(made, record.starts))
 
 

@@ -11,19 +11,15 @@ from typing import Any, Protocol
 import cv2
 
 import tricue
-from tricue.camera.box import Box
-from tricue.camera.frame import Frame
 from tricue.camera.rig import Intrinsics, StereoRig
-from tricue.draw.depth_pictures import depth_picture, depth_range
-from tricue.errors import one_line
 from tricue.evaluation import baselines
-from tricue.evaluation.one_pass import AnyTracker
+from tricue.evaluation.frame_views import FrameView, depth_as_picture, select_channels
+from tricue.evaluation.safe_tracker import SafeTracker
 from tricue.track.base import registry
-from tricue.track.base.track import Status, Track
 from tricue.track.base.traits import Channels, Traits
 
-FrameView = Callable[[Frame], Frame]
-"""Selects the channels of a frame that a tracker gets; its time isn't measured."""
+Make = Callable[[int], SafeTracker]
+"""Makes a tracker from a seed."""
 
 # Disparities of a target in a stereo pair between which trackers search.
 MAX_DISPARITY_RATIO = 0.25  # of the image's width
@@ -107,7 +103,7 @@ class TrackerSpec:
             return f"no {', '.join(sorted(absent))}"
         return "boxes of the depth image" if "color" in missing else "depth not registered to color"
 
-    def make(self, opened: SequenceInfo, seed: int) -> "SafeTracker":
+    def make(self, opened: SequenceInfo, seed: int) -> SafeTracker:
         """The tracker for a sequence, with its cameras."""
         baselines.seed(seed)
         if not self.ours:
@@ -115,7 +111,7 @@ class TrackerSpec:
         return SafeTracker(tricue.create(self.name, seed=seed, **self.keywords(opened)))
 
     @contextmanager
-    def session(self, opened: SequenceInfo) -> "Iterator[Make]":
+    def session(self, opened: SequenceInfo) -> Iterator[Make]:
         """Yields the function that makes the tracker for a sequence from a seed, for one run."""
         yield partial(self.make, opened)
 
@@ -136,61 +132,7 @@ class TrackerSpec:
         if self.sees_a_picture(opened):
             return depth_as_picture()
         chosen = self.traits.best(_usable_channels(opened))
-        return partial(_select_channels, frozenset({"color"}) if chosen is None else chosen.names)
-
-
-class SafeTracker:
-    """A tracker that never raises: after its first error, kept in ``error``, it returns tracks without a
-    box. error: one that happened before.
-    """
-
-    def __init__(self, tracker: AnyTracker | None, error: str = "") -> None:
-        self.error = error
-        self.updates = 0
-        """How many there were until the error: 0 if ``init`` failed."""
-        self._tracker = tracker
-
-    @property
-    def update_seconds(self) -> float | None:
-        """Of the last update, where the tracker measures them itself."""
-        return getattr(self._tracker, "update_seconds", None)
-
-    def init(self, frame: Frame, box: Box) -> Track:
-        """The tracker's, or a track without a box."""
-        return self._try("init", frame, box)
-
-    def update(self, frame: Frame) -> Track:
-        """The tracker's, or a track without a box."""
-        if not self.error:
-            self.updates += 1
-        return self._try("update", frame)
-
-    def _try(self, method: str, *arguments: Any) -> Track:
-        if not self.error:
-            try:
-                track: Track = getattr(self._tracker, method)(*arguments)
-                return track
-            except Exception as error:
-                self.error = one_line(error)
-        return Track(Box(*[float("nan")] * 4), 0.0, Status.LOST)
-
-
-Make = Callable[[int], SafeTracker]
-"""Makes a tracker from a seed."""
-
-
-def depth_as_picture() -> FrameView:
-    """Renders depth as a picture in the color channel, with the depth range of the first frame."""
-    depth_limits: list[tuple[float, float]] = []
-
-    def view(frame: Frame) -> Frame:
-        frame.require("depth")
-        assert frame.depth is not None
-        if not depth_limits:
-            depth_limits.append(depth_range(frame.depth) or (0.0, 1.0))
-        return Frame(depth_picture(frame.depth, *depth_limits[0]), timestamp=frame.timestamp)
-
-    return view
+        return partial(select_channels, frozenset({"color"}) if chosen is None else chosen.names)
 
 
 def _usable_channels(opened: SequenceInfo) -> frozenset[str]:
@@ -222,9 +164,3 @@ def _search_range(rig: StereoRig) -> tuple[float, float]:
     """
     product = rig.intrinsics.fx * rig.baseline
     return product / (MAX_DISPARITY_RATIO * rig.intrinsics.width), product / MIN_DISPARITY
-
-
-def _select_channels(names: frozenset[str], frame: Frame) -> Frame:
-    """The frame with these channels only."""
-    channels = {name: getattr(frame, name) for name in names}
-    return Frame(**channels, timestamp=frame.timestamp)

@@ -20,18 +20,23 @@ def tracker_specs(
     name. time_limit: seconds for an update of a tracker that isn't ours.
 
     A baseline that the installed cv2 doesn't have can be chosen, but runs nowhere. ValueError for an unknown
-    name lists the known ones; ValueError, TypeError or OSError say what is wrong with a tracker or its
-    parameters.
+    name lists the known ones, and for parameters of a tracker that isn't chosen those that are; ValueError,
+    TypeError or OSError say what is wrong with a tracker or its parameters.
     """
     known = [*registry.names(), *baselines.available()]
     words = known if chosen is None else chosen
     names = [split_name(word)[0] if is_foreign(word) else word for word in words]
     plain = [word for word in words if not is_foreign(word) and word not in baselines.NAMES]
-    unset = [name for name in settings if name not in names]
-    for name in [*plain, *unset]:
+    for name in plain:
         if name not in known:
             places = "module:Class, file.py:Class, cv2:Name, trax:command"
             raise ValueError(f"--trackers: expected some of {', '.join(known)}, {places}, got {name!r}")
+    for name in settings:
+        if name not in names:
+            running = ", ".join(names) or "none"
+            raise ValueError(
+                f"--set: expected a parameter of a tracker that runs ({running}), got one of {name!r}"
+            )
     for word, name in zip(words, names, strict=True):
         if name in (*baselines.NAMES, *registry.names()) and word != name:
             raise ValueError(f"--trackers: expected another name than {name!r}, which is taken, in {word!r}")

@@ -17,6 +17,7 @@ from tricue.evaluation.evaluate import RUNS, Options, evaluate
 from tricue.evaluation.foreign import process
 from tricue.evaluation.foreign.spec import foreign_spec, split_name
 from tricue.evaluation.record import Record
+from tricue.evaluation.report.page import write_report
 from tricue.evaluation.tasks import RESTARTS, Task, perform
 from tricue.evaluation.trackers import tracker_specs
 from tricue.track.base.track import Status
@@ -163,6 +164,18 @@ def test_the_others_finish(folders, tmp_path, jobs, capfd):
         assert rows["odd_trackers.py:Still", sequence].auc == rows["still-box", sequence].auc
         assert rows["odd_trackers.py:Crashes", sequence].trouble.startswith(f"frame {AT}: ")
     assert capfd.readouterr() == ("", "")
+
+
+def test_scores_of_any_range_have_their_rows(folders, tmp_path):
+    """It proves that scores above 1 and below 0 leave all trackers their rows, and have an AUROC and F."""
+    options = Options(("still-box", f"{ODD}:Logits"), restarts=False, time_limit=PATIENT)
+    evaluation = evaluate(folders / "there", tmp_path, options)
+    rows = {each.row.tracker: each for each in evaluation.results}
+    assert rows["odd_trackers.py:Logits"].scored.scores[1:].tolist() == list(range(2, -17, -1))
+    assert rows["odd_trackers.py:Logits"].row.auc == rows["still-box"].row.auc
+    assert rows["odd_trackers.py:Logits"].row.auroc > 0.9 > rows["still-box"].row.auroc
+    assert rows["odd_trackers.py:Logits"].row.f_score > rows["still-box"].row.f_score
+    assert "odd_trackers.py:Logits" in write_report(evaluation, tmp_path, {}).read_text(encoding="utf-8")
 
 
 def test_runs_are_repeated_for_other_code(folders, tmp_path):

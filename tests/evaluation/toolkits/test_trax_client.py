@@ -84,6 +84,22 @@ def test_a_program_that_ends(there, tmp_path):
     assert np.isnan(record.run.boxes[3:]).all()
 
 
+@pytest.mark.parametrize(("confidence", "score"), [("nan", 1), ("-inf", 1), ("high", 1), ("-7.5", -7.5)])
+def test_confidences_are_any_finite_numbers(there, tmp_path, confidence, score):
+    """It proves that a confidence which is no finite number counts as none, and ends no run."""
+    script = tmp_path / "says.py"
+    script.write_text(
+        "import trax\n"
+        "server = trax.Server(['rectangle'], ['path'], ['color'], 'says')\n"
+        "while (request := server.wait()).type != trax.TraxStatus.QUIT:\n"
+        "    if request.objects: region = request.objects[0][0]\n"
+        f"    server.status([(region, {{'confidence': '{confidence}'}})])\n"
+    )
+    record = perform(Task(foreign_spec(f"trax:{sys.executable} {script}", {}, LIMIT), there))
+    assert record.error == ""
+    np.testing.assert_array_equal(record.run.scores, score)
+
+
 def test_words_of_a_command():
     """It proves that they are read as a shell reads them; none is refused."""
     assert command_words("a 'b c' --d=1,2") == ["a", "b c", "--d=1,2"]

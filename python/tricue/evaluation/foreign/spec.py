@@ -10,7 +10,8 @@ from typing import Any
 
 from tricue.evaluation.foreign.host import CV2, TRAX, Description
 from tricue.evaluation.foreign.process import RemoteTracker, WorkerError, WorkerProcess, no_answer
-from tricue.evaluation.tracker_spec import Make, SafeTracker, SequenceInfo, TrackerSpec
+from tricue.evaluation.safe_tracker import SafeTracker
+from tricue.evaluation.tracker_spec import Make, SequenceInfo, TrackerSpec
 from tricue.track.base import registry
 from tricue.track.base.traits import Traits
 

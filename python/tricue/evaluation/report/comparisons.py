@@ -9,11 +9,11 @@ from tricue.evaluation.attributes.definitions import BY_KEY
 from tricue.evaluation.attributes.results import sequences_with, tracker_lines
 from tricue.evaluation.differences import comparison, protocols_of
 from tricue.evaluation.evaluate import Evaluation
+from tricue.evaluation.markdown import telling
 from tricue.evaluation.report.markup import Html, joined, number, scrolled, tag
 from tricue.evaluation.report.plot_styles import LineStyle, swatch
 from tricue.evaluation.report.plots import by_number
 from tricue.evaluation.significance import Comparison, Pair
-from tricue.evaluation.tables import telling
 
 
 def interval(low: float, high: float, digits: int = 2) -> Html | None:

@@ -26,8 +26,10 @@ except ImportError as error:
 class Got10kTracker(_Got10kTracker):  # type: ignore[misc]  # got10k has no types
     """Wraps a tracker with ``init`` and ``update`` as in ``got10k.trackers.Tracker``.
 
-    Boxes are (4,) arrays x, y, width, height in the data set's convention: a first pixel of 0 or 1 makes no
-    difference to a tracker.
+    Boxes are (4,) arrays x, y, width, height, passed on as they are, while tricue counts pixels from 0. OTB's
+    files count from 1; got10k neither shifts them nor tells a tracker which experiment runs. So in
+    ``ExperimentOTB`` a tracker starts one pixel right of and below the true box, and its boxes are compared
+    with the truth in that convention.
     """
 
     def __init__(self, tracker: Tracker, name: str) -> None:

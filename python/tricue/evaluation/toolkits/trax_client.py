@@ -89,16 +89,17 @@ class TraxProgram:
         return images
 
     def _track(self, state: Any, last: Box) -> Track:
-        """The track of an answer: a region that is empty, or no region, says that the target is lost."""
+        """The track of an answer: a region that is empty, or no region, says that the target is lost.
+
+        Its score is the confidence; where that is no finite number, 1 with a box and 0 without.
+        """
         region, properties = state
         box = bounding_box(region)
         found = all(map(math.isfinite, box)) and box.width > 0 and box.height > 0
         self._box = box if found else last
-        default = "1" if found else "0"
-        try:
-            score = float(properties.get("confidence", default))
-        except ValueError:
-            score = float(default)
+        score = _number(properties.get("confidence"))
+        if not math.isfinite(score):
+            score = float(found)
         return Track(self._box, score, Status.TRACKED if found else Status.LOST)
 
 
@@ -204,6 +205,14 @@ def command_words(command: str) -> list[str]:
     if not words:
         raise ValueError("trax: expected a command after it, got none")
     return words
+
+
+def _number(text: str | None) -> float:
+    """The number that a property says, NaN without one."""
+    try:
+        return math.nan if text is None else float(text)
+    except ValueError:
+        return math.nan
 
 
 def _is_small(path: Path) -> bool:

@@ -35,9 +35,9 @@ def adapt_class(cls: Any) -> Any:
     A third party needs only ``init(image, box)`` and ``update(image)``, in a class or in what a function
     makes. image: BGR (H, W, 3) uint8, on which a frame's other parts are attributes such as ``timestamp``;
     a ``tricue.Frame`` where ``init`` is annotated so. box: (x, y, width, height). ``update`` returns a
-    ``Track``, a box, (found, box) as cv2's trackers, (box, score), or None for a lost target. It is assumed
-    to need color and an initial box, and to draw random numbers if it takes a ``seed``. TypeError if a
-    method is missing.
+    ``Track``, a box, (found, box) as cv2's trackers, (box, score), or None for a lost target. score: any
+    finite number, the higher the surer. It is assumed to need color and an initial box, and to draw random
+    numbers if it takes a ``seed``. TypeError if a method is missing.
     """
     if traits_of(cls) is not ADAPTED_TRAITS:
         return cls

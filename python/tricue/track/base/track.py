@@ -30,7 +30,7 @@ class Track:
     """Where the target is in one frame.
 
     box: pixels; it may extend beyond the image.
-    score: confidence in [0, 1].
+    score: confidence, of our trackers in [0, 1].
     position: (3,) float64, meters in the camera frame (x right, y down, z forward), or None without depth.
     covariance: (3, 3) of the position, square meters, or None.
     depth: meters along the camera's axis; None until it was measured, and where meters are a guess. It needs
