@@ -91,7 +91,7 @@ def depth(near: float) -> NDArray[np.float32]:
 def pictures(output: VideoOutput, steps: list[Step], monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     """What is written for the steps, before it is encoded."""
     written: list[Any] = []
-    monkeypatch.setattr(output._writer, "write", written.append)
+    monkeypatch.setattr(output._writer, "write", lambda picture, _: written.append(picture))
     for step in steps:
         output.write(step)
     return written
@@ -129,6 +129,24 @@ def test_shades_change_slowly(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
     assert 0 < np.abs(second - first).max() < 40
     assert black.tolist() == [0, 0, 0]
     assert np.abs(last - first).max() < 40
+
+
+def test_the_overlay_has_the_frames_times(tmp_path: Path) -> None:
+    """It proves that frames with times are shown at these, and those without at the rate."""
+    av = pytest.importorskip("av")
+    for name, seconds, expected in (
+        ("timed", [7.0, 7.1, 9.0, 9.25], [0, 0.1, 2, 2.25]),
+        ("plain", [None] * 4, [0, 0.2, 0.4, 0.6]),
+    ):
+        steps = [
+            FLAT._replace(number=index, frame=Frame(IMAGE, timestamp=time))
+            for index, time in enumerate(seconds, 5)
+        ]
+        with VideoOutput(tmp_path / f"{name}.mp4", 5.0) as output:
+            for step in steps:
+                output.write(step)
+        with av.open(str(tmp_path / f"{name}.mp4")) as file:
+            assert [frame.time for frame in file.decode(video=0)] == pytest.approx(expected)
 
 
 def _interrupted(folder: Path, count: int) -> None:

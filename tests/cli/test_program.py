@@ -363,10 +363,10 @@ def test_a_video_that_is_cut_off_warns(tmp_path: Path, capsys: pytest.CaptureFix
     for picture in noise:
         writer.write(picture)
     writer.release()
-    for share, warnings in ((1.0, 0), (0.5, 1)):
+    for share, told in ((1.0, 0), (0.5, 1)):
         (tmp_path / "v.avi").write_bytes(whole.read_bytes()[: int(share * whole.stat().st_size)])
         assert main(["track", str(tmp_path / "v.avi"), "--box", "20,16,16,16"]) == 0
-        assert capsys.readouterr().err.count("of its 40 frames can be decoded; is it cut off?") == warnings
+        assert capsys.readouterr().err.count("of its 40 frames can be decoded; is it cut off?") == told
 
 
 def test_paths_need_not_be_utf_8(tmp_path: Path) -> None:

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+import os
 import signal
 import subprocess
 import sys
@@ -9,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue.draw.video import OverlayWriter, count_frames
-from tricue.draw.video_encoders import OpenCVEncoder, PyAVEncoder
+from tricue.draw.video_encoders import MAX_STILL, OpenCVEncoder, PyAVEncoder
 
 KILLED = """
 import os, signal, sys
@@ -126,6 +127,133 @@ def test_a_full_disk_names_the_file(tmp_path: Path) -> None:
     encoder = PyAVEncoder(path, 5.0, (64, 48))
     with pytest.raises(OSError, match=r"No space left on device: .*o\.mp4"):
         _write_noise(encoder, 100)
+
+
+TIMES = [5.0, 5.04, 5.08, 6.5, 6.54, 9.0]
+"""Of a recording that pauses twice, seconds."""
+
+
+def _write_timed(writer: OverlayWriter, times: list[float]) -> list[float]:
+    """Pictures that brighten by 40 each; how far the times in the file are from the first."""
+    with writer:
+        for index, time in enumerate(times):
+            writer.write(np.full((48, 64, 3), 40 * index, np.uint8), time)
+    capture, found = cv2.VideoCapture(str(writer.path)), []
+    while capture.grab():
+        found.append(capture.get(cv2.CAP_PROP_POS_MSEC) / 1000)
+    return found
+
+
+@pytest.mark.parametrize("name", ["o.mp4", "o.mkv", "o.webm"])
+def test_frames_have_their_own_times(tmp_path: Path, name: str) -> None:
+    """It proves that a video of a variable rate plays as long as the frames took, from 0 on."""
+    pytest.importorskip("av")
+    found = _write_timed(OverlayWriter(tmp_path / name, 25.0), TIMES)
+    assert found == pytest.approx([time - TIMES[0] for time in TIMES], abs=0.0006)
+
+
+def test_times_that_do_not_rise_are_written(tmp_path: Path) -> None:
+    """It proves that a clock that stands or goes back loses no frame."""
+    pytest.importorskip("av")
+    writer = OverlayWriter(tmp_path / "o.mp4", 25.0)
+    found = _write_timed(writer, [1.0, 1.0, 0.5, 1.2])
+    assert found == pytest.approx([0, 0, 0, 0.2], abs=0.001)
+    assert count_frames(writer.path) == 4
+
+
+@pytest.mark.parametrize("name", ["o.avi", "o.webm"])
+def test_opencv_repeats_frames_until_the_next(
+    tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It proves that a file of a constant rate plays as long, each frame at its time, none left out."""
+    monkeypatch.setattr(PyAVEncoder, "available", staticmethod(lambda: False))
+    writer = OverlayWriter(tmp_path / name, 25.0)
+    assert len(_write_timed(writer, TIMES)) == count_frames(writer.path) == 101
+    levels = [round(float(picture.mean()) / 40) for picture in decoded(writer.path)]
+    begins = [levels.index(level) / 25 for level in range(len(TIMES))]
+    assert begins == pytest.approx([time - TIMES[0] for time in TIMES], abs=0.021)
+    fast = OverlayWriter(tmp_path / f"fast-{name}", 25.0)
+    assert len(_write_timed(fast, [0.0, 0.01, 0.02, 0.03])) == 4
+
+
+def test_opencv_shortens_a_long_pause(tmp_path: Path) -> None:
+    """It proves that a gap of hours in a recording's clock doesn't fill the disk."""
+    encoder = OpenCVEncoder(tmp_path / "o.avi", 5.0, (64, 48))
+    for time in (0.0, 1e5, 1e5 + 1):
+        encoder.write(np.zeros((48, 64, 3), np.uint8), time)
+    encoder.close()
+    assert encoder.written == 1 + int(MAX_STILL * 5) + 5 + 1
+
+
+def test_a_key_frame_a_second(tmp_path: Path) -> None:
+    """It proves that at a rate far below the stated one there is a key frame at least every second, too."""
+    av = pytest.importorskip("av")
+    writer = OverlayWriter(tmp_path / "o.mp4", 100.0)
+    _write_timed(writer, [index / 2 for index in range(6)])
+    with av.open(str(writer.path)) as file:
+        keys = [frame.time for frame in file.decode(video=0) if frame.key_frame]
+    assert keys == pytest.approx([0, 1, 2])
+
+
+@pytest.mark.parametrize("name", ["o.mp4", "o.mkv", "o.webm"])
+def test_a_video_begins_at_0(tmp_path: Path, name: str) -> None:
+    """It proves that frames are shown at number / fps, as tables have them, also in the fragments of an .mp4
+    that is cut off: B-frames would delay the first.
+    """
+    av = pytest.importorskip("av")
+    encoder = PyAVEncoder(tmp_path / name, 10.0, (64, 48))
+    _write_noise(encoder, 30)
+    (tmp_path / "cut.mp4").write_bytes((tmp_path / name).read_bytes())
+    encoder.close()
+    for path in [tmp_path / name, tmp_path / "cut.mp4"][: 2 if name == "o.mp4" else 1]:
+        with av.open(str(path)) as file:
+            times = [frame.time for frame in file.decode(video=0)]
+        assert len(times) > 5
+        assert times == pytest.approx([index / 10 for index in range(len(times))], abs=0.0006)
+
+
+def test_nothing_else_is_removed(tmp_path: Path) -> None:
+    """It proves that an .mp4 is finished by no file of another's name, nor leaves any, and keeps its mode."""
+    pytest.importorskip("av")
+    (tmp_path / "o.mp4.part").write_bytes(b"another's")
+    (tmp_path / "link.mp4").symlink_to("o.mp4")
+    (tmp_path / "o.mp4").touch(0o640)
+    _write_timed(OverlayWriter(tmp_path / "link.mp4", 25.0), TIMES)
+    assert (tmp_path / "o.mp4.part").read_bytes() == b"another's"
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["link.mp4", "o.mp4", "o.mp4.part"]
+    assert (tmp_path / "link.mp4").is_symlink()
+    assert (tmp_path / "o.mp4").stat().st_mode & 0o777 == 0o640
+
+
+@pytest.mark.parametrize("name", ["2024-01-01T12:30:15.mp4", "a:b.avi", "file:x.webm", f"{'n' * 251}.mp4"])
+def test_any_name_can_be_written(tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that a colon in a relative name is no protocol, and that a name may be as long as any."""
+    if name.endswith(".mp4"):
+        pytest.importorskip("av")
+    monkeypatch.chdir(tmp_path)
+    with OverlayWriter(name, 25.0) as writer:
+        writer.write(np.zeros((48, 64, 3), np.uint8))
+    assert (writer.about, [path.name for path in tmp_path.iterdir()]) == (name, [name])
+    assert count_frames(writer.path) == 1
+
+
+@pytest.mark.parametrize("suffix", [".mp4", ".avi"])
+def test_a_path_that_is_not_utf_8_is_refused(tmp_path: Path, suffix: str) -> None:
+    """It proves that it is an error before anything is written; OpenCV would die of it."""
+    name = os.fsdecode(b"o\xff") + suffix
+    with pytest.raises(ValueError, match=r"o\\udcff.*: expected a video's path in UTF-8; choose another"):
+        OverlayWriter(tmp_path / name, 25.0)
+    assert not list(tmp_path.iterdir())
+
+
+def test_an_unused_writer_touches_nothing(tmp_path: Path, encoder: str) -> None:
+    """It proves that a writer that got no picture leaves what is there."""
+    (tmp_path / "o.mp4").write_bytes(b"before")
+    (tmp_path / "o.mp4.webm").write_bytes(b"before")
+    with OverlayWriter(tmp_path / "o.mp4", 25.0):
+        pass
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["o.mp4", "o.mp4.webm"]
+    assert {path.read_bytes() for path in tmp_path.iterdir()} == {b"before"}
 
 
 def test_an_unused_writer_leaves_nothing(tmp_path: Path) -> None:

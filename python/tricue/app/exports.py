@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from tricue.app.frames import Recording
 from tricue.app.project import Project, Target
 from tricue.camera.frame import Frame
-from tricue.data.streams import Images
+from tricue.data.streams import image_names
 from tricue.draw.canvas import STATUS_COLORS, Image, choose_scale, draw_box, enlarge, put_text, to_bgr
 from tricue.draw.depth_pictures import depth_picture
 from tricue.draw.targets import target_color
@@ -92,8 +92,10 @@ def as_coco(tracked: Tracked) -> str:
     source, size = tracked.recording.source, tracked.recording.size
     targets = tracked.project.targets
     found = CocoTracks(source.name, source.fps, {target.id: target.name for target in targets})
-    for at, name in enumerate(_image_names(tracked.recording)):
-        found.add(at, size, {each.id: each.tracks[at] for each in targets if at in each.tracks}, name)
+    names = image_names(source.channels)
+    for at in range(tracked.recording.length):
+        tracks = {each.id: each.tracks[at] for each in targets if at in each.tracks}
+        found.add(at, size, tracks, names[at] if names else "")
     return json.dumps(found.content(), allow_nan=False, ensure_ascii=False)
 
 
@@ -119,7 +121,7 @@ def write_video(path: Path, tracked: Tracked, progress: Callable[[int], bool], t
             here = [(each, each.tracks[number]) for each in tracked.project.targets if number in each.tracks]
             for target, track in here if trail else ():
                 trails[target.id].add(recording.seconds(number), track)
-            writer.write(draw_targets(frame, here, trails))
+            writer.write(draw_targets(frame, here, trails), recording.seconds(number))
             if not progress(number + 1):
                 break
     return writer.about
@@ -165,11 +167,3 @@ def picture(frame: Frame, channel: str | None = None, span: tuple[float, float] 
 def _rows(tracked: Tracked) -> Iterator[list[Any]]:
     for at, target, track in tracked.tracks():
         yield row(at, tracked.recording.seconds(at), track, target.id, tracked.form)
-
-
-def _image_names(recording: Recording) -> list[str]:
-    """The images' names in a folder; of a video numbers, as tools that take it apart give them."""
-    stream = next(iter(recording.source.channels.values()))
-    if isinstance(stream, Images):
-        return [path.name for path in stream.paths]
-    return [f"{number + 1:06d}.jpg" for number in range(recording.length)]

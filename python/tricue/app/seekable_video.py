@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Any frame of a video file, exactly and at once: it is sought by the key frames."""
 
+import os
 from collections import OrderedDict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -14,7 +15,7 @@ import numpy as np
 from av.video.reformatter import VideoReformatter
 from numpy.typing import NDArray
 
-from tricue.data.streams import Image, plausible_fps
+from tricue.data.streams import FIRST_FRAMES, Image, checked_fps, plausible_fps
 
 KEPT_BYTES = 128 << 20  # of decoded frames, in YUV: what stepping back and tracking backwards fall back on
 MIN_KEPT = 4  # frames, however large
@@ -68,6 +69,7 @@ def read_index(path: Path) -> VideoIndex:
     start = packets[0][0] or 0  # frames shown before the first key frame depend on one that is missing
     times = np.array(sorted(pts for pts in shown if pts >= start), np.int64)
     keys = np.array(sorted(pts for pts, is_key in packets if is_key and pts is not None), np.int64)
+    fps = checked_fps(fps, [float(time * unit) for time in times[:FIRST_FRAMES].tolist()])
     return VideoIndex(times, np.searchsorted(times, keys), unit, fps, True)
 
 
@@ -183,7 +185,7 @@ def _with_first(first: tuple[int, Any], rest: Iterator[tuple[int, Any]]) -> Iter
 def _opened(path: Path) -> Any:
     """The container of a video file, opened by PyAV; OSError or ValueError names the file."""
     try:
-        container = av.open(str(path))
+        container = av.open(os.path.join(os.curdir, path))  # noqa: PTH118 (FFmpeg takes a: for a protocol)
     except av.error.FileNotFoundError:
         raise FileNotFoundError(f"{path}: there is no such file") from None
     except (av.error.FFmpegError, UnicodeError):

@@ -10,7 +10,7 @@ from typing import Any
 from tricue.camera import toml
 from tricue.cli.arguments import box
 from tricue.cli.calibrations import find_calibration
-from tricue.cli.track_preparation import _check_not_read
+from tricue.cli.output_files import check_not_read
 from tricue.data.color_samples import read_color_samples
 from tricue.data.input_files import input_files
 from tricue.data.open_source import open_source
@@ -87,7 +87,7 @@ def _skin_threshold(options: argparse.Namespace, _params: Any) -> dict[str, Any]
     from tricue.papers.roc import skin_roc
 
     pairs = find_masked_images(options.place)
-    _check_not_read([options.output], chain.from_iterable(pairs))
+    check_not_read([options.output], chain.from_iterable(pairs))
     images, masks = tee(pair.read() for pair in pairs)
     try:
         curve = skin_roc((image for image, _ in images), (mask for _, mask in masks))
@@ -106,7 +106,7 @@ def _skin_threshold(options: argparse.Namespace, _params: Any) -> dict[str, Any]
 def _head_colors(options: argparse.Namespace, params: Any) -> dict[str, Any]:
     from tricue.track.stereo_head.color_samples import head_colors
 
-    _check_not_read([options.output], chain(_sample_files(options.skin), _sample_files(options.hair)))
+    check_not_read([options.output], chain(_sample_files(options.skin), _sample_files(options.hair)))
     weight = params.hair if options.hair_weight is None else options.hair_weight
     skin, hair = read_color_samples(options.skin), read_color_samples(options.hair)
     colors = head_colors(skin, hair, weight, params)
@@ -125,8 +125,9 @@ def _stereo_noise(options: argparse.Namespace, params: Any) -> dict[str, Any]:
     from tricue.track.stereo_head.static_head import measure_static_head
 
     source = open_source(options.input, right=options.right)
-    given = [Path(place) for place in (options.input, options.right, options.calibration) if place]
-    _check_not_read([options.output], chain(given, input_files(source, given[0])))
+    places = [Path(place) for place in (options.input, options.right) if place]
+    given = [*places, options.calibration] if options.calibration else places
+    check_not_read([options.output], chain(given, input_files(source, *places)))
     found = find_calibration(options, source)
     head = options.box or source.first_box
     if head is None:

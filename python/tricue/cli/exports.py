@@ -2,6 +2,7 @@
 """Files of tracks in the formats of the field: MOTChallenge's text, and COCO's JSON."""
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 from tricue.cli.outputs import Step
@@ -23,16 +24,20 @@ class MotOutput(TextFile):
 
 
 class CocoOutput(TextFile):
-    """COCO's JSON, see :class:`tricue.export.coco.CocoTracks`. video: its name. fps: frames per second."""
+    """COCO's JSON, see :class:`tricue.export.coco.CocoTracks`.
 
-    def __init__(self, path: Path, video: str, fps: float) -> None:
+    video: its name. fps: frames per second. names: the image files', by the frames' numbers; none of a video.
+    """
+
+    def __init__(self, path: Path, video: str, fps: float, names: Sequence[str] = ()) -> None:
         super().__init__(path)
-        self._tracks = CocoTracks(video, fps)
+        self._tracks, self._names = CocoTracks(video, fps), names
 
     def write(self, step: Step) -> None:
         image = step.frame.depth if step.frame.color is None else step.frame.color
         assert image is not None  # a frame has one of the two
-        self._tracks.add(step.number, (image.shape[1], image.shape[0]), step.targets)
+        name = self._names[step.number] if self._names else ""
+        self._tracks.add(step.number, (image.shape[1], image.shape[0]), step.targets, name)
 
     def finish(self) -> None:
         self.put(json.dumps(self._tracks.content(), allow_nan=False) + "\n")

@@ -17,6 +17,7 @@ from tricue.data.open_source import Source, open_source
 from tricue.data.summary import (
     Summary,
     compute_duration,
+    compute_rate,
     summarize_calibration,
     summarize_channel,
     summarize_depth,
@@ -88,7 +89,7 @@ def _facts(source: Source, options: argparse.Namespace) -> Summary:
         "name": source.name,
         "format": source.format,
         "frames": frames,
-        "fps": source.fps,
+        "fps": compute_rate(source, frames),
         "fps_known": source.knows_times,
         "seconds": compute_duration(source, frames),
         "channels": channels,

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Outputs of a run, written frame by frame: CSV, JSON, overlay video. A file is complete once closed."""
+"""Outputs of a run, written frame by frame: CSV, JSON, overlay video. A file is complete once closed.
+
+To make one empties its file: only a run that has started does.
+"""
 
 import csv
 import io
@@ -199,15 +202,18 @@ class VideoOutput:
             strip = self._strips.setdefault(target, StatusStrip(self._length))
             strip.add(track.status)
             strip.draw(picture, line)
-        self._writer.write(picture)
+        self._writer.write(picture, self._seconds(step))
+
+    def _seconds(self, step: Step) -> float:
+        """The time of the step's frame."""
+        return step.number / self._fps if step.frame.timestamp is None else step.frame.timestamp
 
     def _draw_trails(self, picture: Image, step: Step, seconds: float) -> None:
         image = step.frame.depth if step.frame.color is None else step.frame.color
         assert image is not None  # a frame has one of the two
-        time = step.number / self._fps if step.frame.timestamp is None else step.frame.timestamp
         for target, track in step.targets.items():
             trail = self._trails.setdefault(target, Trail(seconds))
-            trail.add(time, track)
+            trail.add(self._seconds(step), track)
             trail.draw(picture, choose_scale(image.shape[0]), target_color(target))
 
     def _picture(self, step: Step, note: str) -> Image:

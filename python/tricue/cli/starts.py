@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """How trackers start: on a box, on a face, on a sequence's first true box, or by its own detection."""
 
+import re
 from argparse import Namespace
 
 from tricue.camera.box import Box
@@ -21,6 +22,7 @@ from tricue.track.base.track import Tracker
 from tricue.track.head_detection.start_box import find_head_or_face
 
 DEFAULT_TRACKER = "fused"  # if no tracker is chosen
+_PARAMETER, _WORD = re.compile(r"\b(\w+)=\(('\w+',? ?(?:'\w+',? ?)*)\)"), re.compile(r"\w+")
 BOX_HINT, FACE_HINT = "give --box x,y,width,height", "--detect face"
 
 
@@ -78,6 +80,11 @@ def start_hint(error: ValueError, source: Source, tracker: Tracker) -> str:
             "color": f"; --tracker {depth_tracker()} tracks in depth",
         }[error.channel]
     return ""
+
+
+def in_options(text: str) -> str:
+    """A tracker's error as the command line has its parameters: --set cues=flow for cues=('flow',)."""
+    return _PARAMETER.sub(lambda found: f"--set {found[1]}={','.join(_WORD.findall(found[2]))}", text)
 
 
 def _face(frame: Frame, k: Kernels, rig: StereoRig | None, camera: Intrinsics | None) -> Box | None:

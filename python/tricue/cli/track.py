@@ -18,11 +18,12 @@ from tricue.cli.lost_ranges import LostRanges
 from tricue.cli.outputs import STANDARD_OUTPUT, CsvOutput, JsonLines, JsonOutput, Output, Step, VideoOutput
 from tricue.cli.progress import Progress
 from tricue.cli.signals import catch_signals
-from tricue.cli.starts import start_hint
+from tricue.cli.starts import in_options, start_hint
 from tricue.cli.steps import RunClock, steps, steps_of_targets
 from tricue.cli.track_options import EXAMPLES, add_options
 from tricue.cli.track_preparation import TrackRun, prepare
 from tricue.cli.track_report import not_started, plot, report, require_all_started
+from tricue.data.streams import image_names
 from tricue.export.table import TableForm
 from tricue.track.base.track import Track, Tracker
 
@@ -35,8 +36,8 @@ def run(options: argparse.Namespace) -> int:
     clock = RunClock()
     tracks: dict[int, dict[int, Track]] = {}
     lost: dict[int, LostRanges] = {}
+    outputs: list[Output] = []
     with ExitStack() as files:
-        outputs = [files.enter_context(output) for output in _outputs(options, run)]
         stop = files.enter_context(catch_signals())
         progress = files.enter_context(Progress(run.frames))
         frames = takewhile(lambda _: not stop(), islice(run.source, run.first, run.end))
@@ -46,6 +47,8 @@ def run(options: argparse.Namespace) -> int:
             targets = files.enter_context(run.targets)
             found = steps_of_targets(targets, frames, run.boxes, clock, run.first)
         for step in map(run.known, _with_start_hint(found, run, clock)):
+            if not tracks:  # only now: a run that never starts leaves the files of an earlier one alone
+                outputs.extend(map(files.enter_context, _outputs(options, run)))
             for output in outputs:
                 output.write(step)
             for target, track in step.targets.items():
@@ -71,7 +74,8 @@ def _with_start_hint(found: Iterator[Step], run: TrackRun, clock: RunClock) -> I
         yield from found
     except ValueError as error:
         if clock.decoded == 1 and not any(clock.statuses.values()):
-            raise ValueError(f"{error}{start_hint(error, run.source, run.tracker)}") from None
+            hint = start_hint(error, run.source, run.tracker)
+            raise ValueError(f"{in_options(str(error))}{hint}") from None
         raise
 
 
@@ -90,7 +94,8 @@ def _outputs(options: argparse.Namespace, run: TrackRun) -> Iterator[Output]:
     if options.mot:
         yield MotOutput(options.mot, positions=not run.assumed)
     if options.coco:
-        yield CocoOutput(options.coco, Path(run.source.name).name, run.source.fps)
+        names = image_names(run.source.channels)
+        yield CocoOutput(options.coco, Path(run.source.name).name, run.source.fps, names)
 
 
 def _results(

@@ -3,7 +3,7 @@
 
 import argparse
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -12,13 +12,15 @@ from tricue.camera.box import Box
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.cli.arguments import StartBox
 from tricue.cli.calibrations import find_calibration
-from tricue.cli.outputs import Step
+from tricue.cli.output_files import check_different, check_not_read
+from tricue.cli.outputs import STANDARD_OUTPUT, Step
 from tricue.cli.source_options import opening
 from tricue.cli.starts import choose_start, default_tracker
 from tricue.cli.steps import Start
 from tricue.data.input_files import input_files
 from tricue.data.open_source import Source, open_source
-from tricue.draw.video import written_path
+from tricue.draw.video import check_name, written_path
+from tricue.draw.writable import check_writable
 from tricue.track.base.settings import make_tracker, read_settings
 from tricue.track.base.track import Tracker
 from tricue.track.multi.tracker import MultiTracker
@@ -107,29 +109,29 @@ def _time_note(source: Source) -> str:
 
 
 def _check_outputs(options: argparse.Namespace, source: Source) -> None:
-    """ValueError for an output that would be written over what is read, or over another output."""
+    """ValueError for an output that would be written over what is read, or over another output; OSError for
+    one that can't be written. All before the first frame, and without touching a file.
+    """
+    _check_standard_output(options)
+    if options.output:
+        check_name(options.output)
     overlay = options.output and written_path(options.output)
-    files = overlay, options.csv, options.json, options.mot, options.coco, options.plot
+    json = None if options.json == STANDARD_OUTPUT else options.json
+    files = overlay, options.csv, json, options.mot, options.coco, options.plot
     outputs = [path for path in files if path]
-    place = Path(options.input)
-    given = place, options.right and Path(options.right), options.depth, options.calibration, options.params
-    _check_not_read(outputs, chain(filter(None, given), input_files(source, place)))
-    _check_different(outputs)
+    places = [Path(place) for place in (options.input, options.right, options.depth) if place]
+    given = filter(None, (options.calibration, options.params))
+    check_not_read(outputs, chain(places, given, input_files(source, *places)))
+    check_different(outputs)
+    for path in outputs:
+        check_writable(path)
 
 
-def _check_not_read(outputs: Sequence[Path], read: Iterable[Path]) -> None:
-    there = [path for path in outputs if path.exists()]
-    inputs = {path.resolve() for path in read} if there else set()
-    for path in there:
-        if path.resolve() in inputs:
-            raise ValueError(f"{path}: expected a file to write to that isn't read")
-
-
-def _check_different(outputs: Sequence[Path]) -> None:
-    files = [path.resolve() for path in outputs if path.is_file() or not path.exists()]  # not /dev/null
-    for index, path in enumerate(files):
-        if path in files[:index]:
-            raise ValueError(f"{path}: expected a file for each output, got this one twice")
+def _check_standard_output(options: argparse.Namespace) -> None:
+    """ValueError for - as a file, except that of --json."""
+    for name in ("output", "csv", "mot", "coco"):
+        if getattr(options, name) == STANDARD_OUTPUT:
+            raise ValueError(f"--{name} -: expected a file; --json - alone writes to standard output")
 
 
 def _selected(options: argparse.Namespace) -> list[StartBox]:

@@ -20,6 +20,24 @@ _IMAGE_SUFFIXES = {
     ".webp",
 }
 _VIDEO_SUFFIXES = {".avi", ".m4v", ".mkv", ".mov", ".mp4", ".mpeg", ".mpg", ".ogv", ".webm", ".wmv"}
+_OTHER_VIDEO_SUFFIXES = {
+    ".3g2",
+    ".3gp",
+    ".asf",
+    ".f4v",
+    ".flv",
+    ".gif",
+    ".m2ts",
+    ".m2v",
+    ".mjpeg",
+    ".mjpg",
+    ".mts",
+    ".mxf",
+    ".ts",
+    ".vob",
+    ".y4m",
+}
+"""Of videos, too, but also of previews beside one, of other files, and of what cameras send by URL."""
 
 
 def listed_path(folder: Path, name: str, list_file: Path) -> Path:
@@ -46,9 +64,19 @@ def is_image(path: Path) -> bool:
 
 
 def is_video(path: Path) -> bool:
-    """Whether the file's suffix is that of a video."""
+    """Whether the file's suffix is that of a video, and of nothing else."""
     return path.suffix.lower() in _VIDEO_SUFFIXES
 
 
+def video_paths(folder: Path) -> list[Path]:
+    """The video files in a folder, in natural order; without any, those whose suffix only may be a video's.
+
+    Hidden files are left out.
+    """
+    paths = [path for path in folder.iterdir() if not path.name.startswith(".")]
+    others = (path for path in paths if path.suffix.lower() in _OTHER_VIDEO_SUFFIXES and path.is_file())
+    return natural_order(filter(is_video, paths)) or natural_order(others)
+
+
 def _natural(name: str) -> list[tuple[int, str]]:
-    return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"([0-9]+)", name)]
+    return [(int(part), "") if part.isdecimal() else (-1, part) for part in re.split(r"([0-9]+)", name)]

@@ -6,22 +6,27 @@ from pathlib import Path
 
 from tricue.data.box_table import find_box_table, find_video_box_table
 from tricue.data.joint import JointStream
+from tricue.data.layouts import layout_files
 from tricue.data.source import Source
 from tricue.data.streams import Images, Stream, Video
 from tricue.data.truth import truth_files
 
 
-def input_files(source: Source, place: Path) -> Iterator[Path]:
-    """Images, videos and recordings, the calibration, and the true boxes of the source that is at a place."""
+def input_files(source: Source, *places: Path) -> Iterator[Path]:
+    """Images, videos and recordings, the calibration, the true boxes, and the lists of the source that is at
+    these places.
+    """
     for stream in source.channels.values():
         yield from stream_files(stream)
     if source.calibration is not None:
         yield source.calibration
-    if place.is_dir():
-        yield from truth_files(place)
-    table = find_box_table(place) if place.is_dir() else find_video_box_table(place)
-    if table is not None:
-        yield table
+    for place in places:
+        if place.is_dir():
+            yield from truth_files(place)
+            yield from layout_files(place)
+        table = find_box_table(place) if place.is_dir() else find_video_box_table(place)
+        if table is not None:
+            yield table
 
 
 def stream_files(stream: Stream) -> Sequence[Path]:

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: MIT
 """The layouts of sequence folders: VOT's, TUM's, Princeton's, KITTI's, OTB's, plain images or one video."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
 from tricue.data import kitti, otb, princeton, tum, viewer_images, vot
 from tricue.data.box_table import find_box_table, read_box_table
 from tricue.data.depth_images import DepthReader, is_depth, require_scale
-from tricue.data.files import image_paths, is_video, natural_order
+from tricue.data.files import image_paths, video_paths
 from tricue.data.streams import Images, Stream, Video, timed_images
 from tricue.data.truth import (
     Truth,
@@ -65,6 +66,15 @@ def list_targets(folder: Path) -> tuple[str, ...]:
     """
     names = _list_all_targets(folder)
     return names if len(names) > 1 or kitti.find_labels(folder) else ()
+
+
+def layout_files(folder: Path) -> Iterator[Path]:
+    """The lists and labels by which a folder's layout is read, where it has them."""
+    names = (vot.SEQUENCE_FILE, *tum.LIST_FILES.values())
+    yield from (path for path in map(folder.joinpath, names) if path.is_file())
+    with suppress(ValueError):  # several sequences, none of which is read
+        if labels := kitti.find_labels(folder):
+            yield labels
 
 
 def depth_images(paths: Sequence[Path], scale: float | None) -> Images:
@@ -160,13 +170,8 @@ def _color_images(paths: Sequence[Path]) -> Images:
     return timed_images(images) if len(images) == len(paths) else Images(paths)
 
 
-def find_videos(folder: Path) -> list[Path]:
-    """The video files of a folder, in natural order."""
-    return natural_order(path for path in folder.iterdir() if is_video(path))
-
-
 def _video(folder: Path, optional: bool) -> Video | None:
-    found = find_videos(folder)
+    found = video_paths(folder)
     if len(found) == 1:
         return Video(found[0])
     if optional and not found:

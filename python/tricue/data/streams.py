@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Streams: the images of one channel in order, from a folder or a video file."""
 
+import importlib
+import importlib.util
 import os
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -14,7 +18,11 @@ from numpy.typing import NDArray
 
 DEFAULT_FPS = 30.0
 MAX_FPS = 1000.0
-MIN_DECODED_SHARE = 0.95  # of the frames that a container states, which it does by its duration at times
+MIN_DECODED_SHARE = 0.95  # of the frames or the duration that a container states
+MAX_MISCOUNTED = 4  # frames by which a duration may be too long: Flash's counts the delay of B-frames
+TIME_ROUNDING = 0.001  # seconds, the unit of times in Matroska and Flash
+DOUBTED_FPS = 60.0  # above it FFmpeg may tell the unit of a container's times, where that states no rate
+FIRST_FRAMES = 16  # by whose times such a rate is checked
 
 Image = NDArray[Any]
 ImageReader = Callable[[Path], Image]
@@ -93,12 +101,51 @@ class Images:
             yield index / self.fps if self.times is None else self.times[index], self.read(self.paths[index])
 
 
+def image_names(channels: Mapping[str, Stream]) -> Sequence[str]:
+    """The names of the image files in whose pixels boxes are: color, or else depth; none of a video."""
+    stream = channels.get("color") or channels.get("depth")
+    return [path.name for path in stream.paths] if isinstance(stream, Images) else ()
+
+
 def timed_images(images: TimedPaths, read: ImageReader = read_color) -> Images:
     """Images with times, and the frame rate that follows from the median step between these."""
     times = [time for time, _ in images]
     step = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
     rate = 1 / step if step > 1 / MAX_FPS else None
     return Images([path for _, path in images], rate, read, times)
+
+
+class FrameTimes:
+    """When the frames of a video are shown, from what its container says of each in turn.
+
+    Seconds from the first frame, always rising. At a constant rate they are number / fps, without the
+    container's rounding; so they are from where it doesn't tell any. fps: frames per second.
+    """
+
+    def __init__(self, fps: float) -> None:
+        self._fps = fps
+        self._begin = 0.0  # of the container's times
+        self._number, self.last = -1, -1.0  # of the frame before, and its seconds
+        self.longest = 0.0  # seconds that a frame was shown, up to the last
+        self.constant = True
+
+    def add(self, told: float) -> float:
+        """The next frame's time. told: what the container says, seconds."""
+        self._number += 1
+        if self._number == 0:
+            self._begin, self.last = told, 0.0
+            return 0.0
+        seconds = self._choose(told - self._begin, self._number / self._fps)
+        self.longest = max(self.longest, seconds - self.last)
+        self.last = seconds
+        return seconds
+
+    def _choose(self, told: float, nominal: float) -> float:
+        agrees = abs(told - nominal) <= TIME_ROUNDING and nominal > self.last
+        if agrees or (self.constant and not told > self.last):
+            return nominal
+        self.constant = False
+        return told if told > self.last else self.last + 1 / self._fps
 
 
 class Video:
@@ -110,9 +157,12 @@ class Video:
     length = None
 
     def __init__(self, path: Path, url: str = "") -> None:
-        self.path, self.place = path, url or str(path)
+        self.path, self.place, self._is_remote = path, url or str(path), bool(url)
+        self._name = url or os.path.join(os.curdir, path)  # noqa: PTH118 (FFmpeg takes a: for a protocol)
         capture = self._open()
         rate = plausible_fps(capture.get(cv2.CAP_PROP_FPS))
+        if rate is None or rate > DOUBTED_FPS:
+            rate = checked_fps(rate, [_told(capture) for _ in range(FIRST_FRAMES) if capture.read()[0]])
         self.fps, self.timed = rate or DEFAULT_FPS, rate is not None
         capture.release()
 
@@ -120,47 +170,65 @@ class Video:
     def size(self) -> tuple[int, int]:
         return _size(next(iter(self))[1])
 
+    @cached_property
+    def times(self) -> Sequence[float]:
+        """The seconds of all frames, by reading all of them; the first one's are 0."""
+        capture, times = self._open(), FrameTimes(self.fps)
+        try:
+            return [times.add(_told(capture)) for _ in iter(capture.grab, False)]
+        finally:
+            capture.release()
+
     def __iter__(self) -> Iterator[tuple[float, Image]]:
-        capture, index = self._open(), 0
+        capture, index, times = self._open(), 0, FrameTimes(self.fps)
         stated = capture.get(cv2.CAP_PROP_FRAME_COUNT)
+        rate = plausible_fps(capture.get(cv2.CAP_PROP_FPS)) or self.fps
         try:
             while (image := _read(capture)) is not None:
-                yield index / self.fps, image
+                yield times.add(_told(capture)), image
                 index += 1
         finally:
             capture.release()
         if index == 0:
             raise ValueError(f"{self.place}: expected a video, this file has no frame that can be decoded")
-        if index < MIN_DECODED_SHARE * stated:
-            warnings.warn(
-                f"{self.place}: only {index} of its {stated:.0f} frames can be decoded; is it cut off?",
-                stacklevel=2,
-            )
+        missing = _missing(index, times, stated, rate)
+        if missing and not self._is_read_whole(index, stated / rate):
+            warnings.warn(f"{self.place}: only {missing} can be decoded; is it cut off?", stacklevel=2)
 
     def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
         """Reads all frames between, for seeking in videos isn't reliable."""
-        capture, index = self._open(), 0
+        capture, index, times = self._open(), 0, FrameTimes(self.fps)
         try:
             for wanted in indices:
                 while index < wanted and capture.grab():
+                    times.add(_told(capture))
                     index += 1
                 image = _read(capture) if index == wanted else None
                 if image is None:
                     raise ValueError(f"{self.place}: expected {wanted + 1} frames, got {index}")
-                yield wanted / self.fps, image
+                yield times.add(_told(capture)), image
                 index += 1
         finally:
             capture.release()
 
     def count(self) -> int:
         """The number of frames, by reading all of them."""
-        capture, count = self._open(), 0
-        try:
-            while capture.grab():
-                count += 1
-        finally:
-            capture.release()
-        return count
+        return len(self.times)
+
+    def _is_read_whole(self, count: int, duration: float) -> bool:
+        """Whether these frames are all that a file has whose sound, or last frame, goes on to its end; False
+        without PyAV, which finds that out, and of a URL.
+        """
+        if self._is_remote or importlib.util.find_spec("av") is None:
+            return False
+        av: Any = importlib.import_module("av")
+        packets, end = 0, 0.0
+        with suppress(av.FFmpegError), av.open(self._name) as file:
+            for packet in file.demux():
+                packets += packet.size > 0 and packet.stream.type == "video"
+                if packet.pts is not None:
+                    end = max(end, float((packet.pts + (packet.duration or 0)) * packet.time_base))
+        return count >= MIN_DECODED_SHARE * packets and end >= MIN_DECODED_SHARE * duration
 
     def _open(self) -> cv2.VideoCapture:
         try:
@@ -169,10 +237,29 @@ class Video:
             raise ValueError(
                 f"{self.place!a}: OpenCV opens only videos whose path is UTF-8; rename it"
             ) from None
-        capture = cv2.VideoCapture(self.place)
+        capture = cv2.VideoCapture(self._name)
         if not capture.isOpened():
             raise ValueError(f"{self.place}: expected a video, this file can't be opened as one")
         return capture
+
+
+def _told(capture: cv2.VideoCapture) -> float:
+    """The seconds at which the container shows the frame that was read last; 0 where it doesn't say."""
+    return capture.get(cv2.CAP_PROP_POS_MSEC) / 1000
+
+
+def _missing(count: int, times: FrameTimes, stated: float, fps: float) -> str:
+    """How little of a video was decoded, "" where all of it was.
+
+    stated: the frames that its container states, or its duration in frames at ``fps``, which is no number of
+    frames where the rate isn't constant.
+    """
+    if count >= min(MIN_DECODED_SHARE * stated, stated - MAX_MISCOUNTED):
+        return ""
+    if times.constant:
+        return f"{count} of its {stated:.0f} frames"
+    decoded, duration = times.last + times.longest, stated / fps
+    return f"{decoded:.2f} of its {duration:.2f} seconds" if decoded < MIN_DECODED_SHARE * duration else ""
 
 
 def read_image(path: Path, flag: int) -> Image:
@@ -201,6 +288,13 @@ def _is_truncated(path: Path) -> bool:
 def plausible_fps(fps: float) -> float | None:
     """The frame rate that a file states; None where it is implausible: 0, NaN, thousands."""
     return fps if 0 < fps <= MAX_FPS else None
+
+
+def checked_fps(fps: float | None, times: Sequence[float]) -> float | None:
+    """The stated rate, or, where there is none or one far above it, that of the first frames' seconds."""
+    step = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
+    doubted = fps is None or (fps > DOUBTED_FPS and step > 1.5 / fps)
+    return plausible_fps(1 / step) if doubted and step > 0 else fps
 
 
 def _read(capture: cv2.VideoCapture) -> Image | None:

@@ -30,9 +30,18 @@ def count_frames(stream: Stream) -> int:
 def compute_duration(source: Source, frames: int) -> float:
     """Seconds from the first frame to the last."""
     clock = source.clock
-    if source.rate is None and isinstance(clock, Images) and clock.times:
+    if source.rate is None and isinstance(clock, Images | Video) and clock.times:
         return clock.times[-1] - clock.times[0]
     return max(0, frames - 1) / source.fps
+
+
+def compute_rate(source: Source, frames: int) -> float:
+    """Frames per second; of a video whose rate isn't constant the mean."""
+    seconds = compute_duration(source, frames)
+    if not isinstance(source.clock, Video) or not seconds:
+        return source.fps
+    mean = (frames - 1) / seconds
+    return source.fps if math.isclose(mean, source.fps, rel_tol=1e-6) else mean
 
 
 def summarize_channel(stream: Stream) -> Summary:

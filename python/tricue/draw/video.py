@@ -9,7 +9,8 @@ import cv2
 import numpy as np
 
 from tricue.draw.canvas import Image
-from tricue.draw.video_encoders import Encoder, OpenCVEncoder, PyAVEncoder
+from tricue.draw.video_encoders import Encoder, OpenCVEncoder, PyAVEncoder, count_packets, ffmpeg_name
+from tricue.draw.writable import check_writable
 
 SUFFIXES = (".mp4", ".mkv", ".webm", ".avi")
 
@@ -20,24 +21,25 @@ class OverlayWriter:
     .mp4 and .mkv are H.264, .webm is VP9, by PyAV (``tricue[video]``). Without PyAV they become
     .mp4.webm and .mkv.webm, VP8 by OpenCV, and ``note`` says so. .avi is MJPG, by OpenCV. ``path`` is the
     file written.
-    The file is complete when ``with`` is left, also by an exception; of a process that is killed it has what
-    was written until a second or so before. The first image sets the size; odd ones get one more row or
-    column. fps: frames per second. ValueError for another suffix, OSError where the file can't be written.
+    The file is made by the first image, so that one that was there stays without any. It is complete when
+    ``with`` is left, also by an exception; of a process that is killed it has what was written until a second
+    or so before. The first image sets the size; odd ones get one more row or column.
+    fps: frames per second of images without times, and of all that OpenCV writes, where it shows an image
+    for as long as its time asks by repeating it. ValueError for another suffix and for a path that isn't
+    UTF-8, OSError where the file can't be written.
     """
 
     def __init__(self, path: str | os.PathLike[str], fps: float) -> None:
         self.path, self.fps, self.note = Path(path), fps, ""
         self._encoder: Encoder | None = None
-        self._written = 0
+        check_name(self.path)
         suffix = self.path.suffix.lower()
-        if suffix not in SUFFIXES:
-            raise ValueError(f"{path}: expected a video file's name that ends in {', '.join(SUFFIXES)}")
         self._by_pyav = suffix != ".avi" and PyAVEncoder.available()
         self.path = written_path(self.path)
         if self.path.suffix.lower() != suffix:
             self.note = "VP8, as H.264 needs PyAV: pip install 'tricue[video]'"
+        check_writable(self.path)
         self.path.parent.mkdir(parents=True, exist_ok=True)
-        self.path.open("wb").close()  # OpenCV doesn't say why it can't write
 
     def __enter__(self) -> "OverlayWriter":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
         return self
@@ -52,35 +54,47 @@ class OverlayWriter:
         """The file's name, and the note if there is one."""
         return f"{self.path} ({self.note})" if self.note else str(self.path)
 
-    def write(self, picture: Image) -> None:
-        """Append a BGR image (H, W, 3), of the first one's size."""
+    def write(self, picture: Image, seconds: float | None = None) -> None:
+        """Append a BGR image (H, W, 3), of the first one's size.
+
+        seconds: its time, rising from any on, so that the video plays as long as the frames took; without it
+        an image is shown for a frame at ``fps``.
+        """
         height, width = picture.shape[:2]
         if height % 2 or width % 2:  # colors are stored for 2x2 pixels
             picture = np.pad(picture, ((0, height % 2), (0, width % 2), (0, 0)), mode="edge")
         if self._encoder is None:
-            kind = PyAVEncoder if self._by_pyav else OpenCVEncoder
-            self._encoder = kind(self.path, self.fps, (picture.shape[1], picture.shape[0]))
-        self._encoder.write(picture)
-        self._written += 1
+            self._encoder = self._open((picture.shape[1], picture.shape[0]))
+        self._encoder.write(picture, seconds)
 
     def close(self) -> None:
-        """Finish the file; without any image it is removed."""
+        """Finish the file; without any image there is none."""
         encoder, self._encoder = self._encoder, None
         if encoder is not None:
             encoder.close()
-            self._check_whole()
-        elif self.path.exists() and self.path.stat().st_size == 0:
-            self.path.unlink()
+            self._check_whole(encoder.written)
 
-    def _check_whole(self) -> None:
+    def _open(self, size: tuple[int, int]) -> Encoder:
+        self.path.open("wb").close()  # OpenCV doesn't say why it can't write
+        return (PyAVEncoder if self._by_pyav else OpenCVEncoder)(self.path, self.fps, size)
+
+    def _check_whole(self, written: int) -> None:
         """OSError where frames are missing from the file: OpenCV doesn't tell a full disk."""
         if not self.path.exists():
             raise OSError(f"{self.path}: was removed while it was written")
         found = count_frames(self.path)
-        if found < self._written:
-            raise OSError(
-                f"{self.path}: only {found} of {self._written} frames were written; is the disk full?"
-            )
+        if found < written:
+            raise OSError(f"{self.path}: only {found} of {written} frames were written; is the disk full?")
+
+
+def check_name(path: Path) -> None:
+    """ValueError for another suffix than SUFFIXES, and for a path that isn't UTF-8, of which OpenCV dies."""
+    if path.suffix.lower() not in SUFFIXES:
+        raise ValueError(f"{path}: expected a video file's name that ends in {', '.join(SUFFIXES)}")
+    try:
+        str(path).encode()
+    except UnicodeEncodeError:
+        raise ValueError(f"{str(path)!a}: expected a video's path in UTF-8; choose another name") from None
 
 
 def written_path(path: Path) -> Path:
@@ -93,9 +107,15 @@ def written_path(path: Path) -> Path:
 
 
 def count_frames(path: Path) -> int:
-    """The frames that a video file says it has; of one that doesn't say, those that can be decoded."""
+    """The frames of a video file, by PyAV its packets.
+
+    Without PyAV they are those that the file says it has, of one that doesn't say those that can be decoded;
+    containers may tell of a rate and a duration instead, which is right at a constant rate alone.
+    """
+    if PyAVEncoder.available():
+        return count_packets(path)
     ffmpeg = cv2.videoio_registry.hasBackend(cv2.CAP_FFMPEG)  # OpenCV's own reader of AVI writes to stderr
-    capture = cv2.VideoCapture(str(path), cv2.CAP_FFMPEG if ffmpeg else cv2.CAP_ANY)
+    capture = cv2.VideoCapture(ffmpeg_name(path), cv2.CAP_FFMPEG if ffmpeg else cv2.CAP_ANY)
     try:
         if not capture.isOpened():
             return 0
