@@ -222,7 +222,7 @@ CV2_OF_TRACKERS = {
     "head_outline": {"Sobel", "CV_32F"},  # of the first frame
     "target_observation": {"cvtColor", "COLOR_GRAY2BGR"},
     "depth": {"countNonZero"},
-    "depth_trust": {"resize", "INTER_AREA", "absdiff"},  # whether depth is frozen: uint8 means, alike in every version
+    "depth_trust": {"resize", "INTER_AREA", "absdiff"},  # means, alike in every version
 }
 """What trackers' files use of cv2: it measures nothing, or has whole results, alike in every version."""
 

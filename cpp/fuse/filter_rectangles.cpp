@@ -73,9 +73,9 @@ public:
                             model.histogram.size());
     }
 
-    Vector log_likelihood(StatesRef states, const UsualSize& usual, const MeasuredState& object) {
+    Vector log_likelihood(StatesRef states, const MeanSize& mean_size, const MeasuredState& object) {
         const States measured = measure(states, false);
-        const Vector prior = rectangle_prior(states, usual, object);
+        const Vector prior = rectangle_prior(states, mean_size, object);
         Vector logs(states.rows());
         for (Index i = 0; i < logs.size(); ++i) {
             const double distance = measured(i, 0), inside = measured(i, 1), around = measured(i, 3);
@@ -135,7 +135,7 @@ FilteredRectangles filter_rectangles(const DepthView& depth, VectorRef camera,
                                      const WeightedRectangles& before, const StackView<double>& noise,
                                      const Dynamics& dynamics, const Bounds& bounds,
                                      const Detection& detection, const Refinement& refinement,
-                                     const DepthLikelihood& likelihood, const UsualSize& usual,
+                                     const DepthLikelihood& likelihood, const MeanSize& mean_size,
                                      const MeasuredState& measured) {
     require_arguments(before, noise, refinement, likelihood);
     Observer observer(depth, camera, likelihood);
@@ -144,7 +144,7 @@ FilteredRectangles filter_rectangles(const DepthView& depth, VectorRef camera,
     for (Index i = 0; i < chosen.size(); ++i) previous.row(i) = before.particles.row(chosen[i]);
     FilteredRectangles after;
     const auto weigh = [&](const States& from, const Dynamics& moves, const Detection& seen) {
-        const Vector logs = observer.log_likelihood(after.particles, usual, measured);
+        const Vector logs = observer.log_likelihood(after.particles, mean_size, measured);
         after.weights = reweight(logs, after.particles, from, moves, seen).weights;
         return summarize(after.particles, after.weights);
     };

@@ -69,7 +69,7 @@ struct FilteredRectangles {
 /// @param reach of the shares inside and around, meters, as in depth_contrast
 /// @param nearer meters, as in depth_contrast
 /// @param likelihood (linear, sharpness, contrast): nats
-/// @param usual (size, spread), as in rectangle_prior
+/// @param mean_size (size, spread), as in rectangle_prior
 /// @param measured (state, deviation, max_cost), as in rectangle_prior
 /// @throws std::invalid_argument as those kernels
 /// Source: Sabeti, Parvizi, Wu 2008, section IV; the second sampling and all of the likelihood but (37) are ours.
@@ -77,7 +77,7 @@ FilteredRectangles filter_rectangles(const DepthView& depth, VectorRef camera,
                                      const WeightedRectangles& before, const StackView<double>& noise,
                                      const Dynamics& dynamics, const Bounds& bounds,
                                      const Detection& detection, const Refinement& refinement,
-                                     const DepthLikelihood& likelihood, const UsualSize& usual,
+                                     const DepthLikelihood& likelihood, const MeanSize& mean_size,
                                      const MeasuredState& measured);
 
 }  // namespace tricue

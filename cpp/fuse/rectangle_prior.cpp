@@ -17,9 +17,9 @@ double square(double x) {
     return x * x;
 }
 
-double log_size(const double* size, const UsualSize& usual) {
+double log_size(const double* size, const MeanSize& mean) {
     double sum = 0.0;
-    for (Index i = 0; i < 2; ++i) sum += square(std::log(size[i] / usual.size[i]) / usual.spread[i]);
+    for (Index i = 0; i < 2; ++i) sum += square(std::log(size[i] / mean.size[i]) / mean.spread[i]);
     return -0.5 * sum;
 }
 
@@ -35,14 +35,14 @@ void require_positive(VectorRef values, const char* name) {
         if (!(value > 0.0)) refuse(name, "numbers above 0", value);
 }
 
-void require_arguments(StatesRef states, const UsualSize& usual, const MeasuredState& measured) {
+void require_arguments(StatesRef states, const MeanSize& mean, const MeasuredState& measured) {
     const Index D = states.cols();
     if (D < 2) refuse("states", "2 columns or more", std::to_string(D));
     require_finite(states, "states");
     for (Index i = 0; i < states.rows(); ++i)
         for (Index j = D - 2; j < D; ++j)
             if (!(states(i, j) > 0.0)) refuse("states", "sizes above 0", states(i, j));
-    for (const auto& [values, name] : {std::pair{usual.size, "size"}, std::pair{usual.spread, "spread"}}) {
+    for (const auto& [values, name] : {std::pair{mean.size, "size"}, std::pair{mean.spread, "spread"}}) {
         require_size(values, 2, name);
         require_finite(values, name);
         require_positive(values, name);
@@ -56,12 +56,12 @@ void require_arguments(StatesRef states, const UsualSize& usual, const MeasuredS
 
 }  // namespace
 
-Vector rectangle_prior(StatesRef states, const UsualSize& usual, const MeasuredState& measured) {
-    require_arguments(states, usual, measured);
+Vector rectangle_prior(StatesRef states, const MeanSize& mean, const MeasuredState& measured) {
+    require_arguments(states, mean, measured);
     Vector log_likelihood(states.rows());
     for (Index i = 0; i < states.rows(); ++i) {
         const double* state = states.row(i).data();
-        log_likelihood[i] = log_size(state + states.cols() - 2, usual) + log_measured(state, measured);
+        log_likelihood[i] = log_size(state + states.cols() - 2, mean) + log_measured(state, measured);
     }
     return log_likelihood;
 }

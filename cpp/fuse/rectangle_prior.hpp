@@ -5,9 +5,9 @@
 
 namespace tricue {
 
-/// The usual width and height of a rectangle.
-struct UsualSize {
-    VectorRef size;  ///< float64 (2,): usual width and height, finite, above 0
+/// The running mean of a rectangle's size.
+struct MeanSize {
+    VectorRef size;  ///< float64 (2,): running mean of width and height, finite, above 0
     /// float64 (2,): standard deviations of the logarithms of their ratios to it, finite, above 0
     VectorRef spread;
 };
@@ -20,7 +20,7 @@ struct MeasuredState {
     double max_cost;  ///< most that a state far from it loses, nats, at least 0: it may be wrong
 };
 
-/// Log-likelihood of rectangles before they are looked at, by their usual size and by a measured state:
+/// Log-likelihood of rectangles before they are looked at, by the running mean of their size and by a measured state:
 ///     -1/2 Σ (log(s_i / size_i) / spread_i)² - min(1/2 Σ ((x_i - state_i) / deviation_i)², max_cost)
 ///
 /// s_1, s_2 are the width and height, the last two of a state's D numbers x.
@@ -29,6 +29,6 @@ struct MeasuredState {
 /// @returns float64 (N,), nats
 /// @throws std::invalid_argument on other shapes or values
 /// Source: ours; the measurement joins the likelihood as in Isard, Blake 1998 (ICondensation) it joins the proposal.
-Vector rectangle_prior(StatesRef states, const UsualSize& usual, const MeasuredState& measured);
+Vector rectangle_prior(StatesRef states, const MeanSize& mean, const MeasuredState& measured);
 
 }  // namespace tricue

@@ -15,6 +15,7 @@
 #include "base/arrays.hpp"
 #include "base/depth_view.hpp"
 #include "base/image_view.hpp"
+#include "base/region.hpp"
 #include "base/sample_view.hpp"
 #include "base/stack_view.hpp"
 
@@ -109,8 +110,9 @@ inline DepthView depth_image(const py::object& object, const char* name) {
     return plane_view(object, name, "a float32 depth image (H, W)");
 }
 
-inline ImageView mask_image(const py::object& object, const char* name) {
-    const auto array = require<std::uint8_t>(object, name, 2, "a uint8 mask (H, W)");
+inline ImageView mask_image(const py::object& object, const char* name,
+                            const char* expected = "a uint8 mask (H, W)") {
+    const auto array = require<std::uint8_t>(object, name, 2, expected);
     return {contiguous<std::uint8_t>(array, name), static_cast<int>(array.shape(0)),
             static_cast<int>(array.shape(1)), 1, array.shape(1)};
 }
@@ -179,13 +181,6 @@ inline FilterStack filter_stack(const py::object& object, const char* name) {
     return {contiguous<std::complex<float>>(array, name), size(0), size(1), size(2), size(3)};
 }
 
-/// A cube (B, B, B), seen as B² rows.
-inline Eigen::Map<const Floats> cube(const py::object& object, const char* name) {
-    const char* expected = "float32 (B, B, B)";
-    const auto side = require<float>(object, name, 3, expected).shape(0);
-    return floats(object, name, {side, side, side}, expected);
-}
-
 inline Bgr bgr(const py::object& object, const char* name) {
     const char* expected = "a uint8 color (3,): blue, green, red";
     const auto array = require<std::uint8_t>(object, name, 1, expected);
@@ -201,6 +196,21 @@ inline std::array<double, 3> channel_gains(const Array<double>& gains) {
     if (each.size() != 3)
         throw py::value_error("gains: expected float64 (3,), got (" + std::to_string(each.size()) + ",)");
     return {each[0], each[1], each[2]};
+}
+
+/// How much work a kernel has, for `unlocked`, at most a billion: the kernel hasn't checked its arguments yet, and their product may
+/// not fit an integer.
+template <typename... Factors>
+std::ptrdiff_t work_of(Factors... factors) {
+    return static_cast<std::ptrdiff_t>(std::clamp((static_cast<double>(factors) * ...), 0.0, 1e9));
+}
+
+/// The same of a region's pixels, so many times each; none where its corners are the wrong way round.
+template <typename... Factors>
+std::ptrdiff_t work_in(const Region& region, Factors... times) {
+    const std::ptrdiff_t none = 0;
+    return work_of(std::max(none, std::ptrdiff_t{region.x1} - region.x0),
+                   std::max(none, std::ptrdiff_t{region.y1} - region.y0), times...);
 }
 
 /// Runs a kernel, without the GIL where it has enough work, in pixels or numbers to go through: to hand the GIL over and get it

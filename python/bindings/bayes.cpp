@@ -269,7 +269,7 @@ std::tuple<Box, std::int64_t> target_outline_numbers(const Bytes& mask, const Ar
 
 Bytes block_mask_array(const Array<double>& blocks, int height, int width) {
     const auto each = states(blocks, "blocks");
-    return give(unlocked(std::ptrdiff_t{height} * width, [&] { return block_mask(each, height, width); }));
+    return give(unlocked(work_of(height, width), [&] { return block_mask(each, height, width); }));
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "arrays.hpp"
 #include "cues/color/best_ellipse.hpp"
 #include "cues/color/color_bins.hpp"
-#include "cues/color/ellipse_histogram.hpp"
 #include "cues/color/ellipse_search.hpp"
 #include "cues/color/histogram_mean.hpp"
 #include "cues/color/image_mean.hpp"
@@ -39,12 +38,8 @@ Array<std::uint16_t> color_bins_arrays(const Array<std::uint8_t>& image, const C
     const auto [x0, y0, x1, y1] = region;
     const Region corners{x0, y0, x1, y1};
     const ColorSpace space = color_space(bins, chroma);
-    const Region seen = corners.clipped(view);
-    // In corners that are the wrong way round the difference may not fit an int.
-    const auto cols = std::max<std::ptrdiff_t>(0, std::ptrdiff_t{seen.x1} - seen.x0);
-    const auto rows = std::max<std::ptrdiff_t>(0, std::ptrdiff_t{seen.y1} - seen.y0);
     const auto light = gains ? std::optional(channel_gains(*gains)) : std::nullopt;
-    return give(unlocked(cols * rows,
+    return give(unlocked(work_in(corners.clipped(view)),
                          [&] { return color_bins(view, corners, space, step, light ? &*light : nullptr); }));
 }
 
@@ -57,17 +52,6 @@ BinsView bins_image(const Array<std::uint16_t>& bins) {
 /// Without a mask a view without data.
 ImageView marks_or_none(const std::optional<Array<std::uint8_t>>& mask, const BinsView& bins) {
     return mask ? mask_image(*mask, "mask") : ImageView{nullptr, bins.rows, bins.cols, 1, 0};
-}
-
-std::tuple<Array<std::int32_t>, Array<std::int32_t>> ellipse_histogram_arrays(
-    const Array<std::uint16_t>& bins, const Array<double>& ellipses, int size, double margin,
-    const std::optional<Array<std::uint8_t>>& mask) {
-    const auto view = bins_image(bins);
-    const auto marks = marks_or_none(mask, view);
-    const auto each = states(ellipses, "ellipses");
-    auto counts = unlocked(std::ptrdiff_t{view.rows} * view.cols * each.rows(),
-                           [&] { return ellipse_histogram(view, each, size, margin, marks); });
-    return {give(std::move(counts.inside)), give(std::move(counts.around))};
 }
 
 Array<double> ellipse_search_arrays(const Array<std::uint16_t>& bins, const Array<double>& ellipse,
@@ -136,8 +120,6 @@ void define_color_search(py::module_& m) {
     m.def("color_bins", color_bins_arrays, py::arg("image"), py::arg("region"), py::arg("bins"),
           py::arg("chroma"), py::arg("step"), py::arg("gains") = py::none(), docs::color_bins);
     m.def("image_mean", image_mean_array, py::arg("image"), py::arg("step"), docs::image_mean);
-    m.def("ellipse_histogram", ellipse_histogram_arrays, py::arg("bins"), py::arg("ellipses"),
-          py::arg("size"), py::arg("margin"), py::arg("mask") = py::none(), docs::ellipse_histogram);
     m.def("ellipse_search", ellipse_search_arrays, py::arg("bins"), py::arg("ellipse"), py::arg("grid"),
           py::arg("model"), py::arg("margin"), py::arg("mask"), docs::ellipse_search);
     m.def("best_ellipse", best_ellipse_arrays, py::arg("bins"), py::arg("ellipse"), py::arg("grid"),

@@ -67,7 +67,7 @@ std::tuple<Array<float>, Bytes> depth_posterior_arrays(const Array<float>& depth
                                                        double sigma, double near_margin) {
     const auto view = depth_image(depth, "depth");
     const SampleGrid grid{x0, y0, step, rows, columns};
-    auto found = unlocked(std::ptrdiff_t{rows} * columns,
+    auto found = unlocked(work_of(rows, columns),
                           [&] { return depth_posterior(view, grid, {expected, sigma, near_margin}); });
     return {give(std::move(found.posterior)), give(std::move(found.nearer))};
 }
@@ -120,7 +120,7 @@ Array<double> floor_plane_arrays(const Array<float>& depth, const Array<double>&
     const auto lens = vector(camera, "camera");
     const auto draws = index_triples(triples);
     const auto upward = vector(up, "up");
-    return give(unlocked(draws.rows() * pixels(view),
+    return give(unlocked(work_of(draws.rows(), pixels(view)),
                          [&] { return floor_plane(view, lens, draws, tolerance, {upward, min_cosine}); }));
 }
 
@@ -144,7 +144,7 @@ Array<double> median_depths_arrays(const Array<float>& depth, const Array<double
                                    double expected, double max_offset, double min_share) {
     const auto view = depth_image(depth, "depth");
     const auto each = states(boxes, "boxes");
-    return give(unlocked(each.rows() * samples * samples, [&] {
+    return give(unlocked(work_of(each.rows(), samples, samples), [&] {
         return median_depths(view, each, samples, {expected, max_offset, min_share});
     }));
 }
@@ -164,7 +164,7 @@ Bytes support_pixels_arrays(const Array<float>& depth, double x0, double y0, dou
     const auto view = depth_image(depth, "depth");
     const auto lens = vector(camera, "camera");
     const auto random = states(draws, "draws");
-    return give(unlocked(std::ptrdiff_t{side} * side, [&] {
+    return give(unlocked(work_of(side, side), [&] {
         return support_pixels(view, {x0, y0, step, side, side}, {width, height, z}, lens, random, tolerance);
     }));
 }

@@ -14,7 +14,7 @@ std::tuple<Doubles, Doubles, Doubles, Doubles, Doubles, Doubles> filter_rectangl
     std::pair<Doubles, Doubles> bounds, std::tuple<Doubles, Doubles, double> detection,
     std::pair<Doubles, double> refinement, const Doubles& model, std::pair<double, double> levels,
     std::pair<int, int> grid, std::pair<double, int> ring, double reach, double nearer,
-    std::tuple<bool, double, double> likelihood, std::pair<Doubles, Doubles> usual,
+    std::tuple<bool, double, double> likelihood, std::pair<Doubles, Doubles> mean_size,
     std::tuple<Doubles, Doubles, double> measured) {
     const auto image = depth_image(depth, "depth");
     const auto lens = vector(camera, "camera");
@@ -34,10 +34,10 @@ std::tuple<Doubles, Doubles, Doubles, Doubles, Doubles, Doubles> filter_rectangl
                              linear,
                              sharpness,
                              contrast};
-    const UsualSize sizes{vector(usual.first, "size"), vector(usual.second, "spread")};
+    const MeanSize sizes{vector(mean_size.first, "size"), vector(mean_size.second, "spread")};
     const auto& [state, deviation, max_cost] = measured;
     const MeasuredState object{vector(state, "state"), vector(deviation, "deviation"), max_cost};
-    const auto work = std::ptrdiff_t{draws.planes} * draws.rows * grid.first * grid.second;
+    const auto work = work_of(draws.planes, draws.rows, grid.first, grid.second);
     auto after = unlocked(work, [&] {
         return filter_rectangles(image, lens, before, draws, moves, limits, seen, closer, by, sizes, object);
     });
@@ -53,7 +53,7 @@ void define_depth_filter(py::module_& m) {
           py::arg("particles"), py::arg("weights"), py::arg("offset"), py::arg("noise"), py::arg("dynamics"),
           py::arg("bounds"), py::arg("detection"), py::arg("refinement"), py::arg("model"), py::arg("levels"),
           py::arg("grid"), py::arg("ring"), py::arg("reach"), py::arg("nearer"), py::arg("likelihood"),
-          py::arg("usual"), py::arg("measured"), docs::filter_rectangles);
+          py::arg("mean_size"), py::arg("measured"), docs::filter_rectangles);
 }
 
 }  // namespace tricue::bindings

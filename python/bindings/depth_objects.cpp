@@ -28,16 +28,10 @@ std::tuple<Array<std::int64_t>, Array<std::int64_t>> density_extrema_arrays(cons
     return {give(std::move(extrema.maxima)), give(std::move(extrema.minima))};
 }
 
-ImageView label_image(const Array<std::uint8_t>& labels) {
-    const auto array = require<std::uint8_t>(labels, "labels", 2, "uint8 labels (H, W)");
-    return {contiguous<std::uint8_t>(array, "labels"), static_cast<int>(array.shape(0)),
-            static_cast<int>(array.shape(1)), 1, array.shape(1)};
-}
-
 std::tuple<Array<double>, Array<float>, Array<float>, Array<float>, Array<std::int32_t>>
 depth_components_arrays(const Array<std::uint8_t>& labels, const Array<float>& depth, double near, double far,
                         int levels, int bins, int min_area, bool image) {
-    const auto regions = label_image(labels);
+    const auto regions = mask_image(labels, "labels", "uint8 labels (H, W)");
     const auto meters = depth_image(depth, "depth");
     const Signature signature{near, far, levels, bins};
     auto found = unlocked(std::ptrdiff_t{meters.rows} * meters.cols,
@@ -75,7 +69,7 @@ Array<double> depth_contrast_arrays(const Array<float>& depth, const Array<doubl
     const auto each = states(states_, "states");
     const DepthModel target{vector(model, "model"), reach};
     const Places places{grid.first, grid.second, ring.first, ring.second};
-    const auto work = std::ptrdiff_t{grid.first} * grid.second * each.rows();
+    const auto work = work_of(grid.first, grid.second, each.rows());
     return give(unlocked(work, [&] { return depth_contrast(meters, lens, each, target, places, nearer); }));
 }
 
@@ -131,14 +125,14 @@ std::pair<bool, bool> known_sizes(const Array<bool>& known) {
 
 int match_object_arrays(const Array<double>& measured, const Array<bool>& cut, const Array<float>& columns,
                         const Array<float>& rows, const Array<double>& others, const Array<double>& expected,
-                        std::pair<Array<double>, Array<bool>> usual, const Array<double>& signature,
+                        std::pair<Array<double>, Array<bool>> mean_size, const Array<double>& signature,
                         std::tuple<double, double, double, double, double> deviation,
                         std::pair<double, double> unknown, double signature_cost,
                         std::pair<double, double> gate, bool complete) {
     const auto objects = object_features(measured, cut, columns, rows);
     const auto more = vector(others, "others");
-    const auto [width_known, height_known] = known_sizes(usual.second);
-    const ExpectedTarget target{vector(expected, "expected"), vector(usual.first, "size"), width_known,
+    const auto [width_known, height_known] = known_sizes(mean_size.second);
+    const ExpectedTarget target{vector(expected, "expected"), vector(mean_size.first, "size"), width_known,
                                 height_known, vector(signature, "signature")};
     const auto [x, y, z, share, base] = deviation;
     const auto [center, larger] = unknown;
@@ -150,10 +144,10 @@ int match_object_arrays(const Array<double>& measured, const Array<bool>& cut, c
 std::tuple<Array<double>, Array<bool>, Array<double>, Array<double>> complete_body_arrays(
     const Array<double>& measured, const Array<bool>& cut, const Array<float>& columns,
     const Array<float>& rows, int index, const Array<double>& expected,
-    std::pair<Array<double>, Array<bool>> usual, std::tuple<double, double, double, double> pieces) {
+    std::pair<Array<double>, Array<bool>> mean_size, std::tuple<double, double, double, double> pieces) {
     const auto objects = object_features(measured, cut, columns, rows);
-    const auto [width_known, height_known] = known_sizes(usual.second);
-    const ExpectedBody where{vector(expected, "expected"), vector(usual.first, "size"), width_known,
+    const auto [width_known, height_known] = known_sizes(mean_size.second);
+    const ExpectedBody where{vector(expected, "expected"), vector(mean_size.first, "size"), width_known,
                              height_known};
     const auto [region, inside, joined, depth] = pieces;
     const PieceLimits limits{region, inside, joined, depth};
@@ -196,10 +190,10 @@ std::tuple<Array<double>, Array<bool>, Array<float>, Array<float>> segment_depth
 
 void define_depth_objects(py::module_& m) {
     m.def("complete_body", complete_body_arrays, py::arg("measured"), py::arg("cut"), py::arg("columns"),
-          py::arg("rows"), py::arg("index"), py::arg("expected"), py::arg("usual"), py::arg("pieces"),
+          py::arg("rows"), py::arg("index"), py::arg("expected"), py::arg("mean_size"), py::arg("pieces"),
           docs::complete_body);
     m.def("match_object", match_object_arrays, py::arg("measured"), py::arg("cut"), py::arg("columns"),
-          py::arg("rows"), py::arg("others"), py::arg("expected"), py::arg("usual"), py::arg("signature"),
+          py::arg("rows"), py::arg("others"), py::arg("expected"), py::arg("mean_size"), py::arg("signature"),
           py::arg("deviation"), py::arg("unknown"), py::arg("signature_cost"), py::arg("gate"),
           py::arg("complete"), docs::match_object);
     m.def("cut_sides", cut_sides_arrays, py::arg("depth"), py::arg("table"), py::arg("camera"),

@@ -110,9 +110,9 @@ Array<double> rectangle_prior_arrays(const Array<double>& particles, const Array
                                      const Array<double>& spread, const Array<double>& state,
                                      const Array<double>& deviation, double max_cost) {
     const auto each = states(particles, "states");
-    const UsualSize usual{vector(size, "size"), vector(spread, "spread")};
+    const MeanSize mean{vector(size, "size"), vector(spread, "spread")};
     const MeasuredState measured{vector(state, "state"), vector(deviation, "deviation"), max_cost};
-    return give(unlocked(each.size(), [&] { return rectangle_prior(each, usual, measured); }));
+    return give(unlocked(each.size(), [&] { return rectangle_prior(each, mean, measured); }));
 }
 
 }  // namespace

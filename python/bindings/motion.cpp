@@ -20,8 +20,7 @@ std::optional<Region> part(const Rectangle& rectangle) {
 }
 
 std::ptrdiff_t work(const ImageView& frame, const std::optional<Region>& region) {
-    if (!region) return std::ptrdiff_t{frame.rows} * frame.cols;
-    return (std::ptrdiff_t{region->x1} - region->x0) * (std::ptrdiff_t{region->y1} - region->y0);
+    return region ? work_in(*region) : std::ptrdiff_t{frame.rows} * frame.cols;
 }
 
 /// The four as arrays of their own on the same memory.

@@ -18,7 +18,7 @@ Bytes sample_windows_arrays(const Bytes& image, const Array<double>& windows, in
         py::isinstance<py::array>(image) && py::reinterpret_borrow<py::array>(image).ndim() == 2;
     const auto view = gray ? gray_image(image, "image") : color_image(image, "image");
     const auto each = states(windows, "windows");
-    const auto work = each.rows() * rows * columns;
+    const auto work = work_of(each.rows(), rows, columns);
     auto samples = unlocked(work, [&] { return sample_windows(view, each, rows, columns); });
     if (view.channels == 1) return give(std::move(samples), {each.rows(), rows, columns});
     return give(std::move(samples), {each.rows(), rows, columns, 3});
@@ -27,7 +27,7 @@ Bytes sample_windows_arrays(const Bytes& image, const Array<double>& windows, in
 Bytes sample_turned_windows_arrays(const Bytes& image, const Array<double>& windows, int rows, int columns) {
     const auto view = color_image(image, "image");
     const auto each = states(windows, "windows");
-    const auto work = each.rows() * rows * columns;
+    const auto work = work_of(each.rows(), rows, columns);
     auto samples = unlocked(work, [&] { return sample_turned_windows(view, each, rows, columns); });
     return give(std::move(samples), {each.rows(), rows, columns, 3});
 }
@@ -42,7 +42,7 @@ Array<float> hog_color_cells_arrays(const Bytes& patch, const Array<float>& tape
 
 Array<float> color_posterior_arrays(const Bytes& image, const Array<float>& table) {
     const auto view = color_image(image, "image");
-    const auto each = cube(table, "table");
+    const auto each = color_cube(table);
     return give(unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return color_posterior(view, each); }));
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <optional>
 
 #include "arrays.hpp"
@@ -33,9 +32,8 @@ Array<float> sad_disparity_arrays(const Bytes& left, const Bytes& right, const R
     const auto [x0, y0, x1, y1] = region;
     const StereoRegion part{{x0, y0, x1, y1}, ellipse};
     const StereoMatching matching{window, uniqueness, prefilter, tolerance};
-    const auto work =
-        (std::ptrdiff_t{x1} - x0) * std::min(std::ptrdiff_t{y1} - y0, std::ptrdiff_t{view.rows});
-    return give(unlocked(work, [&] { return sad_disparity(view, other, part, {first, last}, matching); }));
+    return give(unlocked(work_in(part.place),
+                         [&] { return sad_disparity(view, other, part, {first, last}, matching); }));
 }
 
 /// Variances (3,) as one row of 3, covariances (N, 3, 3) as rows of 9.
@@ -71,8 +69,8 @@ std::tuple<Array<float>, Array<float>> gradient_disparity_arrays(const Bytes& le
     const auto [x0, y0, x1, y1] = region.value_or(Rectangle{0, 0, view.cols, view.rows});
     const Region part{x0, y0, x1, y1};
     const GradientMatching matching{levels, sigma, radius, min_reliability, max_residual, max_step};
-    const auto work = (std::ptrdiff_t{x1} - x0) * (std::ptrdiff_t{y1} - y0);
-    auto found = unlocked(work, [&] { return gradient_disparity(view, other, disparity, matching, part); });
+    auto found =
+        unlocked(work_in(part), [&] { return gradient_disparity(view, other, disparity, matching, part); });
     const std::vector<py::ssize_t> shape{2, found.rows() / 2, found.cols()};
     const py::object both = give(std::move(found), shape);
     return {both[py::int_(0)], both[py::int_(1)]};
@@ -97,7 +95,7 @@ Bytes reduce_gray_arrays(const Bytes& image, int step, const std::optional<Recta
     if (region) {
         const auto [x0, y0, x1, y1] = *region;
         part = Region{x0, y0, x1, y1};
-        work = (std::ptrdiff_t{x1} - x0) * (std::ptrdiff_t{y1} - y0) * step * step;
+        work = work_in(*part, step, step);
     }
     return give(unlocked(work, [&] { return reduce_gray(view, step, part); }));
 }
@@ -120,8 +118,7 @@ std::tuple<Array<std::uint16_t>, Bytes> head_cells_arrays(const Bytes& left, con
     if (gains) given = {std::get<0>(*gains), std::get<1>(*gains), std::get<2>(*gains)};
     const HeadDepth depth{static_cast<float>(expected), static_cast<float>(tolerance), fill};
     const StereoMatching matching{window, uniqueness, prefilter, -1};
-    const auto work = (std::ptrdiff_t{x1} - x0) * (std::ptrdiff_t{y1} - y0) * step;
-    auto cells = unlocked(work, [&] {
+    auto cells = unlocked(work_in(part, step), [&] {
         return head_cells(view, other, part, step, space, gains ? &given : nullptr, depth, {first, last},
                           matching);
     });
@@ -137,9 +134,9 @@ std::tuple<double, int, int> ellipse_disparity_arrays(const Bytes& left, const B
     const Region part{x0, y0, x1, y1};
     const StereoMatching matching{window, uniqueness, prefilter, -1};
     const DisparityStatistic statistic{subpixel, median, static_cast<float>(tolerance)};
-    const auto work = (std::ptrdiff_t{x1} - x0) * (std::ptrdiff_t{y1} - y0);
-    const auto found = unlocked(
-        work, [&] { return ellipse_disparity(view, other, part, {first, last}, matching, statistic); });
+    const auto found = unlocked(work_in(part), [&] {
+        return ellipse_disparity(view, other, part, {first, last}, matching, statistic);
+    });
     return {found.disparity, found.matched, found.near};
 }
 

@@ -46,7 +46,7 @@ std::tuple<Array<double>, Floating> localize_target_arrays(const Bytes& patch, c
     const auto view = color_image(patch, "patch");
     const auto weights = plane(taper, "taper", kTaper);
     const auto models = filter_stack(filters, "filters");
-    const auto rule = cube(table, "table");
+    const auto rule = color_cube(table);
     const auto others = posterior(other);
     const auto colors = vector(roots, "roots");
     const TargetSearch search{width, height, outer, around, filter_weight, contrast_weight, inner};
@@ -116,7 +116,7 @@ std::tuple<Floating, Floating, Floating> learn_patch_colors_arrays(
     double most_other, const Floating& target, const Floating& surround, double rate, double rare) {
     const auto view = color_image(patch, "patch");
     const auto others = posterior(other);
-    const auto own = cube(target, "target"), around = cube(surround, "surround");
+    const auto own = color_cube(target, "target"), around = color_cube(surround, "surround");
     auto [within, without, table] = unlocked(work(view), [&] {
         return learn_patch_colors(view, others, {width, height, outer, least_own, most_other}, own, around,
                                   rate, rare);

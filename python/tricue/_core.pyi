@@ -464,7 +464,7 @@ def complete_body(
     rows: numpy.typing.NDArray[numpy.float32],
     index: int,
     expected: numpy.typing.NDArray[numpy.float64],
-    usual: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool]],
+    mean_size: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool]],
     pieces: tuple[float, float, float, float],
 ) -> tuple[
     numpy.typing.NDArray[numpy.float64],
@@ -478,9 +478,9 @@ def complete_body(
 
     A piece, such as an arm or a leg, lies for the most part in the region around the expected
     rectangle, and near the object's depth. One after the other is joined where the body, then, is more
-    nearly of the usual size, by the sum of the squared logarithms of the ratios, and hardly larger. The
+    nearly of the mean size, by the sum of the squared logarithms of the ratios, and hardly larger. The
     joined box is that around all pieces as the camera sees them, at the object's depth; it is cut where
-    one of them is. What is cut is extended to the usual size beyond the sides that are cut; between two
+    one of them is. What is cut is extended to the mean size beyond the sides that are cut; between two
     of these it is as near to the expected center as its visible part allows.
 
     Args:
@@ -490,16 +490,17 @@ def complete_body(
         rows: as columns
         index: of the object, in [0, C)
         expected: float64 (5,): X, Y, Z, W, H, meters, finite
-        usual: (size, known): float64 (2,), the body's width and height, meters, finite, above 0; bool
-            (2,): whether each was ever visible as a whole; else it is a lower bound
+        mean_size: (size, known): float64 (2,), running means of the body's width and height, meters,
+            finite, above 0; bool (2,): whether each was ever visible as a whole; else it is a lower
+            bound
         pieces: (region, inside, joined, depth): times the expected rectangle, around it; share of a
-            piece's area that is more than inside; times the usual size, of a body with its pieces;
+            piece's area that is more than inside; times the mean size, of a body with its pieces;
             meters, from the object's depth to that of a piece
 
     Returns:
         state: float64 (5,): X, Y, Z, W, H, completed where it is cut
         whole: bool (2,): whether the whole width and the whole height are visible
-        size: float64 (2,): the usual size; where it isn't known, at least that of the object
+        size: float64 (2,): the mean size; where it isn't known, at least that of the object
         signature: float64 (2 bins + 2,): the object's columns and rows; centroid of all pieces less the
             center, x and y, meters
 
@@ -970,39 +971,6 @@ def ellipse_disparity(
     is ours.
     """
 
-def ellipse_histogram(
-    bins: numpy.typing.NDArray[numpy.uint16],
-    ellipses: numpy.typing.NDArray[numpy.float64],
-    size: int,
-    margin: float,
-    mask: numpy.typing.NDArray[numpy.uint8] | None = None,
-) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
-    """
-    Histograms of the bins inside each ellipse, and in the ring around it, over all pixels of each.
-
-    A pixel is inside where its center (column + 0.5, row + 0.5) is. The ring is the ellipse scaled by
-    `margin`, without the ellipse. Pixels outside the image, those without a bin and those that the mask
-    leaves out count nowhere.
-
-    Args:
-        bins: uint16 (H, W), as color_bins gives them, may be empty; 65535 is no bin
-        ellipses: float64 (N, 4): center x, y, semi-axes along x (minor) and y (major), pixels of the
-            bins, finite, axes above 0
-        size: bins of a histogram, 1 to 65535
-        margin: 1 (no ring) to 16; times the semi-axes at most 4096 pixels
-        mask: uint8 (H, W), not 0 where a pixel counts; None for all
-
-    Returns:
-        inside: int32 (N, size): pixels of each bin inside the ellipse
-        around: int32 (N, size): pixels of each bin in the ring
-
-    Raises:
-        ValueError: on other shapes or values, or a bin that is not below size
-
-    Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.1: M and C of equation (1); the
-    ring is ours.
-    """
-
 def ellipse_search(
     bins: numpy.typing.NDArray[numpy.uint16],
     ellipse: numpy.typing.NDArray[numpy.float64],
@@ -1015,11 +983,12 @@ def ellipse_search(
     Histogram intersection of a model with the ellipse at each place of a grid, and with the ring around
     it.
 
-    Equation (1) as Σ min(C_i, n M_i) / n, n = Σ C_i, over the pixels inside both ellipse and image,
-    with M of sum 1; 0 where there are none. What is outside the image counts neither for nor against a
-    place, so a head at the edge has its maximum where it is. C and the ring are those of
-    ellipse_histogram. n M_i is rounded to 2^-k pixels, k the largest with which n pixels fit into 31
-    bits, so (1) is off by at most 2^-(k+1) per bin.
+    Equation (1) as Σ min(C_i, n M_i) / n, n = Σ C_i, where C_i counts the pixels of bin i, with M of
+    sum 1; 0 where there are none. A pixel is inside where its center (column + 0.5, row + 0.5) is. The
+    ring is the ellipse scaled by `margin`, without the ellipse. Pixels outside the image, and those
+    without a bin, count neither for nor against a place, so a head at the edge has its maximum where it
+    is. n M_i is rounded to 2^-k pixels, k the largest with which n pixels fit into 31 bits, so (1) is
+    off by at most 2^-(k+1) per bin.
 
     Args:
         bins: uint16 (H, W), as color_bins gives them, each below L, or 65535 for none; may be empty
@@ -1121,7 +1090,7 @@ def filter_rectangles(
     reach: float,
     nearer: float,
     likelihood: tuple[bool, float, float],
-    usual: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+    mean_size: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
     measured: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
 ) -> tuple[
     numpy.typing.NDArray[numpy.float64],
@@ -1159,7 +1128,7 @@ def filter_rectangles(
         reach: of the shares inside and around, meters, as in depth_contrast
         nearer: meters, as in depth_contrast
         likelihood: (linear, sharpness, contrast): nats
-        usual: (size, spread), as in rectangle_prior
+        mean_size: (size, spread), as in rectangle_prior
         measured: (state, deviation, max_cost), as in rectangle_prior
 
     Returns:
@@ -1964,7 +1933,7 @@ def match_object(
     rows: numpy.typing.NDArray[numpy.float32],
     others: numpy.typing.NDArray[numpy.float64],
     expected: numpy.typing.NDArray[numpy.float64],
-    usual: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool]],
+    mean_size: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool]],
     signature: numpy.typing.NDArray[numpy.float64],
     deviation: tuple[float, float, float, float, float],
     unknown: tuple[float, float],
@@ -1980,7 +1949,7 @@ def match_object(
     for an object that nothing cuts, signature_cost times the total variation distance of its
     distributions from the target's. A size that was never visible as a whole is a lower bound: what
     exceeds it, and the center along its axis, count less. With `complete`, an object that is cut is
-    extended to the usual size beyond the sides that are cut; between two of these it is as near to the
+    extended to the mean size beyond the sides that are cut; between two of these it is as near to the
     expected center as its visible part allows.
 
     Args:
@@ -1990,14 +1959,14 @@ def match_object(
         rows: as columns
         others: float64 (C,): nats on top of each object's cost; (0,) for none
         expected: float64 (5,): X, Y, Z, W, H, meters, finite
-        usual: (size, known): float64 (2,), the target's width and height, meters, finite, above 0; bool
-            (2,): whether each was ever visible as a whole
+        mean_size: (size, known): float64 (2,), running means of the target's width and height, meters,
+            finite, above 0; bool (2,): whether each was ever visible as a whole
         signature: float64 (2 bins + 2,): the target's columns and rows, and two numbers that aren't
             read
         deviation: (x, y, z, share, base): standard deviations of the position, meters, above 0; and of
             a size, share x size + base, neither negative and not both 0
         unknown: (center, larger): weights along an axis on which the size isn't known, finite: of the
-            position, and of a size that exceeds the usual one
+            position, and of a size that exceeds the mean
         signature_cost: nats, finite
         gate: (max_cost, min_area): nats, below which the target's cost is; m², of the visible part, at
             least
@@ -2556,14 +2525,15 @@ def rectangle_prior(
     max_cost: float,
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
-    Log-likelihood of rectangles before they are looked at, by their usual size and by a measured state:
+    Log-likelihood of rectangles before they are looked at, by the running mean of their size and by a
+    measured state:
         -1/2 Σ (log(s_i / size_i) / spread_i)² - min(1/2 Σ ((x_i - state_i) / deviation_i)², max_cost)
 
     s_1, s_2 are the width and height, the last two of a state's D numbers x.
 
     Args:
         states: float64 (N, D), D at least 2, finite, widths and heights above 0
-        size: float64 (2,): usual width and height, finite, above 0
+        size: float64 (2,): running mean of width and height, finite, above 0
         spread: float64 (2,): standard deviations of the logarithms of their ratios to it, finite, above
             0
         state: float64 (D,): measured state, finite
@@ -3643,7 +3613,7 @@ class Kernels(Protocol):
         rows: numpy.typing.NDArray[numpy.float32],
         index: int,
         expected: numpy.typing.NDArray[numpy.float64],
-        usual: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool]],
+        mean_size: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool]],
         pieces: tuple[float, float, float, float],
     ) -> tuple[
         numpy.typing.NDArray[numpy.float64],
@@ -3761,14 +3731,6 @@ class Kernels(Protocol):
         median: bool,
         tolerance: float,
     ) -> tuple[float, int, int]: ...
-    def ellipse_histogram(
-        self,
-        bins: numpy.typing.NDArray[numpy.uint16],
-        ellipses: numpy.typing.NDArray[numpy.float64],
-        size: int,
-        margin: float,
-        mask: numpy.typing.NDArray[numpy.uint8] | None = None,
-    ) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]: ...
     def ellipse_search(
         self,
         bins: numpy.typing.NDArray[numpy.uint16],
@@ -3807,7 +3769,7 @@ class Kernels(Protocol):
         reach: float,
         nearer: float,
         likelihood: tuple[bool, float, float],
-        usual: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+        mean_size: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
         measured: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
     ) -> tuple[
         numpy.typing.NDArray[numpy.float64],
@@ -4042,7 +4004,7 @@ class Kernels(Protocol):
         rows: numpy.typing.NDArray[numpy.float32],
         others: numpy.typing.NDArray[numpy.float64],
         expected: numpy.typing.NDArray[numpy.float64],
-        usual: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool]],
+        mean_size: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool]],
         signature: numpy.typing.NDArray[numpy.float64],
         deviation: tuple[float, float, float, float, float],
         unknown: tuple[float, float],

@@ -54,7 +54,7 @@ def case(seed: int = 0, count: int = 40, **changes: Any) -> Case:
         "reach": 0.5,
         "nearer": 0.3,
         "likelihood": (False, 30.0, 8.0),
-        "usual": (np.array([0.4, 0.7]), np.array([0.25, 0.2])),
+        "mean_size": (np.array([0.4, 0.7]), np.array([0.25, 0.2])),
         "measured": (STATE, np.full(5, 0.07), 12.0),
     }
     return usual | changes
@@ -96,7 +96,7 @@ def test_is_what_its_stages_are() -> None:
     """The native kernel returns what the native stages, called one by one, return: the same bits."""
     arguments = case()
     view = [arguments[name] for name in ("model", "grid", "ring", "reach", "nearer")]
-    prior = *arguments["usual"], *arguments["measured"]
+    prior = *arguments["mean_size"], *arguments["measured"]
 
     def log_likelihood(states: Floats) -> Floats:
         seen = _core.depth_contrast(arguments["depth"], CAMERA, states, *view)
@@ -144,7 +144,7 @@ def test_nothing_in_sight(kernels: Kernels) -> None:
     """Before an image without any depth the weights are those of the prior, and the histogram is empty."""
     nowhere = case(depth=np.full((60, 80), np.nan, np.float32), detection=(STATE, np.eye(5), 0.0))
     particles, weights, mean, _, observed, histogram = kernels.filter_rectangles(**nowhere)
-    prior = kernels.rectangle_prior(particles, *nowhere["usual"], *nowhere["measured"])
+    prior = kernels.rectangle_prior(particles, *nowhere["mean_size"], *nowhere["measured"])
     expected = np.exp(prior - prior.max())
     assert_allclose(weights, expected / expected.sum(), rtol=1e-9)
     assert_allclose(mean, weights @ particles, rtol=1e-9)

@@ -19,7 +19,7 @@ EPS = float(np.finfo(np.float64).eps)
 
 
 def case(count: int = 40, dimensions: int = 5, seed: int = 0, **changes: Any) -> Case:
-    """Arguments of `rectangle_prior`: states near a usual size and a measured state."""
+    """Arguments of `rectangle_prior`: states near a mean size and a measured state."""
     rng = np.random.default_rng(seed)
     states = rng.normal(0, 1, (count, dimensions))
     states[:, -2:] = rng.uniform(0.1, 3, (count, 2))
@@ -79,7 +79,7 @@ def test_example_by_hand(kernels: Kernels) -> None:
 
 
 def test_twice_is_as_far_as_half(kernels: Kernels) -> None:
-    """Sizes count by their ratio to the usual: twice and half of it cost the same, and scale by two changes
+    """Sizes count by their ratio to the mean: twice and half of it cost the same, and scale by two changes
     nothing.
     """
     unmeasured = {"deviation": np.full(2, np.inf)}
@@ -115,8 +115,8 @@ def test_not_measured(kernels: Kernels, unmeasured: Case) -> None:
     """Infinite deviations, or a cost of at most nothing, leave the sizes alone: the state isn't seen."""
     here, there = case(**unmeasured), case(**unmeasured, state=np.full(5, 7.0))
     assert_array_equal(kernels.rectangle_prior(**here), kernels.rectangle_prior(**there))
-    usual = here | {"states": np.column_stack([here["states"][:, :3], np.tile(here["size"], (40, 1))])}
-    assert_array_equal(kernels.rectangle_prior(**usual), 0)
+    average = here | {"states": np.column_stack([here["states"][:, :3], np.tile(here["size"], (40, 1))])}
+    assert_array_equal(kernels.rectangle_prior(**average), 0)
 
 
 def test_each_by_itself(kernels: Kernels) -> None:

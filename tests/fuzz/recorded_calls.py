@@ -59,14 +59,11 @@ def record_calls() -> Calls:
 
 
 def _call_stages(k: Any) -> None:
-    """Call the kernels that trackers don't: one of an experiment, those that count and average an ellipse's
-    colors, and the stages of larger kernels.
-    """
+    """Call the kernels that trackers don't: one of an experiment, and the stages of larger kernels."""
     image = np.ascontiguousarray(stress_scene("fast", 0).frames[0].color)
     k.skin_boundary(image, image[0, 0])
-    bins, middle = k.color_bins(image, (4, 3, 60, 50), (8, 8, 4), 64, 1), np.array([[28.0, 23.5, 15.0, 18.0]])
-    inside, _ = k.ellipse_histogram(bins, middle, 256, 1.5, None)
-    k.histogram_mean(inside[0].astype(float), (8, 8, 4), 64)
+    bins = k.color_bins(image, (4, 3, 60, 50), (8, 8, 4), 64, 1)
+    k.histogram_mean(np.bincount(bins.ravel(), minlength=256).astype(float), (8, 8, 4), 64)
     scene = walker(0, 1, "tof")
     depth, lens = np.ascontiguousarray(scene.frames[0].depth), scene.intrinsics
     camera, plane = np.array([lens.fx, lens.fy, lens.cx, lens.cy]), np.array([0.0, -1.0, 0.0, 1.0])

@@ -8,6 +8,7 @@ their temporary folder.
 
 import os
 import time
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,9 @@ from tests.fuzz.recorded_calls import Calls, kernel_names, record_calls
 CASES = int(os.environ.get("TRICUE_FUZZ", "50"))
 SECONDS = 20.0  # of one call
 ALLOWED = (ValueError, TypeError)
+LEAST, MOST = -(2**31), 2**31 - 1
+ENDS = [(LEAST, LEAST, MOST, MOST), (MOST, MOST, LEAST, LEAST), (MOST,), (LEAST,)]
+"""Of int; the first corners of a region are as far apart as can be."""
 
 
 @pytest.fixture(scope="module")
@@ -53,6 +57,31 @@ def test_a_kernel_answers_or_refuses(
         seconds = time.perf_counter() - before
         assert seconds < SECONDS, f"{name}, case {case}: {seconds:.0f} s"
     assert 0 < refused < CASES
+
+
+@pytest.mark.parametrize("name", kernel_names())
+def test_a_kernel_multiplies_nothing_unchecked(name: str, calls: Calls) -> None:
+    """It proves that whole numbers whose products no integer holds, one of them or all at once, are refused
+    or don't matter: where they are multiplied all the same, ``make sanitize`` stops.
+    """
+    kernel = getattr(_core, name)
+    for arguments, keywords in calls[name]:
+        given: dict[Any, Any] = {**dict(enumerate(arguments)), **keywords}
+        for ends in ENDS:
+            other = {place: at_ends(value, ends) for place, value in given.items()}
+            for changes in [other, *({place: value} for place, value in other.items())]:
+                held = given | changes
+                positional = [held.pop(place) for place in range(len(arguments))]
+                with suppress(*ALLOWED):
+                    kernel(*positional, **held)
+
+
+def at_ends(value: Any, ends: tuple[int, ...]) -> Any:
+    """A whole number, or those of a tuple, in turn at the ends of int; anything else as it is."""
+    if isinstance(value, tuple):
+        return tuple(at_ends(each, ends[i % len(ends) :]) for i, each in enumerate(value))
+    is_whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
+    return ends[0] if is_whole else value
 
 
 def changed(call: tuple[tuple[Any, ...], dict[str, Any]], random: np.random.Generator) -> Any:

@@ -82,7 +82,7 @@ def test_summary_counts_frames():
     """Mean, spread over runs, and both shares are those of hand-made curves."""
 
     def curve(errors, overlaps):
-        arrays = (np.array(overlaps), np.array(errors), np.zeros((4, 4)), np.ones(4), np.zeros(4))
+        arrays = (np.array(overlaps), np.ones(4), np.array(errors), np.zeros((4, 4)), np.zeros(4))
         return curves.ColorCurve("m", "s", 0, *arrays)
 
     made = [curve([0.0, 0, 2, 2], [1.0, 1, 0.6, 0.4]), curve([25.0, 26, 0, 1], [0.5, 0, 0.7, 0.7])]

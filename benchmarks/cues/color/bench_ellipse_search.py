@@ -53,23 +53,9 @@ def script(bins: Bins, ellipse: Floats, grid: Grid, model: Floats, margin: float
     ids=["native", "full", "reference", "baseline"],
 )
 def bench_ellipse_search(
-    benchmark: Any, ellipse_search: Callable[..., Floats], region_bins: Bins, ellipse: Floats
+    benchmark: Any, ellipse_search: Callable[..., Floats], region_bins: Bins, ellipse: Floats, model: Floats
 ) -> None:
     """All find the same: the native search within its rounding, the script within that of float32."""
-    model = _core.ellipse_histogram(region_bins, ellipse[None], 4096, 1.0)[0][0].astype(np.float64)
     arguments = (region_bins, ellipse, (4, 16, 1), model, 1.4, None)
     found = benchmark(ellipse_search, *arguments)
     assert_allclose(found, reference.ellipse_search(*arguments), rtol=0, atol=1e-5)
-
-
-@pytest.mark.benchmark(group="ellipse_search")
-def bench_full_histograms(benchmark: Any, region_bins: Bins, ellipse: Floats) -> None:
-    """The counting alone of all places, in one call, before anything is compared: the counts agree."""
-    model = _core.ellipse_histogram(region_bins, ellipse[None], 4096, 1.0)[0][0].astype(np.float64)
-    places = every_place(ellipse, (4, 16, 1))
-    counts = benchmark(_core.ellipse_histogram, region_bins, places, 4096, 1.4)
-    found = _core.ellipse_search(region_bins, ellipse, (4, 16, 1), model, 1.4, None).reshape(-1, 4)
-    for k, each in enumerate(counts):
-        n = each.sum(axis=1, keepdims=True)
-        expected = np.minimum(each, n * (model / model.sum())).sum(axis=1) / n[:, 0]
-        assert_allclose(found[:, k], expected, rtol=0, atol=1e-6)

@@ -17,3 +17,12 @@ def region_bins(frame: NDArray[np.uint8]) -> NDArray[np.uint16]:
 def ellipse() -> NDArray[np.float64]:
     """30 pixels wide, 36 high."""
     return np.array([30.3, 27.8, 15.0, 18.0])
+
+
+@pytest.fixture(scope="session")
+def model(region_bins: NDArray[np.uint16], ellipse: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(4096,) how many pixels in the ellipse have each bin."""
+    y, x = np.mgrid[: region_bins.shape[0], : region_bins.shape[1]] + 0.5
+    x0, y0, minor, major = ellipse
+    inside = ((x - x0) / minor) ** 2 + ((y - y0) / major) ** 2 <= 1
+    return np.bincount(region_bins[inside], minlength=4096).astype(np.float64)

@@ -37,11 +37,11 @@ def script(
     rows: Shares,
     index: int,
     expected: Floats,
-    usual: tuple[Floats, Flags],
+    mean_size: tuple[Floats, Flags],
     pieces: tuple[float, float, float, float],
 ) -> tuple[Floats, Flags, Floats, Floats]:
     """The baseline: all objects in the region at once, cut at the bottom at most, without any check."""
-    (size, _), (region, inside, _, reach) = usual, pieces
+    (size, _), (region, inside, _, reach) = mean_size, pieces
     centers, extents, z = measured[:, :2], measured[:, 3:5], measured[:, 2]
     low = np.maximum(centers - extents / 2, expected[:2] - region * expected[3:] / 2)
     high = np.minimum(centers + extents / 2, expected[:2] + region * expected[3:] / 2)

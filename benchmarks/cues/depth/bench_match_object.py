@@ -40,7 +40,7 @@ def script(
     rows: Shares,
     _: Floats,
     expected: Floats,
-    usual: tuple[Floats, Flags],
+    mean_size: tuple[Floats, Flags],
     signature: Floats,
     deviation: tuple[float, ...],
     __: Any,
@@ -49,7 +49,7 @@ def script(
     ___: bool,
 ) -> int:
     """The baseline: all objects at once, for a target of known size, without any check."""
-    states, size = measured[:, :5].copy(), usual[0]
+    states, size = measured[:, :5].copy(), mean_size[0]
     half = (size - states[:, 3:]) / 2
     before, after = cut[:, ::2] & (half > 0), cut[:, 1::2] & (half > 0)
     low, high = states[:, :2] - half, states[:, :2] + half

@@ -81,9 +81,11 @@ class ColorSearch:
 
     def _histogram(self, image: NDArray[np.uint8]) -> Floats:
         left, top, bins = self._bins(image, 0, 0)
+        rows, columns = np.indices(bins.shape) + 0.5
+        x, y, minor, major = self._ellipse.tolist()
+        inside = ((columns + left - x) / minor) ** 2 + ((rows + top - y) / major) ** 2 <= 1
         size = int(np.prod(self.params.bins))
-        inside, _ = _core.ellipse_histogram(bins, (self._ellipse - [left, top, 0, 0])[None], size, 1.0)
-        counts: Floats = inside[0].astype(np.float64)
+        counts = np.bincount(bins[inside & (bins < size)], minlength=size).astype(np.float64)
         return np.asarray(counts / max(counts.sum(), 1.0))
 
     def _track(self, score: float) -> Track:

@@ -207,8 +207,7 @@ void walk(const SearchGrid& grid, Visit visit, Move move) {
 
 States ellipse_search(const BinsView& bins, VectorRef ellipse, const SearchGrid& grid,
                       const SearchModel& model, const ImageView& mask) {
-    require_size(ellipse, 4, "ellipse");
-    require_ellipses(Eigen::Map<const States>(ellipse.data(), 1, 4), model.margin, "ellipse");
+    require_ellipse(ellipse, model.margin);
     require_grid(grid);
     const double total = require_model(model.histogram);
     require_bins(bins, model.histogram.size());

@@ -17,10 +17,11 @@ struct SearchModel {
 
 /// Histogram intersection of a model with the ellipse at each place of a grid, and with the ring around it.
 ///
-/// Equation (1) as Σ min(C_i, n M_i) / n, n = Σ C_i, over the pixels inside both ellipse and image, with M of sum 1; 0 where there
-/// are none. What is outside the image counts neither for nor against a place, so a head at the edge has its maximum where it is. C
-/// and the ring are those of ellipse_histogram. n M_i is rounded to 2^-k pixels, k the largest with which n pixels fit into 31
-/// bits, so (1) is off by at most 2^-(k+1) per bin.
+/// Equation (1) as Σ min(C_i, n M_i) / n, n = Σ C_i, where C_i counts the pixels of bin i, with M of sum 1; 0 where there are none. A
+/// pixel is inside where its center (column + 0.5, row + 0.5) is. The ring is the ellipse scaled by `margin`, without the ellipse.
+/// Pixels outside the image, and those without a bin, count neither for nor against a place, so a head at the edge has its maximum
+/// where it is. n M_i is rounded to 2^-k pixels, k the largest with which n pixels fit into 31 bits, so (1) is off by at most
+/// 2^-(k+1) per bin.
 ///
 /// @param bins uint16 (H, W), as color_bins gives them, each below L, or 65535 for none; may be empty
 /// @param ellipse float64 (4,): center x, y, semi-axes along x (minor) and y (major), pixels of the bins, finite, axes above 0

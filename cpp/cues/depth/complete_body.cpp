@@ -69,7 +69,7 @@ double share_inside(const RectangleState& state, VectorRef expected, double regi
     return share;
 }
 
-/// How far a rectangle is from the usual size.
+/// How far a rectangle is from the mean size.
 double misfit(const RectangleState& state, VectorRef size) {
     const double width = std::log(state[3] / size[0]), height = std::log(state[4] / size[1]);
     return width * width + height * height;

@@ -33,17 +33,23 @@ class Curve:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class OcclusionCurve(Curve):
+class VisibilityCurve(Curve):
     """The curve of a target that others may hide."""
 
     visible: Floats
     """(M,) share of the target that nothing hides."""
-    statuses: tuple[Status, ...]
 
     @property
     def counted(self) -> Flags:
         """(M,) where at least half of the target is visible."""
         return np.asarray(self.visible >= MIN_VISIBLE)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class OcclusionCurve(VisibilityCurve):
+    """The curve of such a target, with what the tracker says of it."""
+
+    statuses: tuple[Status, ...]
 
     @property
     def tracked(self) -> Flags:

@@ -15,7 +15,6 @@ from tricue.reference.cues.color.color_histogram import color_histogram
 from tricue.reference.cues.color.color_lookup import color_lookup
 from tricue.reference.cues.color.color_posterior import color_posterior
 from tricue.reference.cues.color.color_ranks import color_ranks
-from tricue.reference.cues.color.ellipse_histogram import ellipse_histogram
 from tricue.reference.cues.color.ellipse_search import ellipse_search
 from tricue.reference.cues.color.histogram_mean import histogram_mean
 from tricue.reference.cues.color.hog_color_cells import hog_color_cells
@@ -133,7 +132,6 @@ __all__ = [
     "depth_posterior",
     "divide_depth",
     "ellipse_disparity",
-    "ellipse_histogram",
     "ellipse_search",
     "evidence_peak",
     "fill_gaps",

@@ -11,6 +11,7 @@ from numpy.testing import assert_array_equal
 from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
+from tricue.reference.cues.color.detail.ellipse_shape import count, mask_of
 
 SIZE = 12
 NO_BIN = 65535
@@ -72,18 +73,29 @@ def test_it_is_the_best_of_the_search(seed: int) -> None:
 
 @given(st.integers(0, 2**32))
 def test_colors_are_those_of_a_full_histogram(seed: int) -> None:
-    """The colors are what ellipse_histogram counts at that place: of marked pixels where there are enough,
-    else of all.
+    """The colors are those of the twin's pixels at that place, counted: of marked pixels where there are
+    enough, else of all.
     """
     arguments = case(seed)
     row, col, *_, colors = _core.best_ellipse(**arguments)
     rows, cols, step = arguments["grid"]
     place = arguments["ellipse"] + [(col - cols // 2) * step, (row - rows // 2) * step, 0, 0]
-    marked, _ = _core.ellipse_histogram(arguments["bins"], place[None], SIZE, 1.0, arguments["mask"])
-    whole, _ = _core.ellipse_histogram(arguments["bins"], place[None], SIZE, 1.0)
+    inside = mask_of(place, arguments["bins"].shape)
+    marked, whole = (
+        count(arguments["bins"], pixels, SIZE) for pixels in (inside & (arguments["mask"] != 0), inside)
+    )
     enough = arguments["min_marked"] > 0 and marked.sum() >= arguments["min_marked"]
-    counts = marked[0] if enough else whole[0]
+    counts = marked if enough else whole
     assert_array_equal(colors, counts / max(counts.sum(), 1))
+
+
+def test_pixels_by_hand(kernels: Kernels) -> None:
+    """A pixel's own circle has that pixel and its four neighbors, at a distance of exactly 1."""
+    bins, nothing = np.arange(25, dtype=np.uint16).reshape(5, 5), np.zeros((5, 5), np.uint8)
+    *_, colors = kernels.best_ellipse(
+        bins, np.array([2.5, 2.5, 1, 1]), (1, 1, 1), np.ones(25), 1.5, nothing, (0.0, 0.0, 0.0), 0
+    )
+    assert_array_equal(np.flatnonzero(colors), [7, 11, 12, 13, 17])
 
 
 def test_a_head_is_found_where_it_is(kernels: Kernels) -> None:

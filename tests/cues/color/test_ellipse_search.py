@@ -12,6 +12,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
+from tricue.reference.cues.color.detail.ellipse_shape import count, masks_of
 
 Bins = NDArray[np.uint16]
 Floats = NDArray[np.float64]
@@ -56,10 +57,11 @@ def places(ellipse: Floats, grid: Grid) -> Floats:
     )
 
 
-def full_counts(arguments: dict[str, Any]) -> list[NDArray[np.int32]]:
-    """Histograms of ellipses and of rings at every place, each counted from scratch."""
-    every = places(arguments["ellipse"], arguments["grid"])
-    return list(_core.ellipse_histogram(arguments["bins"], every, SIZE, arguments["margin"]))
+def full_counts(arguments: dict[str, Any]) -> list[NDArray[np.int64]]:
+    """Histograms of ellipses and of rings at every place, each counted from scratch in the twin's pixels."""
+    bins, margin = arguments["bins"], arguments["margin"]
+    masks = [masks_of(each, margin, bins.shape) for each in places(arguments["ellipse"], arguments["grid"])]
+    return [np.array([count(bins, pixels, SIZE) for pixels in each]) for each in zip(*masks, strict=True)]
 
 
 @given(st.integers(0, 2**32))
@@ -76,7 +78,7 @@ def test_twin_finds_the_same(seed: int) -> None:
 @given(st.integers(0, 2**32))
 def test_counts_are_those_of_full_histograms(seed: int) -> None:
     """A model of a single bin makes (1) that bin's count over n, with nothing to round: bin by bin, at every
-    place, the counts kept along the walk are exactly those that ellipse_histogram counts from scratch.
+    place, the counts kept along the walk are exactly those that are counted from scratch.
     """
     arguments = case(seed)
     for k, counts in enumerate(full_counts(arguments)):
@@ -86,6 +88,24 @@ def test_counts_are_those_of_full_histograms(seed: int) -> None:
             for kernels in (_core, reference):
                 found = kernels.ellipse_search(**arguments | {"model": np.eye(SIZE)[one]})
                 assert_array_equal(found[..., k].ravel(), expected[:, one])
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_agrees_with_the_equation_of_an_ellipse(kernels: Kernels, seed: int) -> None:
+    """Inside are the pixels of (x - x0)² / a² + (y - y0)² / b² <= 1, around those up to margin²."""
+    arguments = case(seed)
+    bins, margin = arguments["bins"], arguments["margin"]
+    found = kernels.ellipse_search(**arguments | {"model": np.eye(SIZE)[0]}).reshape(-1, 4)
+    y, x = np.mgrid[: bins.shape[0], : bins.shape[1]] + 0.5
+    for (x0, y0, minor, major), shares in zip(
+        places(arguments["ellipse"], arguments["grid"]), found, strict=True
+    ):
+        distance = ((x - x0) / minor) ** 2 + ((y - y0) / major) ** 2
+        for k, pixels in enumerate((distance <= 1, (distance > 1) & (distance <= margin**2))):
+            counted = pixels & (bins != NO_BIN)
+            n = max(np.count_nonzero(counted), 1)
+            assert shares[k] == np.count_nonzero(counted & (bins == 0)) / n
+            assert shares[2 + k] == np.count_nonzero(counted & (arguments["mask"] != 0)) / n
 
 
 @pytest.mark.parametrize("seed", range(30))
@@ -144,7 +164,7 @@ def test_finds_what_it_learned(kernels: Kernels) -> None:
     y, x = np.mgrid[:60, :80] + 0.5
     head = np.hypot((x - truth[0]) / truth[2], (y - truth[1]) / truth[3]) <= 1
     bins[head] = rng.integers(0, 6, np.count_nonzero(head))
-    model = kernels.ellipse_histogram(bins, truth[None], SIZE, 1.0)[0][0].astype(np.float64)
+    model = np.bincount(bins[head], minlength=SIZE).astype(np.float64)
     found = kernels.ellipse_search(bins, truth + [-5, 2, 0, 0], (9, 16, 1), model, 1.4, head.astype(np.uint8))
     best = np.unravel_index(np.argmax(found[..., 0] - found[..., 1] / 2), (9, 16))
     assert best == (2, 13)
@@ -209,6 +229,7 @@ BAD: list[tuple[dict[str, Any], str]] = [
         "ellipse: expected semi-axes of at most 4096 px",
     ),
     ({"margin": 17.0}, "margin: expected 1 to 16, got 17"),
+    ({"margin": np.nan}, "margin: expected 1 to 16, got nan"),
     ({"grid": (0, 16, 1)}, r"grid: expected rows, cols and a step of 1 to 1024, .* got \(0, 16, 1\)"),
     ({"grid": (4, 1025, 1)}, "grid: expected rows, cols and a step of 1 to 1024"),
     ({"grid": (4, 16, 0)}, "grid: expected rows, cols and a step of 1 to 1024"),
@@ -218,6 +239,7 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"model": np.full(SIZE, 1e308)}, "model: expected a finite sum above 0, got inf"),
     ({"model": np.array([1, np.nan] * 6)}, "model: expected finite numbers, got nan"),
     ({"model": np.array([1, -0.5] * 6)}, "model: expected no negative number, got -0.5"),
+    ({"model": np.ones(65536)}, "size: expected 1 to 65535 bins, got 65536"),
     ({"model": np.ones(3)}, "bins: expected bins below 3, or 65535 for none, got 11"),
     ({"mask": np.zeros((3, 3), np.uint8)}, r"mask: expected shape \(4, 6\), got \(3, 3\)"),
 ]
@@ -233,7 +255,9 @@ def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> Non
 
 
 def test_native_refuses_other_types() -> None:
-    """Another type is named, not converted."""
+    """Another type or layout is named, not converted."""
     for name in ("bins", "mask"):
         with pytest.raises(TypeError, match=f"{name}: expected"):
             _core.ellipse_search(**case(0, **{name: np.zeros((3, 3))}))
+    with pytest.raises(ValueError, match="bins: expected a C-contiguous"):
+        _core.ellipse_search(**case(0, bins=np.zeros((4, 6), np.uint16)[:, ::2]))

@@ -32,7 +32,7 @@ def case(states: Any, **changes: Any) -> Case:
         "rows": even.copy(),
         "index": 0,
         "expected": EXPECTED,
-        "usual": (EXPECTED[3:].copy(), np.array([True, True])),
+        "mean_size": (EXPECTED[3:].copy(), np.array([True, True])),
         "pieces": (1.3, 0.8, 1.15, 0.4),
     }
     return usual | changes
@@ -49,7 +49,7 @@ def random_case(seed: int) -> Case:
         cut=rng.random((count, 4)) < 0.2,
         columns=rng.dirichlet(np.ones(BINS), count).astype(np.float32),
         index=int(rng.integers(count)),
-        usual=(EXPECTED[3:] * rng.uniform(0.7, 1.3, 2), rng.random(2) < 0.5),
+        mean_size=(EXPECTED[3:] * rng.uniform(0.7, 1.3, 2), rng.random(2) < 0.5),
         pieces=(float(rng.uniform(1, 2)), float(rng.uniform(0.3, 1)), 1.15, float(rng.uniform(0, 1))),
     )
     values["measured"][:, 5:7] = rng.normal(0, 0.1, (count, 2))
@@ -109,9 +109,9 @@ def test_what_is_cut_grows_there(kernels: Kernels, side: int) -> None:
 def test_a_lower_bound_grows(kernels: Kernels) -> None:
     """A size that isn't known is at least that of the object, and what is cut is completed to it."""
     narrow = (np.array([0.3, 1.8]), np.array([False, True]))
-    _, _, size, _ = kernels.complete_body(**case([BODY], usual=narrow))
+    _, _, size, _ = kernels.complete_body(**case([BODY], mean_size=narrow))
     assert_array_equal(size, [0.6, 1.8])
-    _, _, size, _ = kernels.complete_body(**case([BODY], usual=(narrow[0], np.array([True, True]))))
+    _, _, size, _ = kernels.complete_body(**case([BODY], mean_size=(narrow[0], np.array([True, True]))))
     assert_array_equal(size, [0.3, 1.8])
 
 
@@ -122,7 +122,10 @@ BAD: list[tuple[Case, str]] = [
     ({"index": 1}, r"index: expected a number in \[0, 1\), got 1"),
     ({"index": -1}, r"index: expected a number in \[0, 1\), got -1"),
     ({"expected": np.ones(4)}, r"expected: expected shape \(5,\), got \(4,\)"),
-    ({"usual": (np.array([-1.0, 1.0]), np.array([True, True]))}, "size: expected numbers above 0, got -1"),
+    (
+        {"mean_size": (np.array([-1.0, 1.0]), np.array([True, True]))},
+        "size: expected numbers above 0, got -1",
+    ),
 ]
 
 

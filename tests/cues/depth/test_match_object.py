@@ -33,7 +33,7 @@ def case(states: Floats, **changes: Any) -> Case:
         "rows": even.copy(),
         "others": np.empty(0),
         "expected": TARGET,
-        "usual": (TARGET[3:].copy(), np.array([True, True])),
+        "mean_size": (TARGET[3:].copy(), np.array([True, True])),
         "signature": np.append(np.full(2 * BINS, 1 / BINS), [0.0, 0.0]),
         "deviation": (0.2, 0.4, 0.2, 0.2, 0.05),
         "unknown": (0.5, 0.3),
@@ -56,7 +56,7 @@ def random_case(seed: int) -> Case:
         columns=rng.dirichlet(np.ones(BINS), count).astype(np.float32).reshape(count, BINS),
         rows=rng.dirichlet(np.ones(BINS), count).astype(np.float32).reshape(count, BINS),
         others=rng.choice([0.0, 0.5, np.inf], count) if seed % 2 else np.empty(0),
-        usual=(rng.uniform(0.3, 2, 2), rng.random(2) < 0.5),
+        mean_size=(rng.uniform(0.3, 2, 2), rng.random(2) < 0.5),
         gate=(float(rng.choice([1.0, 8.0, np.inf])), float(rng.choice([0.0, 0.5]))),
         complete=bool(rng.random() < 0.7),
     )
@@ -117,8 +117,8 @@ BAD: list[tuple[Case, str]] = [
     ({"others": np.ones(2)}, r"others: expected shape \(1,\), got \(2,\)"),
     ({"expected": np.ones(4)}, r"expected: expected shape \(5,\), got \(4,\)"),
     ({"expected": np.full(5, np.inf)}, "expected: expected finite numbers, got inf"),
-    ({"usual": (np.ones(3), np.array([True, True]))}, r"size: expected shape \(2,\), got \(3,\)"),
-    ({"usual": (np.array([1.0, 0.0]), np.array([True, True]))}, "size: expected numbers above 0, got 0"),
+    ({"mean_size": (np.ones(3), np.array([True, True]))}, r"size: expected shape \(2,\), got \(3,\)"),
+    ({"mean_size": (np.array([1.0, 0.0]), np.array([True, True]))}, "size: expected numbers above 0, got 0"),
     ({"signature": np.ones(9)}, r"signature: expected shape \(10,\), got \(9,\)"),
     ({"deviation": (0.0, 1.0, 1.0, 1.0, 1.0)}, "x: expected a finite number above 0, got 0"),
     ({"deviation": (1.0, 1.0, np.nan, 1.0, 1.0)}, "z: expected a finite number above 0, got nan"),
@@ -141,8 +141,8 @@ WRONG: list[tuple[Case, type[Exception], str]] = [
     ({"measured": np.ones((1, 8), np.float32)}, TypeError, "measured: expected float64"),
     ({"cut": np.zeros((1, 4))}, TypeError, "cut: expected bool"),
     ({"columns": np.ones((1, BINS))}, TypeError, "columns: expected float32"),
-    ({"usual": (np.ones(2), np.ones(2))}, TypeError, r"known: expected bool \(2,\)"),
-    ({"usual": (np.ones(2), np.ones(3, np.bool_))}, ValueError, r"known: expected bool \(2,\)"),
+    ({"mean_size": (np.ones(2), np.ones(2))}, TypeError, r"known: expected bool \(2,\)"),
+    ({"mean_size": (np.ones(2), np.ones(3, np.bool_))}, ValueError, r"known: expected bool \(2,\)"),
 ]
 
 

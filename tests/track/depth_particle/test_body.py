@@ -18,7 +18,7 @@ STRANGER = [1.5, 0.0, 3.0, 0.5, 1.7]
 
 
 def motion(size, known=(True, True)):
-    """The motion of a target at rest, of a usual size that is known or not."""
+    """The motion of a target at rest, of a mean size that is known or not."""
     return BodyMotion.start(np.array([0.0, 0.0, 3.0, *size]), np.array(known))
 
 
@@ -188,11 +188,11 @@ def test_a_union_is_cut_where_its_pieces_are(objects_of):
 
 def test_what_makes_a_body_larger_than_usual_is_no_piece(objects_of):
     """Of somebody who turns sideways, and is narrower than usual, a chair at the side is no piece, though
-    both together would be nearer to the usual width; a body of the usual size has no pieces at all.
+    both together would be nearer to the mean width; a body of the mean size has no pieces at all.
     """
     sideways, chair = [0.0, 0.0, 3.0, 0.35, 1.7], [0.45, 0.3, 3.0, 0.2, 0.8]
     wide = np.array([0.2, 0.0, 3.0, 0.9, 1.8])
     alone = body_of(objects_of([sideways, chair]), 0, wide, SIZE)
     np.testing.assert_array_equal(alone.state, sideways)
-    usual = [0.0, 0.0, 3.0, *SIZE]
-    np.testing.assert_array_equal(body_of(objects_of([usual, chair]), 0, wide, SIZE).state, usual)
+    body = [0.0, 0.0, 3.0, *SIZE]
+    np.testing.assert_array_equal(body_of(objects_of([body, chair]), 0, wide, SIZE).state, body)

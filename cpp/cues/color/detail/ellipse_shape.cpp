@@ -49,15 +49,14 @@ EllipseShape::Run EllipseShape::column_range() const {
     return all;
 }
 
-void require_ellipses(StatesRef ellipses, double margin, const char* name) {
-    require_shape(ellipses, ellipses.rows(), 4, name);
-    require_finite(ellipses, name);
+void require_ellipse(VectorRef ellipse, double margin) {
+    require_size(ellipse, 4, "ellipse");
+    require_finite(ellipse, "ellipse");
     if (!(margin >= 1.0 && margin <= 16.0)) refuse("margin", "1 to 16", margin);
-    if (ellipses.rows() == 0) return;
-    const double least = ellipses.rightCols(2).minCoeff(), most = ellipses.rightCols(2).maxCoeff();
-    if (!(least > 0.0)) refuse(name, "semi-axes above 0", least);
+    const auto [least, most] = std::minmax({ellipse[2], ellipse[3]});
+    if (!(least > 0.0)) refuse("ellipse", "semi-axes above 0", least);
     if (margin * most > kMaxSemiAxis)
-        refuse(name, "semi-axes of at most 4096 pixels with the margin", margin * most);
+        refuse("ellipse", "semi-axes of at most 4096 pixels with the margin", margin * most);
 }
 
 }  // namespace tricue

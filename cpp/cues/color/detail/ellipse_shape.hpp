@@ -28,7 +28,7 @@ struct EllipseShape {
     std::vector<Run> runs;  ///< none is empty; towards the top and the bottom each lies within the next
     int area = 0;           ///< how many pixels
 
-    /// @param ellipse x, y, minor, major, checked by require_ellipses
+    /// @param ellipse x, y, minor, major, checked by require_ellipse
     /// @param scale   of both semi-axes; a larger one gives a shape that contains a smaller one's
     EllipseShape(const double* ellipse, double scale);
 
@@ -36,7 +36,7 @@ struct EllipseShape {
     Run column_range() const;
 };
 
-/// Throws std::invalid_argument unless ellipses (N, 4) are finite, with semi-axes in (0, 4096 / margin], and margin is in [1, 16].
-void require_ellipses(StatesRef ellipses, double margin, const char* name);
+/// Throws std::invalid_argument unless an ellipse (4,) is finite, with semi-axes in (0, 4096 / margin], and margin is in [1, 16].
+void require_ellipse(VectorRef ellipse, double margin);
 
 }  // namespace tricue

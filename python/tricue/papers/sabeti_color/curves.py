@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from tricue.papers import tables
-from tricue.papers.curves import HIDDEN_BELOW, MIN_OVERLAP, MIN_VISIBLE, Curve, Flags, Floats, models_of
+from tricue.papers.curves import HIDDEN_BELOW, MIN_OVERLAP, MIN_VISIBLE, Floats, VisibilityCurve, models_of
 
 MAX_CENTER_ERROR = 25.0
 """Pixels; a face farther off counts as lost."""
@@ -34,22 +34,15 @@ CSV_COLUMNS = ("model", "scene", "seed", "frame", "error_px", "iou", "visible")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class ColorCurve(Curve):
+class ColorCurve(VisibilityCurve):
     """One observation model in one scene."""
 
     errors: Floats
     """(M,) center errors in pixels."""
     boxes: Floats
     """(M, 4)"""
-    visible: Floats
-    """(M,) share of the target that nothing hides."""
     steps: Floats
     """(M,) pixels by which the target has moved since the last frame; 0 in the first."""
-
-    @property
-    def counted(self) -> Flags:
-        """(M,) where at least half of the target is visible."""
-        return np.asarray(self.visible >= MIN_VISIBLE)
 
     @property
     def recovered(self) -> list[bool]:

@@ -40,7 +40,7 @@ def filter_rectangles(
     reach: float,
     nearer: float,
     likelihood: tuple[bool, float, float],
-    usual: tuple[Floats, Floats],
+    mean_size: tuple[Floats, Floats],
     measured: tuple[Floats, Floats, float],
 ) -> tuple[Floats, Floats, Floats, Floats, Floats, Floats]:
     """Calls one twin after the other, for each sampling."""
@@ -50,7 +50,7 @@ def filter_rectangles(
     (drift, scale), (seen, root, share), (state, deviation, max_cost) = dynamics, detection, measured
 
     def log_likelihood(states: Floats) -> Floats:
-        prior = rectangle_prior(states, *usual, state, deviation, max_cost)
+        prior = rectangle_prior(states, *mean_size, state, deviation, max_cost)
         return np.asarray(view.log_likelihood(states, *likelihood) + prior)
 
     previous = particles[resample(weights, offset)]

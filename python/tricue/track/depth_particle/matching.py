@@ -28,7 +28,7 @@ NO_COSTS = np.empty(0)
 
 PIECE_REGION = 1.3  # times the expected rectangle, in which pieces of the body are looked for
 MIN_PIECE_INSIDE = 0.8  # of a piece's area, in that region
-MAX_JOINED_SIZE = 1.15  # times the usual size, of a body with its pieces
+MAX_JOINED_SIZE = 1.15  # times the mean size, of a body with its pieces
 MAX_PIECE_DEPTH = 0.4  # meters, from the body's depth to that of a stretched arm or leg
 PIECES = PIECE_REGION, MIN_PIECE_INSIDE, MAX_JOINED_SIZE, MAX_PIECE_DEPTH
 
@@ -94,7 +94,7 @@ def complete_body(
 
     With it comes the motion, whose mean size has grown where it is a lower bound.
     """
-    usual = motion.mean_size, motion.size_known
-    state, whole, size, signature = k.complete_body(*objects, index, expected, usual, PIECES)
+    mean_size = motion.mean_size, motion.size_known
+    state, whole, size, signature = k.complete_body(*objects, index, expected, mean_size, PIECES)
     grown = motion if all(motion.size_known.tolist()) else motion._replace(mean_size=size)
     return TargetObject(state, whole, Signature(signature)), grown

@@ -8,7 +8,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.track.base.prediction import Prediction
 from tricue.track.depth_particle.params import DepthParticleParams
 
 Floats = NDArray[np.float64]
@@ -20,6 +19,15 @@ MAX_NOISE_TIME = 1.0  # seconds, up to which the noise of a missed target grows
 FIRST_SIZE_RATE = 0.7  # of learning a size that is visible as a whole, until it is known
 MIN_SIZE = 0.1  # meters
 NO_DRIFT = np.zeros(5)
+
+
+class Prediction(NamedTuple):
+    """p(x' | x) = N(x + drift, diag(scale²)) between lower and upper, (5,) each, of a rectangle."""
+
+    drift: Floats
+    scale: Floats
+    lower: Floats
+    upper: Floats
 
 
 class BodyMotion(NamedTuple):
@@ -47,17 +55,17 @@ class BodyMotion(NamedTuple):
         target before them.
         """
         # Numbers one by one: arrays of two or three take longer.
-        (vx, vy, vz), (usual_width, usual_height) = self.velocity.tolist(), self.mean_size.tolist()
+        (vx, vy, vz), (mean_width, mean_height) = self.velocity.tolist(), self.mean_size.tolist()
         drift = NO_DRIFT
         if p.motion == "velocity":
             width, height = self.state[3:].tolist()
-            to_mean = SIZE_RETURN * (usual_width - width), SIZE_RETURN * (usual_height - height)
+            to_mean = SIZE_RETURN * (mean_width - width), SIZE_RETURN * (mean_height - height)
             drift = np.array((vx * seconds, vy * seconds, vz * seconds, *to_mean))
         time = min(seconds + missed, max(seconds, MAX_NOISE_TIME))
         growth = (p.position_noise + p.speed_noise * math.hypot(vx, vy, vz)) * time
         (x, y, z), (along_x, along_y, along_z) = MIN_POSITION_NOISE, AXIS_NOISE
         position = x + growth * along_x, y + growth * along_y, z + growth * along_z
-        scale = np.array((*position, p.size_noise * usual_width, p.size_noise * usual_height))
+        scale = np.array((*position, p.size_noise * mean_width, p.size_noise * mean_height))
         return Prediction(drift, scale, *_bounds(p.near, p.far))
 
     def update(self, state: Floats, p: DepthParticleParams, seconds: float, visible: bool) -> "BodyMotion":

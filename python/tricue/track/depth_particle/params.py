@@ -102,7 +102,7 @@ class DepthParticleParams(SegmentationParams):
         1.0, unit="-", source=OURS, low=0, doc="weight of the segmented object in the likelihood; 0: not used"
     )
     size_prior: float = parameter(
-        1.0, unit="-", source=OURS, low=0, doc="weight of the usual size in the likelihood; 0: not used"
+        1.0, unit="-", source=OURS, low=0, doc="weight of the mean size in the likelihood; 0: not used"
     )
     object_share: float = parameter(
         0.4,

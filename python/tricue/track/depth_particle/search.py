@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.base.prediction import Prediction
 from tricue.track.depth_objects.foreground import Foreground
 from tricue.track.depth_objects.objects import Objects
 from tricue.track.depth_particle.initialize import find_people
@@ -20,7 +19,7 @@ from tricue.track.depth_particle.matching import (
     best_match,
     complete_body,
 )
-from tricue.track.depth_particle.motion import MAX_NOISE_TIME, BodyMotion
+from tricue.track.depth_particle.motion import MAX_NOISE_TIME, BodyMotion, Prediction
 from tricue.track.depth_particle.occluder import follow_occluder, remove_occluder
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.state import State

@@ -11,7 +11,6 @@ from tricue.camera.box import Box, BoxLike, as_box
 from tricue.camera.frame import FrameLike
 from tricue.camera.rig import Intrinsics
 from tricue.track.base import validation
-from tricue.track.base.prediction import Prediction
 from tricue.track.base.random_source import RandomSource
 from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase
@@ -24,7 +23,7 @@ from tricue.track.depth_particle.depth_model import DepthModel, DepthObservation
 from tricue.track.depth_particle.initialize import initialize_in_box, initialize_on_person
 from tricue.track.depth_particle.matching import TargetObject
 from tricue.track.depth_particle.measurement import NOT_MEASURED, OBJECT_DEVIATION, Measurement
-from tricue.track.depth_particle.motion import MIN_SIZE, BodyMotion
+from tricue.track.depth_particle.motion import MIN_SIZE, BodyMotion, Prediction
 from tricue.track.depth_particle.occluder import find_occluder
 from tricue.track.depth_particle.others import region_in, remember_others
 from tricue.track.depth_particle.params import DepthParticleParams
@@ -207,7 +206,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         measured: Measurement,
     ) -> FilteredTarget:
         """One step of the particle filter: propose by (39) and at the object, weigh (2), estimate (31); then
-        again close to that estimate, as 100 particles are few in five dimensions. size: (2,) the usual one.
+        again close to that estimate, as 100 particles are few in five dimensions. size: (2,) the mean one.
         """
         p, before = self.params, state.particles
         width, height = size.tolist()

@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: MIT
 """The target's position in meters, with its covariance, from the center of its box and its disparity."""
 
-from functools import lru_cache
-
 import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
 from tricue.kernels import Kernels
+from tricue.track.base.stereo_noise import measurement_variances
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.state import FlowDepthState
 
@@ -32,16 +31,10 @@ def locate(
     scale = step * state.reduced.scale
     place_noise, disparity_noise = scale * p.place_noise, scale * p.disparity_noise
     measured = np.array([[x - 0.5, y - 0.5, disparity]])
-    variances = _variances(place_noise, disparity_noise)
+    variances = measurement_variances(place_noise, disparity_noise)
     points, covariances = k.back_project(measured, variances, state.geometry.camera, state.geometry.baseline)
     covariance = covariances[0]
     if state.missed:
         diagonal = covariance.ravel()[::4]
         diagonal += (p.acceleration_noise * state.missed**2 / 2) ** 2
     return points[0], covariance
-
-
-@lru_cache(maxsize=16)
-def _variances(place: float, disparity: float) -> Floats:
-    """(3,) of x, y and disparity, square pixels, of their standard deviations."""
-    return np.array([place**2, place**2, disparity**2])

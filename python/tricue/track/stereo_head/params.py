@@ -94,7 +94,12 @@ class StereoHeadParams(Params):
         was="anchor",
     )
     learning_rate: float = parameter(
-        0.3, unit="per frame", source="a of (2), not printed; " + OURS, low=0, high=1
+        0.3,
+        unit="per frame",
+        source="a of (2), not printed; " + OURS,
+        low=0,
+        high=1,
+        doc="of the color model",
     )
     learn: Literal["coherent", "all"] = parameter(
         "coherent",

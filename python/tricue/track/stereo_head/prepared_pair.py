@@ -25,7 +25,7 @@ NO_LEFT_RIGHT_CHECK = -1  # the tolerance by which sad_disparity doesn't compare
 class PreparedPair(NamedTuple):
     """A rectified stereo pair, in whose cells of ``step`` x ``step`` pixels the head is searched.
 
-    left, right: BGR (H, W, 3), the right one BGR or gray.
+    left, right: left BGR (H, W, 3), right the same, or gray (H, W) where the frame is.
     mean: color of the cells' middle pixels, a measure of the light while the scene stays the same.
     gains: those that turn colors into those of the first frame's light (von Kries); None: not compensated.
     """
@@ -40,7 +40,7 @@ class PreparedPair(NamedTuple):
     def of(
         cls, k: Kernels, left: Image, right: Image, first_mean: Color | None, p: StereoHeadParams
     ) -> "PreparedPair":
-        """Prepare the images of a frame, left BGR, right BGR or gray.
+        """Prepare the images of a frame, left BGR, right as it is.
 
         first_mean: mean color of the first left image; None: the light isn't compensated.
         """

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The geometry of a rectified stereo pair: projection, triangulation, and the noise of a position."""
 
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -9,6 +8,7 @@ from numpy.typing import NDArray
 
 from tricue.camera.rig import StereoRig
 from tricue.kernels import Kernels
+from tricue.track.base.stereo_noise import measurement_variances
 from tricue.track.stereo_head.params import StereoHeadParams
 
 Floats = NDArray[np.float64]
@@ -64,18 +64,12 @@ class StereoGeometry(NamedTuple):
         step: pixels of a cell, in which ``place_noise`` counts.
         """
         measured = np.array([[x - 0.5, y - 0.5, disparity]])
-        variances = _variances(p.place_noise * step, p.disparity_noise)
+        variances = measurement_variances(p.place_noise * step, p.disparity_noise)
         points, covariances = k.back_project(measured, variances, self.camera, self.numbers[4])
         x, y, z = points.tolist()[0]
         if p.noise_model == "polynomial":
             return (x, y, z), np.diag(_cubic_noise(self, (x, y, z), p) ** 2)
         return (x, y, z), covariances[0]
-
-
-@lru_cache(maxsize=16)
-def _variances(place: float, disparity: float) -> Floats:
-    """(3,) of x, y and disparity, square pixels, of their standard deviations."""
-    return np.array([place**2, place**2, disparity**2])
 
 
 def _cubic_noise(geometry: StereoGeometry, point: Point, p: StereoHeadParams) -> Floats:

@@ -4,13 +4,13 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.base.checks import Floats, refuse, require_finite, require_shape
+from tricue.reference.base.checks import Floats, refuse, require_finite
 from tricue.reference.cues.color.detail.ellipse_shape import (
     NO_BIN,
     count,
     masks_of,
     require_bins,
-    require_ellipses,
+    require_ellipse,
 )
 from tricue.reference.cues.color.detail.search_grid import Grid, places, require_grid
 
@@ -26,8 +26,7 @@ def ellipse_search(
     mask: NDArray[np.uint8] | None,
 ) -> Floats:
     """Counts every place from scratch, and intersects the counts with the model."""
-    require_shape("ellipse", ellipse, (4,))
-    require_ellipses("ellipse", ellipse[None], margin)
+    require_ellipse(ellipse, margin)
     require_grid(grid)
     _require_model(model)
     require_bins(bins, model.size)

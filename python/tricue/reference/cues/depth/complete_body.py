@@ -25,7 +25,7 @@ def complete_body(
     rows: Shares,
     index: int,
     expected: Floats,
-    usual: tuple[Floats, Flags],
+    mean_size: tuple[Floats, Flags],
     pieces: tuple[float, float, float, float],
 ) -> tuple[Floats, Flags, Floats, Floats]:
     """Joins one piece after the other, then completes what is joined."""
@@ -35,7 +35,7 @@ def complete_body(
     lengths = measured[:, [2, 3, 4, 7]]
     if not (lengths > 0).all():
         refuse("measured", "depths, sizes and areas above 0", float(lengths[~(lengths > 0)][0]))
-    (size, known), (region, inside, joined_size, depth) = usual, pieces
+    (size, known), (region, inside, joined_size, depth) = mean_size, pieces
     require_expected(expected, size)
     z = measured[index, 2]
     body, own = _unite(measured, cut, [index], z), [index]
@@ -83,5 +83,5 @@ def _share_inside(piece: Floats, expected: Floats, region: float) -> float:
 
 
 def _misfit(body: _Joined, size: Floats) -> float:
-    """How far a body is from the usual size."""
+    """How far a body is from the mean size."""
     return float(np.square(np.log(body.state[3:] / size)).sum())

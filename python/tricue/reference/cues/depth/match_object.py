@@ -24,7 +24,7 @@ def match_object(
     rows: Shares,
     others: Floats,
     expected: Floats,
-    usual: tuple[Floats, Flags],
+    mean_size: tuple[Floats, Flags],
     signature: Floats,
     deviation: Deviation,
     unknown: tuple[float, float],
@@ -35,7 +35,7 @@ def match_object(
     """Computes the cost of every object, and takes the least."""
     require_objects(measured, cut, columns, rows)
     _require(columns, others, len(measured), signature, deviation, (*unknown, signature_cost))
-    (size, known), (max_cost, min_area) = usual, gate
+    (size, known), (max_cost, min_area) = mean_size, gate
     require_expected(expected, size)
     *place, share, base = deviation
     scale = np.array([*place, *(share * size + base)])

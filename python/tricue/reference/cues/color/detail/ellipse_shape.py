@@ -11,19 +11,17 @@ Bins = NDArray[np.uint16]
 Mask = NDArray[np.bool_]
 
 
-def require_ellipses(name: str, ellipses: Floats, margin: float) -> None:
-    """Refuse other than N finite ellipses, semi-axes in (0, 4096 / margin], and a margin outside [1, 16]."""
-    require_shape(name, ellipses, (len(ellipses), 4))
-    require_finite(name, ellipses)
+def require_ellipse(ellipse: Floats, margin: float) -> None:
+    """Refuse other than a finite ellipse, semi-axes in (0, 4096 / margin], and a margin outside [1, 16]."""
+    require_shape("ellipse", ellipse, (4,))
+    require_finite("ellipse", ellipse)
     if not 1 <= margin <= 16:
         refuse("margin", "1 to 16", float(margin))
-    if len(ellipses) == 0:
-        return
-    if not ellipses[:, 2:].min() > 0:
-        refuse(name, "semi-axes above 0", float(ellipses[:, 2:].min()))
-    if margin * ellipses[:, 2:].max() > 4096:
-        longest = float(margin * ellipses[:, 2:].max())
-        refuse(name, "semi-axes of at most 4096 pixels with the margin", longest)
+    if not ellipse[2:].min() > 0:
+        refuse("ellipse", "semi-axes above 0", float(ellipse[2:].min()))
+    longest = float(margin * ellipse[2:].max())
+    if longest > 4096:
+        refuse("ellipse", "semi-axes of at most 4096 pixels with the margin", longest)
 
 
 def require_bins(bins: Bins, size: int) -> None:
