@@ -68,7 +68,7 @@ def track(source: Source, options: argparse.Namespace) -> None:
                     several.add(frame, box)
             picture = targets_overlay(frame.color, several.tracks)
             if writer is not None:
-                writer.write(picture)
+                writer.write(picture, frame.timestamp)
             if window:
                 cv2.imshow(TITLE, picture)
                 if cv2.waitKey(1) == ord("q"):

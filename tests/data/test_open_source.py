@@ -324,7 +324,21 @@ def test_passwords_stay_out_of_errors(monkeypatch: pytest.MonkeyPatch) -> None:
         open_source("https://me:p@ss@host/a.mp4", depth_scale=0.001)
 
 
-def test_a_number_is_a_cameras() -> None:
-    """It proves that a whole number is taken as cv2 takes it."""
+def test_a_file_in_a_network_is_named_without_its_password() -> None:
+    """It proves the same for one that can't be opened."""
+    with pytest.raises(
+        ValueError, match=r"^http://127\.0\.0\.1:9/a\.mp4: expected a video, this file can't be"
+    ):
+        open_source("http://me:p@ss@127.0.0.1:9/a.mp4")
+
+
+def test_a_number_is_a_cameras(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that a whole number is taken as cv2 takes it, and a folder's name as the folder's."""
+    with pytest.raises(OSError, match="9999"):
+        open_source(9999)
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "9999").mkdir()
+    cv2.imwrite("9999/1.png", np.zeros((4, 6, 3), np.uint8))
+    assert open_source("9999").size == (6, 4)
     with pytest.raises(OSError, match="9999"):
         open_source(9999)

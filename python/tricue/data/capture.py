@@ -63,8 +63,12 @@ def is_url(place: str) -> bool:
 
 
 def is_capture(place: str) -> bool:
-    """Whether it is a live camera: a number, /dev/video0, or a URL that isn't a file's."""
-    if place.isdecimal() or place.startswith("/dev/video"):
+    """Whether it is a live camera: a number that no folder has for a name, /dev/video0, or a URL that isn't a
+    file's.
+    """
+    if place.isdecimal():
+        return not Path(place).is_dir()
+    if place.startswith("/dev/video"):
         return True
     return is_url(place) and not is_file_url(place)
 

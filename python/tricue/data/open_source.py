@@ -72,7 +72,7 @@ def open_source(
 
 def _checked(place: Any, name: str) -> str | Path:
     if isinstance(place, int) and not isinstance(place, bool):
-        return str(place)  # a camera's
+        return str(place) if is_capture(str(place)) else f"/dev/video{place}"  # whatever a folder is called
     if not isinstance(place, str | os.PathLike):
         raise TypeError(f"{name}: expected a path, a URL or a camera's number, got {place!r:.80}")
     return place if isinstance(place, str) else Path(place)
@@ -92,7 +92,7 @@ def _opened(
         _refuse_topics(topics, without_password(place))
         _refuse_target(target, without_password(place))
         file = Path(urlsplit(place).path)
-        return Source(file.stem, {"color": Video(file, place)}, format="video")
+        return Source(file.stem, {"color": Video(file, place, without_password(place))}, format="video")
     path = _existing(Path(place))
     if is_recording(path):
         _refuse_target(target, place)

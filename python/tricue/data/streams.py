@@ -151,13 +151,13 @@ class FrameTimes:
 class Video:
     """A video file. Its length is None, for containers state their frame count wrongly or not at all.
 
-    url: where it is instead, in a network.
+    url: where it is instead, in a network. shown: how messages name it, without a password.
     """
 
     length = None
 
-    def __init__(self, path: Path, url: str = "") -> None:
-        self.path, self.place, self._is_remote = path, url or str(path), bool(url)
+    def __init__(self, path: Path, url: str = "", shown: str = "") -> None:
+        self.path, self.place, self._is_remote = path, shown or url or str(path), bool(url)
         self._name = url or os.path.join(os.curdir, path)  # noqa: PTH118 (FFmpeg takes a: for a protocol)
         capture = self._open()
         rate = plausible_fps(capture.get(cv2.CAP_PROP_FPS))

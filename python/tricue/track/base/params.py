@@ -36,7 +36,7 @@ def parameter(
     *,
     unit: str,
     source: str,
-    doc: str,
+    doc: str = "",
     low: float | None = None,
     high: float | None = None,
     above: float | None = None,
