@@ -231,3 +231,11 @@ def test_a_broken_parameter_file_is_named(tmp_path, capsys):
         *("--params", str(tmp_path / "given.toml"), "--output", str(tmp_path / "o.toml")),
     ]
     assert "given.toml: hair: unknown parameter" in failing(arguments, capsys)
+
+
+@pytest.mark.parametrize("text", ["2", "-0.1", "nan", "few"])
+def test_a_share_is_from_0_to_1(text: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that the option is named, not what it is called inside."""
+    with pytest.raises(SystemExit):
+        main(["calibrate", "skin-threshold", "skin", f"--false-positives={text}", "--output", "x.toml"])
+    assert f"--false-positives: expected a share, 0 to 1, got '{text}'" in capsys.readouterr().err

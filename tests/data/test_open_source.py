@@ -317,6 +317,15 @@ def test_topics_and_targets_of_no_folder(place: str) -> None:
     assert "word" not in str(told.value)
 
 
+@pytest.mark.parametrize("place", ELSEWHERE[:-1])
+def test_live_devices_tell_their_own_unit(place: str) -> None:
+    """It proves that a camera refuses a scale of depth before it is opened."""
+    with pytest.raises(
+        ValueError, match=r"^--depth-scale: expected with recorded depth, got .*; leave it out$"
+    ):
+        open_source(place, depth_scale=0.001)
+
+
 def test_passwords_stay_out_of_errors(monkeypatch: pytest.MonkeyPatch) -> None:
     """It proves that an error about an option names a URL without its password."""
     monkeypatch.setattr(cv2, "VideoCapture", GrayCamera)

@@ -28,6 +28,17 @@ def count(text: str) -> int:
     return int(text)
 
 
+def share(text: str) -> float:
+    """A number from 0 to 1."""
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not 0 <= number <= 1:
+        raise argparse.ArgumentTypeError(f"expected a share, 0 to 1, got {text!r}")
+    return number
+
+
 def words(text: str) -> list[str]:
     """Words separated by commas."""
     found = [word.strip() for word in text.split(",") if word.strip()]

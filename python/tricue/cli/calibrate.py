@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from tricue.camera import toml
-from tricue.cli.arguments import box
+from tricue.cli.arguments import box, share
 from tricue.cli.calibrations import find_calibration
 from tricue.cli.output_files import check_not_read
 from tricue.data.color_samples import read_color_samples
@@ -37,7 +37,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     skin.add_argument("place", type=Path, metavar="FOLDER", help="with image/ and mask/, white where skin is")
     skin.add_argument(
         "--false-positives",
-        type=float,
+        type=share,
         default=0.1,
         metavar="SHARE",
         help="of the other pixels that may be taken for skin, default %(default)s",
@@ -98,8 +98,8 @@ def _skin_threshold(options: argparse.Namespace, _params: Any) -> dict[str, Any]
     threshold, _ = curve.at_false_positive_rate(options.false_positives)
     print(f"{options.place}: {len(pairs)} images, area under the ROC curve {curve.area:.3f}")
     for rate in sorted({*RATES, options.false_positives}):
-        at, share = curve.at_false_positive_rate(rate)
-        print(f"  false positives {rate:5.1%}: threshold {at:6.3f}, {share:.1%} of the skin")
+        at, found = curve.at_false_positive_rate(rate)
+        print(f"  false positives {rate:5.1%}: threshold {at:6.3f}, {found:.1%} of the skin")
     return {"skin_threshold": round(threshold, 4)}
 
 

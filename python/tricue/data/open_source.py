@@ -87,6 +87,8 @@ def _opened(
     if isinstance(place, str) and (device := live_device(place)):
         _refuse_topics(topics, device.name)
         _refuse_target(target, device.name)
+        if scale is not None:
+            raise ValueError(f"--depth-scale: expected with recorded depth, got {device.name}; leave it out")
         return _open_live(device)
     if isinstance(place, str) and is_file_url(place):
         _refuse_topics(topics, without_password(place))
