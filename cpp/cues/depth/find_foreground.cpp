@@ -21,13 +21,14 @@ void thin_row(const float* __restrict from, std::ptrdiff_t n, std::ptrdiff_t ste
         for (std::ptrdiff_t x = 0; x < n; ++x) to[x] = from[x * step];
 }
 
-Floats thin(const DepthView& depth, int step) {
-    constexpr int kAhead = 4;  // rows
+/// A step may be as large as an int: sums and products of it don't fit one.
+Floats thin(const DepthView& depth, std::ptrdiff_t step) {
+    constexpr std::ptrdiff_t kAhead = 4;  // rows
     Floats thinned((depth.rows + step - 1) / step, (depth.cols + step - 1) / step);
-    for (int y = 0; y < depth.rows; y += step) {
-        if (y + kAhead * step < depth.rows)
-            prefetch_bytes(depth.row(y + kAhead * step), std::ptrdiff_t{depth.cols} * 4);
-        thin_row(depth.row(y), thinned.cols(), step, thinned.row(y / step).data());
+    const auto row = [&](std::ptrdiff_t y) { return depth.row(static_cast<int>(y * step)); };
+    for (std::ptrdiff_t y = 0; y < thinned.rows(); ++y) {
+        if ((y + kAhead) * step < depth.rows) prefetch_bytes(row(y + kAhead), std::ptrdiff_t{depth.cols} * 4);
+        thin_row(row(y), thinned.cols(), step, thinned.row(y).data());
     }
     return thinned;
 }

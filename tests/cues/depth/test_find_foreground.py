@@ -38,7 +38,7 @@ def assert_same(values: dict[str, Any]) -> None:
     assert native[2] == twin[2]
 
 
-@pytest.mark.parametrize("step", [1, 2, 3])
+@pytest.mark.parametrize("step", [1, 2, 3, 2**31 - 1])
 @pytest.mark.parametrize("ragged", [0.0, 0.06, 1.0])
 def test_twin_finds_the_same_in_pictures(picture: Depth, camera: Floats, step: int, ragged: float) -> None:
     """Native and reference agree on pictures of awkward sizes and layouts, thinned or not, filled or not."""
