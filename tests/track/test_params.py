@@ -426,7 +426,7 @@ def test_kernels_are_native_or_reference(tracker, name):
 
 @pytest.mark.parametrize("tracker", TRACKERS)
 def test_every_parameter_says_what_it_is(tracker):
-    """Each field has a meaning, a unit and a source, is in the table, and its default passes its own check."""
+    """Each field has a meaning, a unit, a source and a line in the table; its default passes its check."""
     known = fields(tracker)
     lines = tracker.Params.describe().splitlines()
     assert [line.split()[0] for line in lines[1:]] == list(known)
