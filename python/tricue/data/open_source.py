@@ -59,6 +59,8 @@ def open_source(
     Raises ValueError or OSError that names the place and what is wrong with it.
     """
     place = _checked(place, "place")
+    if depth_scale is not None and depth is None:
+        _refuse_scale_of_device(place)
     source = _opened(place, depth_scale, target, topics)
     shown = without_password(str(place))
     if right is not None:
@@ -87,8 +89,6 @@ def _opened(
     if isinstance(place, str) and (device := live_device(place)):
         _refuse_topics(topics, device.name)
         _refuse_target(target, device.name)
-        if scale is not None:
-            raise ValueError(f"--depth-scale: expected with recorded depth, got {device.name}; leave it out")
         return _open_live(device)
     if isinstance(place, str) and is_file_url(place):
         _refuse_topics(topics, without_password(place))
@@ -119,6 +119,12 @@ def _opened(
         raise ValueError(f"{place}: expected a video or a folder, got one picture; give its folder")
     _refuse_target(target, place)
     return _with_table(Source(path.stem, {"color": Video(path)}, format="video"), path)
+
+
+def _refuse_scale_of_device(place: str | Path) -> None:
+    """ValueError for a live device, whose depth is in meters, if it has any."""
+    if isinstance(place, str) and (device := live_device(place)):
+        raise ValueError(f"--depth-scale: expected with recorded depth, got {device.name}; leave it out")
 
 
 def _refuse_topics(topics: Mapping[str, str] | None, place: str | Path) -> None:
