@@ -104,9 +104,8 @@ levels: $(VENV)/dev
 	    SKBUILD_BUILD_DIR=build/level$$level SKBUILD_CMAKE_DEFINE=TRICUE_SIMD_LEVEL=$$level \
 	        $(PIP) install --quiet --no-build-isolation --no-deps --target $(LEVELS)/$$level . || exit 1; \
 	done
-	for build in installed $(TESTED_LEVELS); do \
-	    TRICUE_KERNELS=native TRICUE_HASHES=$(LEVELS)/$$build.json PYTHONPATH=$(LEVELS)/$$build:tools $(HASHED) || exit 1; \
-	done
+	printf '%s\n' installed $(TESTED_LEVELS) | xargs -I BUILD -P $$(nproc) env TRICUE_KERNELS=native \
+	    TRICUE_HASHES=$(LEVELS)/BUILD.json PYTHONPATH=$(LEVELS)/BUILD:tools $(HASHED)
 	$(BIN)/python tools/kernel_hashes.py $(LEVELS)/*.json
 
 # The VOT toolkit, beside which our trackers and numbers are tested, in an environment of its own: it brings another OpenCV.

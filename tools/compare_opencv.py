@@ -17,6 +17,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -141,7 +142,9 @@ def main() -> int:
     """Measure in each environment, print what differs, and fail if anything does."""
     versions = sys.argv[1:] or VERSIONS
     package = copy_package()
-    found = {version: measured_in(environment(version), package) for version in versions}
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        measured = pool.map(lambda version: measured_in(environment(version), package), versions)
+        found = dict(zip(versions, measured, strict=True))
     first, *others = found.items()
     different = [
         f"{name}: {version} differs from {first[0]}"
