@@ -7,7 +7,9 @@
     python examples/follow_person.py walk.bag --pan-tilt             # turns a camera's head instead
 
 Without a box it waits for a person who stands free. The robot drives while the person is seen, only turns
-while somebody hides them, and stops when they are lost. Put your motors into ``drive`` and ``turn_head``.
+while somebody hides them, and stops when they are lost, when the images end or can't be read, and on Ctrl-C.
+Put your motors into ``drive`` and ``turn_head``. Give them a watchdog that stops them when no command comes
+for half a second: while a camera hangs, or once the program is killed, nothing here can.
 """
 
 import argparse
@@ -33,6 +35,11 @@ def turn_head(command: PanTiltCommand) -> None:
     print(f"  pan {command.pan_speed:+.2f} rad/s, tilt {command.tilt_speed:+.2f} rad/s")
 
 
+def standing(command: PanTiltCommand) -> PanTiltCommand:
+    """The command that keeps the head where the last one brought it."""
+    return command._replace(pan_speed=0.0, tilt_speed=0.0)
+
+
 def follow(track: tricue.Track, distance: float) -> tuple[float, float]:
     """Speed forward and turn to the right that bring the target ahead, so many meters away."""
     if track.status is tricue.Status.LOST or track.position is None:
@@ -55,6 +62,36 @@ def camera_of(source: Source, fov: float | None) -> tricue.Intrinsics:
     return tricue.Intrinsics.from_fov(*source.size, fov)
 
 
+def run(source: Source, options: argparse.Namespace) -> None:
+    """Follow the person through the source, and stop, however it ends."""
+    if "depth" not in source.channels:
+        raise ValueError(f"{source.name}: expected depth images, found only {' and '.join(source.channels)}")
+    box = None if options.box is None else [float(number) for number in options.box.split(",")]
+    tracker = tricue.DepthParticleTracker(intrinsics=camera_of(source, options.fov))
+    head, command, started = tricue.PanTilt(), PanTiltCommand(0.0, 0.0, 0.0, 0.0), False
+    try:
+        for number, frame in enumerate(source):
+            try:
+                track = tracker.update(frame) if started else tracker.init(frame, box)
+            except TargetNotFoundError:
+                print(f"{number}: nobody there")
+                continue
+            started = True
+            print(f"{number}: {track.status}, score {track.score:.2f}")
+            if options.pan_tilt and track.position is not None:
+                command = head.command(track, timestamp=frame.timestamp)
+                turn_head(command)
+            elif options.pan_tilt:
+                turn_head(standing(command))
+            else:
+                drive(*follow(track, options.distance))
+    finally:
+        if options.pan_tilt:
+            turn_head(standing(command))
+        else:
+            drive(0.0, 0.0)
+
+
 def main(arguments: list[str] | None = None) -> None:
     """Follow, and print a line a frame."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
@@ -65,26 +102,12 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--fov", type=float, help="degrees, horizontal")
     parser.add_argument("--pan-tilt", action="store_true")
     options = parser.parse_args(arguments)
-    box = None if options.box is None else [float(number) for number in options.box.split(",")]
     try:
-        source = tricue.open_source(options.source, depth_scale=options.depth_scale)
-        tracker = tricue.DepthParticleTracker(intrinsics=camera_of(source, options.fov))
-        head, started = tricue.PanTilt(), False
-        for number, frame in enumerate(source):
-            frame.require("depth")
-            try:
-                track = tracker.update(frame) if started else tracker.init(frame, box)
-            except TargetNotFoundError:
-                print(f"{number}: nobody there")
-                continue
-            started = True
-            print(f"{number}: {track.status}, score {track.score:.2f}")
-            if options.pan_tilt and track.position is not None:
-                turn_head(head.command(track, timestamp=frame.timestamp))
-            elif not options.pan_tilt:
-                drive(*follow(track, options.distance))
-    except (OSError, ValueError) as error:
+        run(tricue.open_source(options.source, depth_scale=options.depth_scale), options)
+    except (ImportError, OSError, ValueError) as error:
         parser.error(str(error))
+    except KeyboardInterrupt:
+        print("ended")
 
 
 if __name__ == "__main__":

@@ -6,9 +6,10 @@ r"""A ROS 2 node that follows a target: image (and depth, camera_info) in; pose,
         -r depth:=/camera/aligned_depth_to_color/image_raw -r camera_info:=/camera/color/camera_info
 
 It starts on the parameter ``box``, and again on each sensor_msgs/RegionOfInterest on ``start``. Depth has to
-be registered to the image. ``pose`` is in the frame of the image's header: x right, y down, z forward,
-meters; only its position is known. Needs rclpy, sensor_msgs, geometry_msgs, vision_msgs, std_msgs and
-message_filters.
+be registered to the image. After an image that can't be read the status is "lost"; a camera that changes its
+size or calibration ends the track until another ``start``. ``pose`` is in the frame of the image's header: x
+right, y down, z forward, meters; only its position is known. Needs rclpy, sensor_msgs, geometry_msgs,
+vision_msgs, std_msgs and message_filters.
 """
 
 import sys
@@ -57,10 +58,15 @@ class TargetNode(Node):
         (self.pairs if use_depth else self.images).registerCallback(self.follow)
 
     def calibrate(self, info: Any) -> None:
-        """Take the camera, once: P of rectified images."""
-        if self.camera is None and info.p[0] > 0:
-            p = info.p
-            self.camera = tricue.Intrinsics(p[0], p[5], p[2], p[6], info.width, info.height)
+        """Take the camera: P of rectified images. Another one than before ends the track: its box is gone."""
+        p = info.p
+        if p[0] <= 0 or not info.width:
+            return  # not calibrated
+        camera = tricue.Intrinsics(p[0], p[5], p[2], p[6], info.width, info.height)
+        if self.camera not in (None, camera) and self.tracker is not None:
+            self.tracker, self.box = None, [0.0, 0.0, 0.0, 0.0]
+            self.status.publish(String(data=str(tricue.Status.LOST)))
+        self.camera = camera
 
     def start(self, region: Any) -> None:
         """Start again on this box, in the next image."""
@@ -68,7 +74,7 @@ class TargetNode(Node):
         self.tracker = None
 
     def follow(self, image: Any, depth: Any = None) -> None:
-        """One frame: track, publish. What is wrong with it is logged, and the next one goes on."""
+        """Track and publish a frame. What is wrong is logged, and the status lost; the next goes on."""
         if self.box[2] <= 0 or (depth is not None and self.camera is None):
             return  # nothing to start on, or no camera yet
         seconds = image.header.stamp.sec + 1e-9 * image.header.stamp.nanosec
@@ -82,6 +88,7 @@ class TargetNode(Node):
                 track = self.tracker.update(frame)
         except ValueError as error:
             self.get_logger().warning(str(error), throttle_duration_sec=1.0)
+            self.status.publish(String(data=str(tricue.Status.LOST)))
             return
         self.publish(track, image.header)
 

@@ -3,12 +3,14 @@
 
 import importlib
 import importlib.util
+import inspect
 import re
 import shlex
 import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import cv2
@@ -16,6 +18,9 @@ import numpy as np
 import pytest
 from tricue import _core
 from tricue.cli import program
+from tricue.data.open_source import open_source
+from tricue.data.source import Source
+from tricue.data.streams import Video
 
 ROOT = Path(__file__).parents[1]
 PAGES = sorted(
@@ -51,6 +56,16 @@ def prose(page: Path) -> Iterator[tuple[int, str]]:
 def blocks(text: str, language: str) -> list[str]:
     """What stands in the blocks of code of a language."""
     return re.findall(rf"^```{language}\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
+
+
+def samples(*names: str) -> list[Any]:
+    """The samples of Python of pages in docs/, each with its page."""
+    texts = ((name, (ROOT / "docs" / name).read_text(encoding="utf-8")) for name in names)
+    return [
+        pytest.param(name, sample, id=f"{name}-{index}")
+        for name, text in texts
+        for index, sample in enumerate(blocks(text, "python"))
+    ]
 
 
 TRACKERS = blocks((ROOT / "docs" / "trackers.md").read_text(encoding="utf-8"), "python")
@@ -216,6 +231,28 @@ def test_samples_of_the_trackers_run(index: int) -> None:
     """Each sample of docs/trackers.md runs by itself, and the tracker holds its target."""
     names: dict[str, Any] = {}
     exec(compile(TRACKERS[index], "docs/trackers.md", "exec"), names)
+    assert "track" not in names or names["track"].status == "tracked"
+
+
+@pytest.mark.usefixtures("recordings")
+@pytest.mark.parametrize(("page", "sample"), samples("data.md", "fused.md"))
+def test_samples_about_data_and_fused_run(page: str, sample: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each sample runs by itself, with a small video for its cameras and recordings, and without Rerun."""
+
+    def opened(place: str, **options: Any) -> Source:
+        source = Source(place, {"color": Video(Path("video.mp4"))})
+        assert set(options) <= set(inspect.signature(open_source).parameters)
+        return source
+
+    viewer = ModuleType("rerun")
+    monkeypatch.setattr(viewer, "init", lambda name, spawn: None, raising=False)
+    monkeypatch.setattr("tricue.rerun.log", lambda frame, track, name, number: None)
+    monkeypatch.setattr("tricue.rerun.log_path", lambda tracks, name: None)
+    monkeypatch.setitem(sys.modules, "rerun", viewer)
+    monkeypatch.setattr("tricue.open_source", opened)
+    monkeypatch.setattr("tricue.data.open_source.open_source", opened)
+    names: dict[str, Any] = {}
+    exec(compile(sample, f"docs/{page}", "exec"), names)
     assert "track" not in names or names["track"].status == "tracked"
 
 

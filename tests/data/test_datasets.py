@@ -132,3 +132,15 @@ def test_real_sequences(data: Path) -> None:
     }
     assert len(with_truth) >= 11
     assert [path.relative_to(data).as_posix() for path in find_sequences(data)] == sorted(with_truth)
+
+
+def test_a_gif_with_a_table(tmp_path: Path) -> None:
+    """It proves that a GIF with true boxes is a sequence, as it is when it's named, but not a preview of a
+    video of its name, nor one without boxes.
+    """
+    for name in ("alone.gif", "walk.gif", "walk.mp4", "without.gif", "alone.ts.txt"):
+        (tmp_path / name).touch()
+    text(tmp_path / "alone.csv")
+    text(tmp_path / "walk.csv")
+    assert [path.name for path in find_sequences(tmp_path)] == ["alone.gif", "walk.mp4"]
+    assert find_sequences(tmp_path / "alone.gif") == [tmp_path / "alone.gif"]

@@ -269,6 +269,20 @@ def test_bad_inputs_are_named(tmp_path: Path, make: Callable[[Path], Path], mess
         levels(open_source(make(tmp_path)))
 
 
+@pytest.mark.parametrize("suffix", [".webp", ".png", ".tif"])
+def test_an_animation_in_an_image_file_is_told(tmp_path: Path, suffix: str) -> None:
+    """It proves that several pictures in one file aren't called one picture, as one alone is."""
+    image = pytest.importorskip("PIL.Image")
+    pictures = [image.fromarray(np.full((48, 64, 3), 20 * level, np.uint8)) for level in range(4)]
+    path = tmp_path / f"x{suffix}"
+    pictures[0].save(path, save_all=True, append_images=pictures[1:])
+    with pytest.raises(ValueError, match=rf"x{suffix}: .* several pictures in one image file; turn it into"):
+        open_source(path)
+    pictures[0].save(path)
+    with pytest.raises(ValueError, match=rf"x{suffix}: .* one picture; give its folder"):
+        open_source(path)
+
+
 def test_a_text_is_no_video(tmp_path: Path) -> None:
     """It proves that a file of true boxes isn't shown as FFmpeg shows texts: as a video of its letters."""
     (tmp_path / "boxes.txt").write_text("1,2,3,4\n" * 100)

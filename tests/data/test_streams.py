@@ -2,6 +2,7 @@
 """Times of videos' frames, and what is told of videos that end early."""
 
 import os
+import re
 import warnings
 from collections.abc import Sequence
 from fractions import Fraction
@@ -139,6 +140,43 @@ def test_a_video_that_is_cut_off_is_told(tmp_path: Path, times: list[float], tol
     (tmp_path / "o.mkv").write_bytes(content[: len(content) // 2])
     with pytest.warns(UserWarning, match=rf"o\.mkv: {told} can be decoded; is it cut off\?"):
         assert 20 < len(list(Video(tmp_path / "o.mkv"))) < 60
+
+
+@pytest.mark.parametrize(
+    ("damaged", "told"),
+    [
+        ([12], "the damaged frame 12"),
+        ([12, 13, 20], "3 damaged frames, the first of them frame 12"),
+        ([39], ""),
+    ],
+)
+def test_a_damaged_frame_is_the_one_before(tmp_path: Path, damaged: list[int], told: str) -> None:
+    """It proves that a video goes on behind damaged frames, that all keep their numbers and times, however
+    they are read, and that it's told; damage at its end ends it.
+    """
+    path = write(tmp_path / "o.avi", [index / 30 for index in range(40)], "mjpeg", unit=Fraction(1, 30))
+    intact, content = list(Video(path)), bytearray(path.read_bytes())
+    starts = [found.start() for found in re.finditer(b"\xff\xd8\xff", content)]
+    for index in damaged:  # the JPEG image, not the container around it
+        size = content.index(b"\xff\xd9", starts[index]) - starts[index]
+        content[starts[index] : starts[index] + size] = bytes(size)
+    path.write_bytes(content)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        found = list(Video(path))
+    assert [str(each.message) for each in caught] == (
+        [f"{path}: took the frame before in place of {told}"] if told else []
+    )
+    assert len(found) == (40 if told else 39)
+    for index, (seconds, picture) in enumerate(found):
+        whole = max(set(range(index + 1)) - set(damaged))
+        assert seconds == intact[index][0]
+        assert np.array_equal(picture, intact[whole][1])
+    assert list(Video(path).times) == [seconds for seconds, _ in found]
+    wanted = [3, 12, 13, 14, 20, 38]
+    for index, (seconds, picture) in zip(wanted, Video(path).at(wanted), strict=True):
+        assert seconds == found[index][0]
+        assert np.array_equal(picture, found[index][1])
 
 
 def test_sound_that_goes_on_is_no_cut(tmp_path: Path) -> None:

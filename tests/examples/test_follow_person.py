@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: MIT
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import nullcontext
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
+from typing import Any
 
 import cv2
 import numpy as np
 import pytest
-from tricue import Box, Status, Track
+import tricue
+from tricue import Box, Frame, Status, Track
+from tricue.data.source import Source
 from tricue.scenes import DepthScene, walker
 
 Program = Callable[[str], ModuleType]
@@ -43,13 +47,16 @@ def test_it_drives_to_the_person(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    """It proves that it waits for a person, finds them, turns to their side and drives up to the distance."""
+    """It proves that it waits for a person, finds them, turns to their side, drives up to the distance, and
+    stops at the end.
+    """
     module = program("follow_person")
     commands: list[tuple[float, float]] = []
     monkeypatch.setattr(module, "drive", lambda *speeds: commands.append(speeds))
     module.main([str(recording), "--depth-scale", "0.001", "--fov", "47.5", "--distance", "1.5"])
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "0: nobody there"
+    assert commands.pop() == (0.0, 0.0)
     assert len(commands) == len(person.frames)
     assert all("tracked" in line for line in lines[1:])
     for (forward, turn), (x, _, z) in zip(commands, person.positions.tolist(), strict=True):
@@ -58,9 +65,48 @@ def test_it_drives_to_the_person(
 
 
 def test_it_turns_a_head(recording: Path, program: Program, capsys: pytest.CaptureFixture[str]) -> None:
-    """It proves that a pan-tilt head gets speeds instead."""
+    """It proves that a pan-tilt head gets speeds instead, and stands still at the end."""
     program("follow_person").main([str(recording), "--depth-scale", "0.001", "--fov", "47.5", "--pan-tilt"])
-    assert capsys.readouterr().out.count("rad/s, tilt") == 20
+    lines = [line for line in capsys.readouterr().out.splitlines() if "rad/s, tilt" in line]
+    assert len(lines) == 21
+    assert lines[-1] == "  pan +0.00 rad/s, tilt +0.00 rad/s"
+    assert lines[-2] != lines[-1]
+
+
+@pytest.mark.parametrize(
+    ("error", "ending"),
+    [(ValueError("depth/0009.png: can't be read"), SystemExit), (KeyboardInterrupt, None)],
+)
+def test_it_stops_when_the_images_do(
+    error: Exception | type[KeyboardInterrupt],
+    ending: type[SystemExit] | None,
+    person: DepthScene,
+    program: Program,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It proves that the last command is to stand still, after an image that can't be read or Ctrl-C, too."""
+
+    def images() -> Iterator[Frame]:
+        yield from person.frames[:3]
+        raise error
+
+    class Broken(Source):
+        def __iter__(self) -> Iterator[Frame]:
+            return images()
+
+    module = program("follow_person")
+    assert person.frames[0].depth is not None
+    stream = SimpleNamespace(length=None, size=person.frames[0].depth.shape[::-1])
+    source = Broken("walk", {"depth": stream})  # type: ignore[dict-item]
+    monkeypatch.setattr(tricue, "open_source", lambda *_, **__: source)
+    for option, name in (([], "drive"), (["--pan-tilt"], "turn_head")):
+        commands: list[tuple[Any, ...]] = []
+        monkeypatch.setattr(module, name, lambda *values, commands=commands: commands.append(values))
+        with nullcontext() if ending is None else pytest.raises(ending):
+            module.main(["walk", "--fov", "47.5", *option])
+        assert len(commands) == 4
+        last = commands[-1] if name == "drive" else commands[-1][0][:2]
+        assert last == (0.0, 0.0)
 
 
 def test_it_stops_without_the_person(program: Program) -> None:
@@ -76,11 +122,32 @@ def test_it_stops_without_the_person(program: Program) -> None:
     assert turn < 0
 
 
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ([], "--fov 57"),
+        (["--fov", "57", "--box", "a,b"], "could not convert string to float: 'a'"),
+        (["--fov", "57", "--box", "1,2"], "box"),
+    ],
+)
 def test_wrong_input_is_one_line(
-    recording: Path, program: Program, capsys: pytest.CaptureFixture[str]
+    options: list[str], said: str, recording: Path, program: Program, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """It proves that an unknown camera is told with what to do, and exit code 2."""
+    """It proves that an unknown camera and a wrong box are told with what to do, and exit code 2."""
     with pytest.raises(SystemExit) as stop:
-        program("follow_person").main([str(recording), "--depth-scale", "0.001"])
+        program("follow_person").main([str(recording), "--depth-scale", "0.001", *options])
     assert stop.value.code == 2
-    assert "--fov 57" in capsys.readouterr().err
+    assert said in capsys.readouterr().err.splitlines()[-1]
+
+
+def test_a_pair_without_depth_is_refused(
+    tmp_path: Path, program: Program, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that depth is what is said to be missing of a stereo pair, not the camera."""
+    for side in ("left", "right"):
+        (tmp_path / side).mkdir()
+        assert cv2.imwrite(str(tmp_path / side / "0.png"), np.zeros((48, 64, 3), np.uint8))
+    with pytest.raises(SystemExit) as stop:
+        program("follow_person").main([str(tmp_path)])
+    assert stop.value.code == 2
+    assert "expected depth images, found only color and right" in capsys.readouterr().err

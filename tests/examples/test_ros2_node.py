@@ -191,14 +191,47 @@ def test_color_alone_gives_a_detection(node: Callable[..., Any], scene: WalkScen
 
 
 def test_a_wrong_image_is_logged(node: Callable[..., Any], scene: WalkScene) -> None:
-    """It proves that an image that can't be read is told of, and that the next one goes on."""
+    """It proves that an image that can't be read is told of, as lost too, and that the next one goes on."""
     made = node(box=list(scene.boxes[0]))
     broken = color(scene, 0)
     broken.encoding = "unheard-of"
     made.callbacks["image"](broken)
     assert "unheard-of" in made.warnings[0]
     made.callbacks["image"](color(scene, 0))
-    assert made.published["status"][0].data == "tracked"
+    assert [each.data for each in made.published["status"]] == ["lost", "tracked"]
+
+
+def test_a_camera_that_restarts_with_another_size(node: Callable[..., Any], scene: WalkScene) -> None:
+    """It proves that the status is lost from then on, whichever comes first, the new images or their
+    camera_info, and that another start is taken.
+    """
+    made = node(box=list(scene.boxes[0]), use_depth=True)
+    both, calibrate = made.callbacks["image+depth"], made.callbacks["camera_info"]
+    status = made.published["status"]
+    calibrate(info(scene))
+    for index in range(4):
+        calibrate(info(scene))  # the same one, with each image
+        both(color(scene, index), depth(scene, index))
+    pixels = scene.frames[4].color
+    assert pixels is not None
+    halves = [np.ascontiguousarray(each[::2, ::2]) for each in (pixels, millimeters(scene, 4))]
+    small = image(halves[0], "bgr8", 4), image(halves[1], "16UC1", 4)
+    both(*small)
+    assert [each.data for each in status] == ["tracked"] * 4 + ["lost"]
+    camera = info(scene)
+    camera.p = [value / 2 for value in camera.p]
+    camera.width, camera.height = camera.width // 2, camera.height // 2
+    calibrate(camera)
+    both(*small)  # the box was one of the larger image
+    assert [each.data for each in status[4:]] == ["lost"] * 2
+    x, y, width, height = (round(side / 2) for side in scene.boxes[4])
+    made.callbacks["start"](SimpleNamespace(x_offset=x, y_offset=y, width=width, height=height))
+    both(*small)
+    assert status[-1].data == "tracked"
+    point = made.published["pose"][-1].pose.pose.position
+    assert [point.x, point.y, point.z] == pytest.approx(scene.positions[4], abs=0.3)
+    calibrate(info(scene))  # back to the first size, told before the images come
+    assert status[-1].data == "lost"
 
 
 def test_without_ros_it_says_what_is_missing() -> None:

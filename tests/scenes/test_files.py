@@ -4,6 +4,8 @@ import pytest
 
 pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
 
+from tricue.cli.program import main
+from tricue.data.open_source import open_source
 from tricue.evaluation.dataset import find_entries
 from tricue.scenes.files import write_sequence
 from tricue.scenes.rooms.scene import room_scene
@@ -34,9 +36,22 @@ def test_what_is_written_is_read_back(tmp_path, channels):
     assert opened.truth(count) == pytest.approx(true, abs=1e-4, nan_ok=True)
     assert opened.positions(count) == pytest.approx(made.positions, abs=1e-6, nan_ok=True)
     assert opened.rig == made.rig
+    assert open_source(tmp_path / "scene").calibration == tmp_path / "scene" / "intrinsics.toml"
     if channels in ("rgbd", "depth"):
         assert opened.intrinsics == made.intrinsics
         assert opened.registered
+
+
+def test_a_written_pair_is_tracked_in_meters(tmp_path, capsys):
+    """``tricue track`` finds the rig of a stereo scene beside its images."""
+    made = room_scene("walker", 0, (160, 120), "stereo", frames=3)
+    write_sequence(made, tmp_path / "scene")
+    command = ["track", str(tmp_path / "scene"), "--csv", str(tmp_path / "o.csv")]
+    assert main(command) == 0
+    assert f"calibration found: {tmp_path / 'scene' / 'intrinsics.toml'}" in capsys.readouterr().out
+    rows = (tmp_path / "o.csv").read_text().splitlines()
+    place = [float(cell) for cell in rows[1].split(",")[rows[0].split(",").index("X_m") :][:3]]
+    assert place == pytest.approx(made.positions[0], abs=0.3)
 
 
 def clipped(box, width=160, height=120):

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tricue.data import kitti, princeton, tum
 from tricue.data.box_table import BOX_TABLE, find_video_box_table
-from tricue.data.files import is_video, natural_order
+from tricue.data.files import is_video, may_be_video, natural_order
 from tricue.data.truth import OTB_TRUTH, PRINCETON_FIRST_BOX, VOT_TRUTH, otb_targets
 
 
@@ -37,7 +37,12 @@ def _below(folder: Path, seen: set[Path]) -> Iterator[Path]:
 
 
 def _is_sequence_video(path: Path) -> bool:
-    return is_video(path) and path.is_file() and find_video_box_table(path) is not None
+    """Whether a table is beside a video; of what may be a preview, only where no other video has its name."""
+    if not may_be_video(path) or not path.is_file() or find_video_box_table(path) is None:
+        return False
+    return is_video(path) or not any(
+        is_video(other) and other.stem == path.stem for other in path.parent.iterdir()
+    )
 
 
 def _is_sequence(folder: Path) -> bool:

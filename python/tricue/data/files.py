@@ -4,6 +4,7 @@
 import re
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Literal
 
 _IMAGE_SUFFIXES = {
     ".bmp",
@@ -39,6 +40,8 @@ _OTHER_VIDEO_SUFFIXES = {
 }
 """Of videos, too, but also of previews beside one, of other files, and of what cameras send by URL."""
 
+_HEAD = 1 << 16  # bytes of a PNG file that are looked through for what is before its pixels
+
 
 def listed_path(folder: Path, name: str, list_file: Path) -> Path:
     """The file of that name in a list; ValueError for one outside of the folder."""
@@ -63,9 +66,34 @@ def is_image(path: Path) -> bool:
     return path.suffix.lower() in _IMAGE_SUFFIXES
 
 
+def has_several_pictures(path: Path) -> bool:
+    """Whether an image file is an animation in WebP or PNG, or has several pages in TIFF."""
+    with path.open("rb") as file:
+        head = file.read(_HEAD)
+        if head.startswith(b"RIFF"):
+            return b"ANIM" in head[:64]
+        if head.startswith(b"\x89PNG"):
+            return b"acTL" in head.partition(b"IDAT")[0]
+        if not head.startswith((b"II*\0", b"MM\0*")):
+            return False
+        order: Literal["little", "big"] = "little" if head.startswith(b"II") else "big"
+
+        def number(place: int, size: int) -> int:
+            file.seek(place)
+            return int.from_bytes(file.read(size), order)
+
+        page = number(4, 4)
+        return number(page + 2 + 12 * number(page, 2), 4) > 0  # where the next page is
+
+
 def is_video(path: Path) -> bool:
     """Whether the file's suffix is that of a video, and of nothing else."""
     return path.suffix.lower() in _VIDEO_SUFFIXES
+
+
+def may_be_video(path: Path) -> bool:
+    """Whether the file's suffix may be that of a video, among others."""
+    return is_video(path) or path.suffix.lower() in _OTHER_VIDEO_SUFFIXES
 
 
 def video_paths(folder: Path) -> list[Path]:

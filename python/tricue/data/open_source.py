@@ -11,7 +11,7 @@ from urllib.parse import urlsplit
 from tricue.data import oak, realsense
 from tricue.data.box_table import find_box_table, find_video_box_table, read_box_table
 from tricue.data.capture import Capture, is_capture, is_file_url, without_password
-from tricue.data.files import image_paths, is_image
+from tricue.data.files import has_several_pictures, image_paths, is_image
 from tricue.data.layouts import depth_images, note_box_table, read_layout
 from tricue.data.live import Device, Live, LiveStream, Patience, live_channels
 from tricue.data.recordings.recording import is_recording, open_recording
@@ -116,7 +116,11 @@ def _opened(
     if path.suffix.lower() in TEXT_SUFFIXES:
         raise ValueError(f"{place}: expected a video or a folder, got a text")
     if is_image(path):
-        raise ValueError(f"{place}: expected a video or a folder, got one picture; give its folder")
+        if has_several_pictures(path):
+            hint = "several pictures in one image file; turn it into a video or into a folder of images"
+        else:
+            hint = "one picture; give its folder"
+        raise ValueError(f"{place}: expected a video or a folder, got {hint}")
     _refuse_target(target, place)
     return _with_table(Source(path.stem, {"color": Video(path)}, format="video"), path)
 

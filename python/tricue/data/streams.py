@@ -3,6 +3,7 @@
 
 import importlib
 import importlib.util
+import math
 import os
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -21,6 +22,7 @@ MAX_FPS = 1000.0
 MIN_DECODED_SHARE = 0.95  # of the frames or the duration that a container states
 MAX_MISCOUNTED = 4  # frames by which a duration may be too long: Flash's counts the delay of B-frames
 TIME_ROUNDING = 0.001  # seconds, the unit of times in Matroska and Flash
+MAX_DAMAGED = 100  # frames in a row that can't be decoded, before the video is taken to end
 DOUBTED_FPS = 60.0  # above it FFmpeg may tell the unit of a container's times, where that states no rate
 FIRST_FRAMES = 16  # by whose times such a rate is checked
 
@@ -173,47 +175,78 @@ class Video:
     @cached_property
     def times(self) -> Sequence[float]:
         """The seconds of all frames, by reading all of them; the first one's are 0."""
-        capture, times = self._open(), FrameTimes(self.fps)
+        capture = self._open()
         try:
-            return [times.add(_told(capture)) for _ in iter(capture.grab, False)]
+            return [seconds for seconds, _ in self._grab(capture, FrameTimes(self.fps))]
         finally:
             capture.release()
 
     def __iter__(self) -> Iterator[tuple[float, Image]]:
-        capture, index, times = self._open(), 0, FrameTimes(self.fps)
+        """A damaged frame between others has the image of the one before, so that all keep their numbers."""
+        capture, count, times = self._open(), 0, FrameTimes(self.fps)
         stated = capture.get(cv2.CAP_PROP_FRAME_COUNT)
         rate = plausible_fps(capture.get(cv2.CAP_PROP_FPS)) or self.fps
+        image: Image | None = None
+        damaged = []
         try:
-            while (image := _read(capture)) is not None:
-                yield times.add(_told(capture)), image
-                index += 1
+            for seconds, is_whole in self._grab(capture, times):
+                image = _retrieved(capture) if is_whole else image
+                if image is None:
+                    break
+                if not is_whole:
+                    damaged.append(count)
+                yield seconds, image
+                count += 1
         finally:
             capture.release()
-        if index == 0:
+        if count == 0:
             raise ValueError(f"{self.place}: expected a video, this file has no frame that can be decoded")
-        missing = _missing(index, times, stated, rate)
-        if missing and not self._is_read_whole(index, stated / rate):
+        if damaged:
+            several = (
+                f"{len(damaged)} damaged frames, the first of them " if len(damaged) > 1 else "the damaged "
+            )
+            text = f"{self.place}: took the frame before in place of {several}frame {damaged[0]}"
+            warnings.warn(text, stacklevel=2)
+        missing = _missing(count, times, stated, rate)
+        if missing and not self._is_read_whole(count, stated / rate):
             warnings.warn(f"{self.place}: only {missing} can be decoded; is it cut off?", stacklevel=2)
 
     def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
         """Reads all frames between, for seeking in videos isn't reliable."""
-        capture, index, times = self._open(), 0, FrameTimes(self.fps)
+        capture, index, whole = self._open(), -1, 0
+        frames = self._grab(capture, FrameTimes(self.fps))
         try:
             for wanted in indices:
-                while index < wanted and capture.grab():
-                    times.add(_told(capture))
+                found = None
+                while index < wanted and (found := next(frames, None)):
                     index += 1
-                image = _read(capture) if index == wanted else None
+                    whole = index if found[1] else whole
+                if found is None:
+                    raise ValueError(f"{self.place}: expected {wanted + 1} frames, got {index + 1}")
+                seconds, is_whole = found
+                image = _retrieved(capture) if is_whole else next(self.at([whole]))[1]
                 if image is None:
                     raise ValueError(f"{self.place}: expected {wanted + 1} frames, got {index}")
-                yield times.add(_told(capture)), image
-                index += 1
+                yield seconds, image
         finally:
             capture.release()
 
     def count(self) -> int:
         """The number of frames, by reading all of them."""
         return len(self.times)
+
+    def _grab(self, capture: cv2.VideoCapture, times: FrameTimes) -> Iterator[tuple[float, bool]]:
+        """The seconds of each frame, grabbed but for the damaged ones between, and whether it is whole."""
+        damaged, patience = 0, 0  # none before the first frame, nor of a URL
+        while damaged <= patience:
+            if not capture.grab():
+                damaged += 1
+                continue
+            told = _told(capture)
+            for _ in range(damaged):
+                yield times.add(-math.inf), False
+            yield times.add(told), True
+            damaged, patience = 0, 0 if self._is_remote else MAX_DAMAGED
 
     def _is_read_whole(self, count: int, duration: float) -> bool:
         """Whether these frames are all that a file has whose sound, or last frame, goes on to its end; False
@@ -297,8 +330,8 @@ def checked_fps(fps: float | None, times: Sequence[float]) -> float | None:
     return plausible_fps(1 / step) if doubted and step > 0 else fps
 
 
-def _read(capture: cv2.VideoCapture) -> Image | None:
-    there, image = capture.read()
+def _retrieved(capture: cv2.VideoCapture) -> Image | None:
+    there, image = capture.retrieve()
     return image if there else None
 
 

@@ -7,6 +7,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.camera import toml
 from tricue.camera.box import Box
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.data.box_table import BOX_TABLE
@@ -16,17 +17,17 @@ from tricue.scenes.rooms.scene import RoomScene
 from tricue.scenes.stress.scene import StressScene
 
 TABLE_HEADER = "frame,x,y,width,height,X_m,Y_m,Z_m"
-RIG_FILE = "calibration.yml"
 MIN_WRITTEN_SIDE = 1.0  # pixels; smaller boxes aren't written
 
 
 def write_sequence(scene: StressScene | RoomScene, folder: str | Path) -> None:
     """Write a scene's images without loss, its true boxes and positions, and its camera's calibration.
 
-    A stereo pair goes to left/ and right/ with calibration.yml. Other scenes become a sequence of VOT with
-    color/, depth/ in millimeters, or both, and intrinsics.toml; their boxes are clipped to the image. The
-    truth goes to boxes.csv, with empty cells where nothing of the target is visible, which readers take as
-    absent. Of the times only the frame rate is kept, and of a stereo pair's not even that.
+    A stereo pair goes to left/ and right/. Other scenes become a sequence of VOT with color/, depth/ in
+    millimeters, or both; their boxes are clipped to the image. The camera goes to intrinsics.toml, a pair's
+    with its baseline. The truth goes to boxes.csv, with empty cells where nothing of the target is visible,
+    which readers take as absent. Of the times only the frame rate is kept, and of a stereo pair's not even
+    that.
     FileExistsError where the folder has files already.
     """
     folder = Path(folder)
@@ -41,10 +42,8 @@ def write_sequence(scene: StressScene | RoomScene, folder: str | Path) -> None:
         for channel in channels:
             _write(folder / folders[channel] / f"{number:08d}.png", getattr(frame, channel))
     (folder / BOX_TABLE).write_text(_table(scene, clipped=not pair))
-    if scene.rig is not None:
-        _write_rig(folder / RIG_FILE, scene.rig)
-    else:
-        (folder / CALIBRATION_FILE).write_text(_toml(scene.intrinsics))
+    (folder / CALIBRATION_FILE).write_text(_toml(scene.intrinsics, scene.rig))
+    if not pair:
         lines = [f"channels.{channel}={channel}/%08d.png" for channel in channels]
         (folder / SEQUENCE_FILE).write_text(
             "\n".join([*lines, f"fps={_rate(scene):g}", f"name={scene.name}"]) + "\n"
@@ -80,19 +79,7 @@ def _table(scene: StressScene | RoomScene, clipped: bool) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _toml(camera: Intrinsics) -> str:
+def _toml(camera: Intrinsics, rig: StereoRig | None) -> str:
     names = ("fx", "fy", "cx", "cy", "width", "height")
-    return "".join(f"{name} = {getattr(camera, name)!r}\n" for name in names)
-
-
-def _write_rig(path: Path, rig: StereoRig) -> None:
-    """Write P1 = K [I | 0] and P2 = K [I | -b e_x], as cv2.stereoRectify gives them."""
-    left = np.hstack([rig.intrinsics.matrix, np.zeros((3, 1))])
-    right = left.copy()
-    right[0, 3] = -rig.intrinsics.fx * rig.baseline
-    storage = cv2.FileStorage(str(path), cv2.FILE_STORAGE_WRITE)
-    storage.write("image_width", rig.intrinsics.width)
-    storage.write("image_height", rig.intrinsics.height)
-    storage.write("P1", left)
-    storage.write("P2", right)
-    storage.release()
+    values = {name: getattr(camera, name) for name in names}
+    return toml.dumps(values if rig is None else {**values, "baseline": rig.baseline})

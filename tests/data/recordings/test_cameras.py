@@ -111,6 +111,19 @@ def test_registered_depth_stays_as_it_is() -> None:
     assert both(view(info(), "a"), view(info(), "a")) == Cameras(Intrinsics(60, 60, 31.5, 23.5, *SIZE))
 
 
+def test_depth_with_the_camera_info_of_color_stays_as_it_is() -> None:
+    """It proves that depth in a raw color image's pixels isn't warped from P to K, as it would be between two
+    cameras; with an info or in a place of its own it is another camera's.
+    """
+    calibrated = info(p=(62.0, 0, 33.5, 0, 0, 62.0, 23.5, 0, 0, 0, 1, 0))
+    color, depth = view(calibrated, "c", rectified=False), view(calibrated, "c")
+    assert both(color, depth) == Cameras(Intrinsics(60, 60, 31.5, 23.5, *SIZE))
+    assert both(color._replace(rectified=True), depth).camera == Intrinsics(62, 62, 33.5, 23.5, *SIZE)
+    assert both(color, depth._replace(info=info(62.0))).register is not None
+    beside = Transform("c", "d", (0.015, 0.0, 0.0), IDENTITY)
+    assert both(color, depth._replace(frame="d"), beside).register is not None
+
+
 def test_depth_of_another_camera() -> None:
     """It proves that it's registered by the transform between the cameras, or, without, as from one place."""
     color, depth = view(info(), "c"), view(info(90.0), "d")
@@ -143,6 +156,26 @@ def test_a_rectified_pair() -> None:
     """It proves that the baseline is what the right camera's P says."""
     rig = StereoRig(Intrinsics(60, 60, 31.5, 23.5, *SIZE), 0.125)
     assert pair(view(info()), view(info(shift=0.125))) == Cameras(rig)
+
+
+@pytest.mark.parametrize(
+    ("right", "note"),
+    [
+        (
+            view(info(p=(60.0, 0, 35.5, -7.5, 0, 60.0, 23.5, 0, 0, 0, 1, 0))),
+            "the two cameras of the rectified pair differ (cx 31.5 and 35.5)",
+        ),
+        (view(info(61.0, shift=0.125)), "(fx 60 and 61, fy 60 and 61)"),
+        (view(info(shift=0.125)._replace(width=640)), "its camera_info is for 640x48"),
+    ],
+)
+def test_a_pair_rectified_to_two_cameras_is_no_rig(right: View, note: str) -> None:
+    """It proves that a pair without zero disparity at infinity, whose depths would be wrong, is no rig, and
+    that a note says so; nor is one whose right camera isn't known.
+    """
+    found = pair(view(info()), right)
+    assert found.camera == Intrinsics(60, 60, 31.5, 23.5, *SIZE)
+    assert note in found.notes[-1]
 
 
 BARE = info(p=(0.0,) * 12, r=(0.0,) * 9)

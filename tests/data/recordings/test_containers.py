@@ -8,6 +8,7 @@ import pytest
 import zstandard
 from tricue.data.recordings.bag1 import Bag1
 from tricue.data.recordings.container import Chain, Container
+from tricue.data.recordings.head import read_head
 from tricue.data.recordings.mcap_file import McapFile
 from tricue.data.recordings.messages import decoder
 from tricue.data.recordings.sqlite_file import SqliteFile
@@ -167,6 +168,28 @@ def test_a_lost_topic(tmp_path: Path) -> None:
     counts = SqliteFile(path).counts()
     assert len(counts) == 3
     assert set(counts.values()) == {4}
+
+
+@pytest.mark.parametrize("name", ["CAST('/\xff' AS BLOB)", "x'2fff'", "CAST(x'2fff' AS TEXT)", "NULL", "5"])
+@pytest.mark.parametrize("column", ["name", "type"])
+def test_a_damaged_topic(tmp_path: Path, name: str, column: str) -> None:
+    """It proves that a topic whose name or type is no text leaves the others as they are."""
+    path = next(write_bag2(tmp_path / "b", walk(4)).glob("*.db3"))
+    before = SqliteFile(path).topics
+    with sqlite3.connect(path) as database:
+        database.execute("CREATE TABLE t AS SELECT * FROM topics")
+        database.execute("DROP TABLE topics")
+        database.execute("ALTER TABLE t RENAME TO topics")
+        database.execute(f"UPDATE topics SET {column} = {name} WHERE id = 1")
+    database.close()
+    container = SqliteFile(path)
+    assert all(isinstance(each, str) for topic in container.topics.values() for each in topic[:4])
+    assert len(before.items() & container.topics.items()) == len(before) - 1
+    assert set(container.counts().values()) == {4}
+    assert sorted(container.topics) == sorted(
+        {message.topic for message in container.messages(container.topics)}
+    )
+    read_head(container)
 
 
 def many(count: int = 120) -> list[Sent]:

@@ -17,6 +17,7 @@ from tricue.data.source import Rectify, Register
 
 MAX_SAME_PLACE = 1e-3  # meters between two cameras that are one
 MAX_SAME_CAMERA = 0.5  # pixels between the intrinsics of two cameras that are one
+MAX_SAME_RECTIFIED = 1e-3  # pixels between those of a rectified pair, as in a calibration file
 
 
 class View(NamedTuple):
@@ -112,7 +113,8 @@ def _color_and_depth(color: View, depth: View, transforms: Sequence[Transform]) 
         notes += (f"depth {taken} registered to color, as not both cameras are known",)
         return Cameras(depth_camera or (color_camera if same else None), notes=notes)
     between = find_extrinsics(transforms, depth.frame, color.frame)
-    if _is_same(color_camera, depth_camera) and (between is None or _is_none(between)):
+    same = _is_same(color_camera, depth_camera) or _have_same_info(color, depth)
+    if same and (between is None or _is_none(between)):
         return Cameras(color_camera, notes=notes)
     if between is None:
         notes += ("depth registered to color as from one place, for no transform says where the cameras are",)
@@ -135,6 +137,11 @@ def _stereo(left: View, right: View, transforms: Sequence[Transform]) -> Cameras
         except ValueError as error:
             return Cameras(camera, notes=(*notes, f"the pair can't be rectified: {error}"))
         return Cameras(rectification.rig, rectify=rectification, notes=("the raw pair is rectified",))
+    other, other_notes = _intrinsics(right)
+    if other is None:
+        return Cameras(camera, notes=(*notes, *other_notes))
+    if not _is_same(camera, other, MAX_SAME_RECTIFIED):
+        return Cameras(camera, notes=(*notes, _note_two_cameras(camera, other)))
     between = None if baseline else find_extrinsics(transforms, left.frame, right.frame)
     if between is not None:
         baseline = -float(between.translation[0])
@@ -178,10 +185,30 @@ def _is_raw(*infos: CameraMessage) -> bool:
     return turned or any(np.abs(info.d).max(initial=0) > 0 for info in infos)
 
 
-def _is_same(first: Intrinsics, second: Intrinsics) -> bool:
+def _is_same(first: Intrinsics, second: Intrinsics, tolerance: float = MAX_SAME_CAMERA) -> bool:
     if (first.width, first.height) != (second.width, second.height):
         return False
-    return bool(np.abs(first.matrix - second.matrix).max() <= MAX_SAME_CAMERA)
+    return bool(np.abs(first.matrix - second.matrix).max() <= tolerance)
+
+
+def _have_same_info(color: View, depth: View) -> bool:
+    """Whether depth has color's own camera_info, as drivers publish it with depth aligned to color: then both
+    are in the same pixels, whether K or P counts for color.
+    """
+    first, second = color.info, depth.info
+    if first is None or second is None or color.size != depth.size:
+        return False
+    return (first.k, first.p) == (second.k, second.p)
+
+
+def _note_two_cameras(left: Intrinsics, right: Intrinsics) -> str:
+    """What to do about a pair whose images were rectified to different intrinsics."""
+    names = [name for name in ("fx", "fy", "cx", "cy") if getattr(left, name) != getattr(right, name)]
+    differ = ", ".join(f"{name} {getattr(left, name):.6g} and {getattr(right, name):.6g}" for name in names)
+    return (
+        f"the two cameras of the rectified pair differ ({differ}), which would make wrong meters; rectify "
+        f"with cv2.CALIB_ZERO_DISPARITY, or give the raw images and --calibration FILE --rectify"
+    )
 
 
 def _is_none(between: Extrinsics) -> bool:

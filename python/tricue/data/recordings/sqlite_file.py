@@ -4,6 +4,7 @@
 import sqlite3
 from collections.abc import Collection, Iterator
 from contextlib import closing
+from functools import partial
 from pathlib import Path
 from urllib.parse import quote
 
@@ -20,7 +21,8 @@ class SqliteFile(Container):
         try:
             with closing(self._connect()) as database:
                 definitions = _definitions(database)
-                rows = database.execute("SELECT id, name, type, serialization_format FROM topics").fetchall()
+                columns = ", ".join(map(_text, ("name", "type", "serialization_format")))
+                rows = database.execute(f"SELECT id, {columns} FROM topics").fetchall()
         except sqlite3.DatabaseError as error:
             raise ValueError(f"{path}: expected a ROS 2 recording, got another database ({error})") from None
         self._names = {number: name for number, name, _, _ in rows}
@@ -64,8 +66,14 @@ class SqliteFile(Container):
         journal = self.path.with_name(f"{self.path.name}-wal").exists()
         options = "mode=ro" if journal else "mode=ro&immutable=1"
         database = sqlite3.connect(f"file:{quote(str(self.path))}?{options}", uri=True)
+        database.text_factory = partial(str, encoding="utf-8", errors="replace")
         database.execute("PRAGMA writable_schema = ON")  # else a file that is cut off isn't opened at all
         return database
+
+
+def _text(column: str) -> str:
+    """The column as a text for a query, whatever type a damaged row has."""
+    return f"CAST(IFNULL({column}, '') AS TEXT)"
 
 
 def _marks(values: Collection[int]) -> str:
@@ -76,9 +84,8 @@ def _marks(values: Collection[int]) -> str:
 def _definitions(database: sqlite3.Connection) -> dict[str, tuple[str, bool]]:
     """The definitions of types, which older databases lack, and whether they are in OMG's language."""
     try:
-        rows = database.execute(
-            "SELECT topic_type, encoding, encoded_message_definition FROM message_definitions"
-        ).fetchall()
+        columns = ", ".join(map(_text, ("topic_type", "encoding", "encoded_message_definition")))
+        rows = database.execute(f"SELECT {columns} FROM message_definitions").fetchall()
     except sqlite3.OperationalError:
         return {}
     return {kind: (text, language == "ros2idl") for kind, language, text in rows}
