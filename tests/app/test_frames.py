@@ -32,6 +32,14 @@ KINDS = {
 }
 
 
+def test_video_in_a_network_is_refused(video: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One line says what to do."""
+    source = open_source(video)
+    monkeypatch.setattr(source.channels["color"], "place", "http://host/v.mp4")
+    with pytest.raises(ValueError, match=r"http://host/v\.mp4: expected a file; download the video"):
+        Recording(source)
+
+
 @pytest.mark.parametrize("name", KINDS)
 def test_any_order_is_the_order_of_reading(name: str, tmp_path: Path) -> None:
     """Each frame, sought in a random order and then backwards, is bit for bit the one OpenCV reads there."""

@@ -5,15 +5,18 @@ import csv
 import io
 import re
 import signal
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import cv2
 import pytest
+from tricue.app import select_boxes
 
-from tests.app.conftest import FRAMES, HEIGHT, START, WIDTH
+from tests.app.conftest import FRAMES, HEIGHT, START, WIDTH, moving
 from tests.app.test_serve import Server, saved
 
 playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright: pip install playwright")
@@ -288,6 +291,191 @@ def test_keyboard_alone(server: Server, open_tab: Callable[..., Tab]) -> None:
     assert unseen == []
 
 
+def test_box_belongs_to_the_picture_pressed_on(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """A picture that comes during a drag is shown after it."""
+    tab = open_tab(server.url)
+    page, coming = tab.page, list[Any]()
+
+    def keep(route: Any) -> None:
+        coming.append(route)
+
+    page.route("**/frame/1.jpg", keep)
+    page.locator("#picture").focus()
+    tab.key("ArrowRight")
+    while not coming:
+        page.wait_for_timeout(20)
+    mouse = page.mouse
+    mouse.move(*tab.place(20, 40))
+    mouse.down()
+    mouse.move(*tab.place(40, 60))
+    coming[0].continue_()
+    page.wait_for_timeout(300)
+    with tab.done("add"):
+        mouse.move(*tab.place(60, 80))
+        mouse.up()
+    assert server.state()["targets"][0]["drawn"] == [0]
+    tab.shows(1)
+
+
+def test_a_press_ends_playing(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """The box belongs to the picture that was shown then."""
+    tab = open_tab(server.url)
+    mouse = tab.page.mouse
+    mouse.move(*tab.place(100, 10))
+    tab.key("Space")
+    tab.page.locator("html:not([data-page='shown 0'])").wait_for(state="attached")
+    mouse.down()
+    frame = int(tab.page.evaluate("document.documentElement.dataset.page").split()[1])
+    tab.page.wait_for_timeout(300)
+    with tab.done("add"):
+        mouse.move(*tab.place(130, 35))
+        mouse.up()
+    assert server.state()["targets"][0]["drawn"] == [frame]
+
+
+def test_what_is_written_is_of_its_target(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """A name goes to the target that was chosen when it was typed; the numbers are of the one chosen now."""
+    tab = open_tab(server.url)
+    page = tab.page
+    tab.draw(*START)
+    tab.key("n")
+    tab.draw(100, 10, 30, 25)
+    first = page.locator("#targets button").first.element_handle()
+    first.click()
+    page.fill("#target-name", "Anna")
+    with tab.done("rename"):
+        page.locator("#timeline").click(position={"x": 5, "y": 18 + 25 + 8})  # the other one's lane
+    assert [each["name"] for each in server.state()["targets"]] == ["Anna", "Target 2"]
+    assert page.locator("#targets button[aria-pressed=true]").inner_text().startswith("Target 2")
+    assert first.evaluate("(button) => button.isConnected && button.innerText.startsWith('Anna')")
+    page.locator("#box summary").focus()
+    tab.key("Enter")
+    assert float(page.input_value("#box-x")) == pytest.approx(100, abs=1)
+    tab.key("1")
+    assert float(page.input_value("#box-x")) == pytest.approx(START.x, abs=1)
+    with tab.done("erase"):
+        page.click("#box-erase")
+    assert page.input_value("#box-x") == ""
+
+
+def test_frame_that_cannot_be_shown(open_tab: Callable[..., Tab], tmp_path: Path) -> None:
+    """The page says so and shows no other frame's picture; playing goes on after it."""
+    folder = tmp_path / "images"
+    folder.mkdir()
+    for at, image in enumerate(moving(6)):
+        cv2.imwrite(str(folder / f"{at}.png"), image)
+    (folder / "3.png").write_bytes((folder / "2.png").read_bytes()[:99])
+    server = Server(str(folder), "--port", "0")
+    tab = open_tab(server.url)
+    tab.expected.append("status of 404")
+    page = tab.page
+    page.fill("#frame", "99")
+    tab.key("Enter")
+    tab.shows(5)
+    assert page.input_value("#frame") == "5"
+    page.fill("#frame", "3")
+    tab.key("Enter")
+    page.locator("#hint", has_text="Frame 3 can't be shown").wait_for()
+    assert "expected an image" in page.locator(".toast").inner_text()
+    tab.key("Home")
+    tab.shows(0)
+    tab.key("Space")
+    tab.shows(5)
+    tab.context.close()  # before the server, whose end it would complain of
+    server.end()
+
+
+def test_work_that_is_not_saved_is_said(server: Server, open_tab: Callable[..., Tab], video: Path) -> None:
+    """As long as it isn't, with the reason."""
+    tab = open_tab(server.url)
+    tab.draw(*START)
+    path = video.with_name("video.mp4.tricue.json")
+    path.write_text(path.read_text() + " ")
+    tab.key("n")
+    tab.drag((100, 10), (130, 35))
+    said = tab.page.locator("#saved", has_text="another program changed it")
+    said.wait_for()
+    assert said.inner_text().startswith(f"not saved: {path}: ")
+    path.unlink()
+    tab.page.locator("#saved", has_text=re.compile("^saved")).wait_for()
+
+
+def test_keys_are_the_pages(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """After a choice in a list with the pointer they are again; one that acts does so once a press."""
+    tab = open_tab(server.url)
+    page, asked = tab.page, list[str]()
+    page.on("request", lambda request: asked.append(request.post_data or ""))
+    tab.draw(*START)
+    with tab.done("tracker"):
+        page.click("#target-tracker")
+        tab.key("Home")
+        tab.key("Enter")
+    with tab.done("track"):
+        for _ in range(3):
+            page.keyboard.down("t")
+        page.keyboard.up("t")
+    assert sum('"do":"track"' in each for each in asked) == 1
+    tab.key("Home")
+    tab.shows(0)
+    for _ in range(3):
+        page.keyboard.down("ArrowRight")
+    tab.shows(3)
+
+
+def test_frames_by_time(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """Where frames don't come at a constant rate, a time's frame is the last up to it."""
+    found = open_tab(server.url).page.evaluate(
+        """async () => {
+          const model = new (await import("./page/model.js")).Model();
+          Object.assign(model, { state: { frames: 4, fps: 30 }, times: [0, 0.1, 5, 5.1] });
+          return [-1, 0, 0.09, 0.1, 4.9, 5, 9].map((time) => model.frameAt(time));
+        }"""
+    )
+    assert found == [0, 0, 0, 1, 1, 2, 3]
+
+
+def test_pictures_are_kept_within_bounds(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """Of large ones few are kept; the others give their memory back, but for the one that is shown."""
+    found = open_tab(server.url).page.evaluate(
+        """async () => {
+          const closed = [];
+          let count = 0;
+          window.createImageBitmap = async () => {
+            const number = count++;
+            return { number, width: 8192, height: 2048, close: () => closed.push(number) }; // 64 MB
+          };
+          const { Pictures } = await import("./page/link.js");
+          const pictures = new Pictures(({ number }) => number === 1);
+          for (const frame of [0, 1, 2, 3, 0, 4, 5, 6, 7, 0]) await pictures.get(frame);
+          return [count, closed];
+        }"""
+    )
+    assert found == [9, [2, 3, 0, 4]]
+
+
+def test_done_ends_it(video: Path, open_tab: Callable[..., Tab], capsys: pytest.CaptureFixture[str]) -> None:
+    """Of a page that asks for boxes alone; the server's end then is no alarm."""
+    found: list[Any] = []
+    waiting = threading.Thread(
+        target=lambda: found.append(select_boxes(video, port=0, browser=False)), daemon=True
+    )
+    waiting.start()
+    until, text = time.monotonic() + PATIENCE / 1000, ""
+    while not (url := re.search(r"http://\S+", text)):
+        assert time.monotonic() < until
+        time.sleep(0.05)
+        text += capsys.readouterr().err
+    tab = open_tab(url[0])
+    tab.expected += ["net::ERR_", "WebSocket connection to"]
+    tab.draw(*START)
+    tab.page.click("#done")
+    tab.page.locator("text=Done. This page can be closed.").wait_for()
+    waiting.join(PATIENCE / 1000)
+    tab.page.wait_for_timeout(500)
+    assert tab.page.locator("#gone").is_hidden()
+    assert found == [[(0, pytest.approx(START, abs=1))]]
+
+
 def test_timeline_is_a_slider(server: Server, open_tab: Callable[..., Tab]) -> None:
     """A click on the timeline goes there; a screen reader hears frame, time and status."""
     tab = open_tab(server.url)
@@ -418,4 +606,10 @@ def test_overlay_video_is_downloaded(server: Server, open_tab: Callable[..., Tab
     with tab.page.expect_download() as download:
         tab.page.click("#video")
     assert download.value.suggested_filename == "video.overlay.mp4"
+    assert Path(download.value.path()).read_bytes()[4:8] == b"ftyp"
+    tab.page.reload()
+    tab.shows(0)
+    tab.page.click("#export")
+    with tab.page.expect_download() as download:
+        tab.page.click("#video-file")  # as it may be written while nobody looks
     assert Path(download.value.path()).read_bytes()[4:8] == b"ftyp"

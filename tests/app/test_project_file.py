@@ -13,7 +13,7 @@ from tricue import Box, Pose, Status, Track
 from tricue.app import project as edits
 from tricue.app import project_file
 from tricue.app.project import Project
-from tricue.app.project_file import footprint, load, project_path, save
+from tricue.app.project_file import Footprint, footprint, load, project_path, save
 
 COVARIANCE = np.array([[0.01, 0.002, 0.0], [0.002, 0.02, 0.001], [0.0, 0.001, 0.3]])
 
@@ -138,6 +138,16 @@ def test_project_is_in_the_data_folder_if_need_be(
     found = project_path(video)
     assert found.parent == data_home / "tricue"
     assert found != project_path(video.parent / "other" / "video.mp4")
+
+
+def test_project_of_a_long_name(tmp_path: Path, data_home: Path) -> None:
+    """A name to which nothing can be added has its project in the data folder."""
+    video = tmp_path / f"{'ひ' * 80}.mp4"
+    video.write_bytes(b"")
+    found = project_path(video)
+    assert found.parent == data_home / "tricue"
+    save(found, Project(), Footprint(video.name, 0, 0.0, "", 1, 1, 1))
+    assert found.exists()
 
 
 def test_put_aside_keeps_every_project(tmp_path: Path) -> None:

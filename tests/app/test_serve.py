@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Serving on 127.0.0.1: ports, one server a project, and what a killed one leaves."""
 
+import errno
 import json
 import os
 import re
@@ -18,7 +19,7 @@ from typing import Any
 
 import pytest
 import tricue.app
-from tricue.app import local_server
+from tricue.app import local_server, project_file, serve
 from tricue.app.frames import Recording
 from tricue.cli import program
 from tricue.data.live import LiveStream
@@ -122,6 +123,48 @@ def test_ended_server_saves_and_says_little(video: Path, server_of: Any, number:
     assert '"drawn": {"2"' in video.with_name("video.mp4.tricue.json").read_text()
 
 
+def test_work_that_is_not_saved_is_told_at_the_end(video: Path, server_of: Any) -> None:
+    """Ctrl-C says so, and why, where the project's file isn't its own any more."""
+    server = server_of(str(video), "--port", "0")
+    server.do("add", frame=2, box=list(START), tracker="fused")
+    saved(server)
+    with video.with_name("video.mp4.tricue.json").open("a") as file:
+        file.write(" ")
+    server.do("add", frame=3, box=list(START), tracker="fused")
+    _, errors = server.end(signal.SIGINT)
+    assert "warning: the last changes are not saved: " in errors
+    assert "another program changed it" in errors
+
+
+def test_project_that_cannot_be_written_is_begun_from(
+    video: Path, data_home: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The one in the data folder begins with what is beside the recording, once, and that is said."""
+    beside = project_file.path_beside(video)
+    beside.write_text("the work")
+    monkeypatch.setattr(os, "access", lambda _, mode: mode == os.R_OK)
+    path = project_file.project_path(video)
+    assert path.parent == data_home / "tricue"
+    said = serve._begun(path, beside)
+    assert said.endswith(f", as it can't be written beside the recording; it begins with what {beside} has")
+    assert path.read_text() == "the work"
+    path.write_text("more work")
+    assert serve._begun(path, beside).endswith(", as it can't be written beside the recording")
+    assert path.read_text() == "more work"
+
+
+def test_a_home_without_locks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A file system that knows no locks is no reason not to open a recording."""
+    fcntl = pytest.importorskip("fcntl")
+
+    def no_locks(*_: Any) -> None:
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(fcntl, "flock", no_locks)
+    with (tmp_path / "lock").open("w") as file:
+        assert serve._lock(file)
+
+
 def test_second_server_joins_the_first(video: Path, server_of: Any) -> None:
     """A second tricue open on one project says where it is open, and ends."""
     first = server_of(str(video), "--port", "0")
@@ -207,11 +250,14 @@ def test_a_robots_recording_is_served(tmp_path: Path, server_of: Any) -> None:
     assert (state["frames"], state["channels"]) == (20, ["color", "depth"])
 
 
-def test_select_boxes_returns_what_was_drawn(video: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """The function behind ``--select`` waits for Done, and leaves no project behind."""
+def test_select_boxes_returns_what_was_drawn(
+    video: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The function behind ``--select`` waits for Done, not for the browser, and leaves no project behind."""
+    monkeypatch.setattr("webbrowser.open", lambda _: time.sleep(PATIENCE))
     found: list[Any] = []
     waiting = threading.Thread(
-        target=lambda: found.append(tricue.app.select_boxes(video, port=0, browser=False)), daemon=True
+        target=lambda: found.append(tricue.app.select_boxes(video, port=0)), daemon=True
     )
     waiting.start()
     until, text = time.monotonic() + PATIENCE, ""

@@ -2,6 +2,7 @@
 """The server: only its own pages are served, commands do what they say, and pages are told what is new."""
 
 import json
+import os
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -12,13 +13,17 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
+from tricue import Status, Track
 from tricue.app.commands import COMMANDS
+from tricue.app.frames import Recording
+from tricue.app.runs import Run
 from tricue.app.server import make_app
 from tricue.app.serving import Serving
 from tricue.app.session import Session
 from tricue.app.web import PAGE
+from tricue.data.open_source import open_source
 
-from tests.app.conftest import FRAMES, HEIGHT, START, WIDTH
+from tests.app.conftest import FRAMES, HEIGHT, START, WIDTH, moving
 
 HOST = "http://127.0.0.1:8765"
 BOX = list(START)
@@ -77,6 +82,7 @@ def test_without_token_nothing_is_served(serving: Serving, path: str) -> None:
         {"Origin": "http://evil.example"},
         {"Origin": "http://127.0.0.1:9999"},
         {"Origin": "null"},
+        {"Host": "[::1"},
     ],
 )
 def test_other_sites_are_refused_with_the_token(client: TestClient, headers: dict[str, str]) -> None:
@@ -229,8 +235,8 @@ def test_page_is_told_all_of_a_run(client: TestClient) -> None:
         assert first[0]["times"][30] == pytest.approx(1.0)
         do(client, "add", frame=0, box=BOX, tracker="fused")
         do(client, "track", frame=0)
-        pictures, whole = 0, {}
-        while len(whole) < FRAMES:
+        pictures, whole, ended = 0, {}, False
+        while not ended:
             message = socket.receive()
             if message.get("bytes"):
                 assert message["bytes"][4:6] == b"\xff\xd8"
@@ -240,8 +246,37 @@ def test_page_is_told_all_of_a_run(client: TestClient) -> None:
                 content = json.loads(message["text"])
                 if content["type"] == "tracks":
                     whole = {row[0]: row for row in content["tracks"]}
+                ended = content["type"] == "state" and bool(content["ended"])
+        assert len(whole) == FRAMES  # before the page is told that the run has ended
         assert whole[0][1:7] == [0, 1.0, *BOX]
         assert pictures <= FRAMES
+
+
+def test_page_opened_during_a_run(client: TestClient, serving: Serving) -> None:
+    """It is told the state, what was tracked before, and then what the run finds; errors of before aren't."""
+    do(client, "add", frame=3, box=BOX, tracker="fused")
+    serving.session.errors.append("an old one")
+    serving.session.run = Run(10, 1, (1,), [(1, 10, Track(START, 0.5, Status.TRACKED))])
+    with live(client) as socket:
+        messages = [socket.receive_json() for _ in range(4)]
+    serving.session.run = None
+    assert [each["type"] for each in messages] == ["times", "state", "tracks", "run"]
+    assert [row[0] for row in messages[2]["tracks"]] == [3]
+    assert [row[0] for row in messages[3]["tracks"]["1"]] == [10]
+
+
+def test_error_in_telling_is_told(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A page isn't left waiting for what doesn't come: it hears why, and the connection ends."""
+
+    def broken(_: Serving) -> None:
+        raise OSError("no\nstate")
+
+    monkeypatch.setattr("tricue.app.feed.state", broken)
+    with live(client) as socket:
+        assert socket.receive_json()["type"] == "times"
+        assert socket.receive_json() == {"type": "error", "error": "no state"}
+        with pytest.raises(WebSocketDisconnect):
+            socket.receive_json()
 
 
 def test_errors_reach_the_page(client: TestClient, serving: Serving) -> None:
@@ -268,9 +303,6 @@ def test_boxes_alone(video: Path, session_of: Callable[..., Session]) -> None:
 
 def test_depth_is_shown_in_one_range(tmp_path: Path, session_of: Callable[..., Session]) -> None:
     """Depth is a picture of its own; its colors are those of one range in all frames."""
-    from tricue.app.frames import Recording
-    from tricue.data.open_source import open_source
-
     for at in range(6):
         depth = np.full((HEIGHT, WIDTH), 1000 + 500 * at, np.uint16)
         depth[:, WIDTH // 2 :] = 2000
@@ -287,6 +319,39 @@ def test_depth_is_shown_in_one_range(tmp_path: Path, session_of: Callable[..., S
     assert change[WIDTH - 20] < 6
     assert change[20] > 60
     session.close()
+
+
+def test_depth_that_cannot_be_read(tmp_path: Path) -> None:
+    """One damaged depth image of those that tell the range leaves all others as they are."""
+    for at in range(5):
+        cv2.imwrite(str(tmp_path / f"{at}.png"), np.full((HEIGHT, WIDTH), 1000 + 500 * at, np.uint16))
+    (tmp_path / "4.png").write_bytes((tmp_path / "3.png").read_bytes()[:40])
+    opened = Recording(open_source(tmp_path, depth_scale=0.001))
+    serving = Serving(Session(opened, tmp_path, None))
+    client = TestClient(make_app(serving), f"{HOST}/{serving.token}/")
+    assert [client.get(f"frame/{at}.jpg").status_code for at in range(5)] == [200] * 4 + [404]
+    serving.session.close()
+
+
+def test_folder_of_any_name(tmp_path: Path, session_of: Callable[..., Session]) -> None:
+    """A name that is no UTF-8 is told as well as can be; one with a dot is whole in those of exports."""
+    folder = tmp_path / os.fsdecode(b"caf\xe9.1")
+    folder.mkdir()
+    for at, image in enumerate(moving(3)):
+        cv2.imwrite(str(tmp_path / "image.png"), image)
+        (tmp_path / "image.png").rename(folder / f"{at}.png")
+    session = session_of(folder)
+    serving = Serving(session)
+    client = TestClient(make_app(serving), f"{HOST}/{serving.token}/")
+    assert client.get("state").status_code == 200
+    assert do(client, "add", frame=0, box=BOX, tracker="fused") == {"id": 1}
+    for kind in ("csv", "json"):
+        answer = client.get(f"export/{kind}")
+        assert answer.headers["content-disposition"].endswith(f"caf%3F.1.{kind}")
+    with live(client) as socket:
+        assert [socket.receive_json()["type"] for _ in range(2)] == ["times", "state"]
+    session.close()
+    assert session.unsaved == ""
 
 
 def test_every_command_is_asked_for_by_the_page() -> None:

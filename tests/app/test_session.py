@@ -13,12 +13,13 @@ import cv2
 import numpy as np
 import pytest
 from tricue import Box, Frame, Status, Track
-from tricue.app import project_file
+from tricue.app import project_file, saver
+from tricue.app.exports import EXPORTS
 from tricue.app.session import Session
 from tricue.track.base import registry
 from tricue.track.base.traits import Channels, Traits
 
-from tests.app.conftest import FRAMES, START, moving
+from tests.app.conftest import FRAMES, START, moving, write_video
 
 SessionOf = Callable[..., Session]
 PATIENCE = 60.0  # seconds that a busy machine may take
@@ -194,6 +195,26 @@ def test_undo_of_a_run(video: Path, session_of: SessionOf) -> None:
     assert session.project == whole
 
 
+def test_run_that_finds_nothing_is_no_step(
+    video: Path, session_of: SessionOf, counting: type[Counting], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What was undone can be done again after it; the same error is told again in the next run."""
+
+    def refuse(*_: Any) -> Track:
+        raise ValueError("nothing here")
+
+    monkeypatch.setattr(counting, "init", refuse)
+    session = session_of(video)
+    session.add(0, START, "counting")
+    session.draw(1, 5, START)
+    session.undo()
+    run(session, 0, 1)
+    run(session, 0, 1)
+    assert session.errors == ["Target 1, counting, frame 0: nothing here"] * 2
+    session.redo()
+    assert sorted(session.project.target(1).drawn) == [0, 5]
+
+
 def test_edit_ends_the_run_first(video: Path, session_of: SessionOf, counting: type[Counting]) -> None:
     """What is edited while a tracker runs is edited after it, and one undo takes back the edit alone."""
     session = session_of(video)
@@ -317,6 +338,31 @@ def test_project_kept_for_another_video(video: Path, session_of: SessionOf) -> N
     assert again.project.target(1).drawn == {0: START}
 
 
+@pytest.mark.usefixtures("counting")
+def test_project_kept_for_a_shorter_video(video: Path, session_of: SessionOf) -> None:
+    """What was in frames that are gone is left out at once, and put aside if the rest is kept."""
+    first = session_of(video)
+    first.add(0, START, "counting")
+    first.draw(1, 50, START)
+    run(first, 0, 1)
+    first.close()
+    path = video.with_name("video.mp4.tricue.json")
+    whole = path.read_bytes()
+    write_video(video, moving(20))
+    session = session_of(video)
+    assert session.changed_video
+    assert list(session.project.target(1).drawn) == [0]
+    assert max(counts(session)) == 19
+    assert all(export.write(session.tracked()) for export in EXPORTS.values())
+    session.close()
+    assert path.read_bytes() == whole
+    session = session_of(video)
+    session.keep_project(True)
+    session.close()
+    assert video.with_name("video.mp4.1.tricue.json").read_bytes() == whole
+    assert max(counts(session_of(video))) == 19
+
+
 def test_video_replaced_meanwhile_is_noticed(video: Path, session_of: SessionOf) -> None:
     """A video that is replaced, or goes away, while its page is open isn't tracked in."""
     session = session_of(video)
@@ -338,17 +384,20 @@ def test_foreign_changes_are_not_overwritten(video: Path, session_of: SessionOf)
     path.write_text("mine")
     os.utime(path, (5, 5))
     session.add(1, START, "fused")
-    wait(lambda: session.saved)
-    assert path.read_text() == "mine"
-    assert session.errors == [
-        f"not saved: {path}: another program changed it, so it isn't overwritten; export your work"
-    ]
+    why = f"{path}: another program changed it, so it isn't overwritten; export your work"
+    wait(lambda: session.unsaved == why)
+    session.add(2, START, "fused")
+    wait(lambda: session._saver._tried == session.version)
+    assert (path.read_text(), session.saved, session.errors) == ("mine", False, [f"not saved: {why}"])
+    session.close()
+    assert session.unsaved == why
 
 
 def test_disk_that_is_full_is_told(
     video: Path, session_of: SessionOf, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Work that can't be saved is an error in the page, and is tried again after the next edit."""
+    """Work that can't be saved is an error in the page, and is tried again until there is room."""
+    monkeypatch.setattr(saver, "SAVE_INTERVAL", 0.02)
     session = session_of(video)
 
     def full_disk(_: int) -> None:
@@ -358,10 +407,14 @@ def test_disk_that_is_full_is_told(
         patched.setattr(project_file.os, "fsync", full_disk)
         session.add(0, START, "fused")
         wait(lambda: session.errors)
+        session.draw(1, 3, START)
+        wait(lambda: session._saver._tried == session.version)
+        assert (session.saved, session.unsaved) == (False, "No space left on device")
+    wait(lambda: session.saved)
     assert session.errors == ["not saved: No space left on device"]
-    session.draw(1, 3, START)
+    assert session.unsaved == ""
     path = video.with_name("video.mp4.tricue.json")
-    wait(lambda: path.exists() and len(project_file.load(path)[0].target(1).drawn) == 2)
+    assert len(project_file.load(path)[0].target(1).drawn) == 2
 
 
 def test_image_that_vanishes_ends_the_run(tmp_path: Path, session_of: SessionOf) -> None:

@@ -47,7 +47,7 @@ def _keep(session: Session, keep: Any) -> None:
 
 
 def _video(serving: Serving, trail: Any = False) -> None:
-    serving.session.make_video(serving.folder / f"{serving.session.place.stem}.overlay.mp4", bool(trail))
+    serving.session.make_video(serving.folder / "overlay.mp4", bool(trail))
 
 
 def _select(serving: Serving) -> None:

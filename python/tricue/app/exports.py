@@ -150,12 +150,17 @@ def draw_targets(
     return canvas
 
 
+def boxed_channel(frame: Frame) -> str:
+    """The channel in whose pixels boxes are."""
+    return "depth" if frame.color is None else "color"
+
+
 def picture(frame: Frame, channel: str | None = None, span: tuple[float, float] | None = None) -> Image:
     """A channel of a frame as BGR; by default the one in whose pixels boxes are.
 
     span: the depths of the nearest and the farthest color, meters. ValueError for a channel that isn't there.
     """
-    name = channel or ("depth" if frame.color is None else "color")
+    name = channel or boxed_channel(frame)
     image: NDArray[Any] | None = getattr(frame, name) if name in ("color", "depth", "right") else None
     if image is None:
         raise ValueError(f"channel: expected one of {', '.join(frame.channels)}, got {name}")

@@ -10,11 +10,10 @@ import numpy as np
 from starlette.concurrency import run_in_threadpool
 from starlette.websockets import WebSocket
 
-from tricue.app.exports import picture
 from tricue.app.project import Target
 from tricue.app.runs import Run
 from tricue.app.serving import Serving
-from tricue.app.web import jpeg, talk
+from tricue.app.web import jpeg, talk, tell
 from tricue.track.base.track import Status, Track
 
 LIVE_INTERVAL = 0.08  # seconds between what a page is told of a run
@@ -23,8 +22,9 @@ STATUSES = tuple(Status)
 
 async def tell_page(serving: Serving, socket: WebSocket) -> None:
     """Tell a page what is new, until it is closed."""
+    page = _Page(serving, socket)
     await socket.accept()
-    await talk(_Page(serving, socket), socket)
+    await talk(page, socket)
 
 
 class _Page:
@@ -36,7 +36,7 @@ class _Page:
         self.state: dict[str, Any] | None = None
         self.run: Run | None = None
         self.found = 0  # tracks of the run
-        self.errors = 0
+        self.errors = len(serving.session.errors)
         self.shown, self.sent = True, -1  # whether the last picture has arrived, and its frame
 
     def hear(self, message: Any) -> None:
@@ -48,11 +48,14 @@ class _Page:
         recording = self.serving.session.recording
         begin = recording.seconds(0)  # of robots' recordings, seconds since 1970
         times = [round(recording.seconds(number) - begin, 4) for number in range(recording.length)]
-        await self.socket.send_json({"type": "times", "times": times})
+        await tell(self.socket, {"type": "times", "times": times})
+        await self._tell_state(await run_in_threadpool(state, self.serving))
         while True:
-            run = self.serving.session.run
-            await self._tell_run(run)
-            await self._tell_state()
+            now = await run_in_threadpool(state, self.serving)  # before the tracks, which have all of it then
+            await self._tell_tracks()
+            await self._tell_run(self.serving.session.run)
+            await self._tell_state(now)
+            await self._tell_errors()
             await asyncio.sleep(LIVE_INTERVAL)
 
     async def _tell_run(self, run: Run | None) -> None:
@@ -69,31 +72,30 @@ class _Page:
             "speed": run.updates / run.seconds if run.seconds else 0,
             "tracks": {number: _rows(found) for number, found in tracks.items()},
         }
-        await self.socket.send_json(message)
+        await tell(self.socket, message)
         if latest is not None and self.shown and latest[0] != self.sent:
             number, frame = latest
             self.shown, self.sent = False, number
-            data = await run_in_threadpool(
-                lambda: jpeg(picture(frame, None, self.serving.depth_span), "live")
-            )
+            data = await run_in_threadpool(lambda: jpeg(self.serving.picture(frame), "live"))
             await self.socket.send_bytes(np.uint32(number).tobytes() + data)
 
-    async def _tell_state(self) -> None:
-        session = self.serving.session
-        now = await run_in_threadpool(state, self.serving)
+    async def _tell_state(self, now: dict[str, Any]) -> None:
         if now != self.state:
             self.state = now
-            await self.socket.send_json({"type": "state", **now})
-        present = session.history.present.targets if session.run is None else ()
-        for target in present:
+            await tell(self.socket, {"type": "state", **now})
+
+    async def _tell_tracks(self) -> None:
+        for target in self.serving.session.history.present.targets:
             if self.known.get(target.id) is not target.tracks:
                 self.known[target.id] = target.tracks
                 rows = _rows(target.tracks)
-                await self.socket.send_json({"type": "tracks", "target": target.id, "tracks": rows})
-        errors = session.errors[self.errors :]
+                await tell(self.socket, {"type": "tracks", "target": target.id, "tracks": rows})
+
+    async def _tell_errors(self) -> None:
+        errors = self.serving.session.errors[self.errors :]
         self.errors += len(errors)
         for error in errors:
-            await self.socket.send_json({"type": "error", "error": error})
+            await tell(self.socket, {"type": "error", "error": error})
 
 
 def state(serving: Serving) -> dict[str, Any]:
@@ -114,6 +116,7 @@ def state(serving: Serving) -> dict[str, Any]:
         "file": None if session.path is None else str(session.path),
         "beside": session.path is not None and session.path.parent == session.place.parent,
         "saved": session.saved,
+        "unsaved": session.unsaved,
         "changed_video": session.changed_video,
         "undo": bool(history.past),
         "redo": bool(history.future),
@@ -125,11 +128,11 @@ def state(serving: Serving) -> dict[str, Any]:
         "video": None
         if job is None
         else {"written": job.written, "total": job.total, "done": job.path is not None, "error": job.error},
-        "targets": [_told(target) for target in history.present.targets],
+        "targets": [_as_told(target) for target in history.present.targets],
     }
 
 
-def _told(target: Target) -> dict[str, Any]:
+def _as_told(target: Target) -> dict[str, Any]:
     drawn = sorted(target.drawn)
     return {"id": target.id, "name": target.name, "tracker": target.tracker, "drawn": drawn}
 

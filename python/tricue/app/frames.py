@@ -92,6 +92,8 @@ def _seekable(source: Source) -> dict[str, Stream]:
 
     def seekable(stream: Stream) -> Stream:
         if isinstance(stream, Video):
+            if stream.place != str(stream.path):
+                raise ValueError(f"{stream.place}: expected a file; download the video, and open that")
             return SeekableVideo(stream.path)
         if isinstance(stream, JointStream) and isinstance(stream.joint, Topics):
             joint = joints.setdefault(id(stream.joint), SeekableRecording.of(stream.joint))

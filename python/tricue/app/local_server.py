@@ -5,6 +5,7 @@ import errno
 import secrets
 import socket
 import tempfile
+import threading
 import webbrowser
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -55,7 +56,9 @@ def serve_until_ended(
         served.finish = lambda: setattr(server, "should_exit", True)
         announce(url)
         say(f"open {url}  (Ctrl-C ends it)")
-        show(url, browser)
+        threading.Thread(
+            target=show, args=(url, browser), daemon=True
+        ).start()  # some browsers run until closed
         server.run(sockets=[listener])
 
 

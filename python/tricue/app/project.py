@@ -103,6 +103,20 @@ def add_tracks(project: Project, found: Mapping[int, Mapping[int, Track]]) -> Pr
     )
 
 
+def cut(project: Project, length: int) -> Project:
+    """The project without what is in frames from this one on."""
+
+    def before(values: Mapping[int, Any]) -> Mapping[int, Any]:
+        return _frozen({at: value for at, value in values.items() if at < length})
+
+    return replace(
+        project,
+        targets=tuple(
+            replace(each, drawn=before(each.drawn), tracks=before(each.tracks)) for each in project.targets
+        ),
+    )
+
+
 @dataclass(frozen=True)
 class History:
     """The present project, and those that undo and redo lead to."""

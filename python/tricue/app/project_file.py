@@ -21,6 +21,7 @@ from tricue.track.base.track import Status, Track
 
 SUFFIX = ".tricue.json"
 FORMAT = 1
+MAX_NAME_BYTES = 225  # of a project's name: file systems take 255, and some are added to it for a while
 SAMPLES, SAMPLE_BYTES = 16, 1 << 16  # of a video, that tell it from another of the same length
 COLUMNS = "frame status score x y width height [X Y Z] [XX XY XZ YY YZ ZZ] depth"
 
@@ -65,18 +66,36 @@ def footprint(place: Path, frames: int, size: tuple[int, int]) -> Footprint:
                 file.seek(max(0, total - SAMPLE_BYTES) * index // (SAMPLES - 1))
                 digest.update(file.read(SAMPLE_BYTES))
     return Footprint(
-        place.resolve().name, total, stat.st_mtime, digest.hexdigest()[:32], frames, size[0], size[1]
+        readable(place.resolve().name),
+        total,
+        stat.st_mtime,
+        digest.hexdigest()[:32],
+        frames,
+        size[0],
+        size[1],
     )
+
+
+def readable(name: Path | str) -> str:
+    """The name of a file with a question mark for each byte that isn't UTF-8."""
+    return str(name).encode(errors="replace").decode()
+
+
+def path_beside(place: Path) -> Path:
+    """Where a recording's project is if it can be there."""
+    place = place.resolve()
+    return place.with_name(place.name + SUFFIX)
 
 
 def project_path(place: Path) -> Path:
     """Where a recording's project is: beside it, or in the user's data folder where that can't be written."""
-    place = place.resolve()
-    beside = place.with_name(place.name + SUFFIX)
-    if os.access(beside if beside.exists() else beside.parent, os.W_OK) and os.access(beside.parent, os.W_OK):
+    beside = path_beside(place)
+    fits = len(os.fsencode(beside.name)) <= MAX_NAME_BYTES
+    if fits and all(os.access(each, os.W_OK) for each in (beside.parent, beside) if each.exists()):
         return beside
+    place = place.resolve()
     key = hashlib.sha256(str(place).encode(errors="surrogateescape")).hexdigest()[:12]
-    return data_folder() / f"{place.name}-{key}{SUFFIX}"
+    return data_folder() / (f"{place.name}-{key}{SUFFIX}" if fits else key + SUFFIX)
 
 
 def data_folder() -> Path:

@@ -9,6 +9,7 @@ from pathlib import Path
 from tricue.app import project_file
 from tricue.app.project import Project
 from tricue.app.project_file import Footprint
+from tricue.errors import one_line
 
 SAVE_INTERVAL = 2.0  # seconds between savings while a tracker runs
 MAX_SAVE_SHARE = 0.1  # of the time while a tracker runs
@@ -19,7 +20,8 @@ class Saver:
 
     path: the file, None to keep nothing. present: gives the project to be saved, None for not now. growing:
     whether the project changes by itself. report: gets an error of writing.
-    version: counts the changes. saved: whether all of them are in the file.
+    version: counts the changes. saved: whether all of them are in the file. failed: why they aren't, "" while
+    writing does; it is tried again and again.
     """
 
     def __init__(
@@ -31,7 +33,8 @@ class Saver:
         report: Callable[[Exception, str], None],
     ) -> None:
         self.path, self.footprint = path, footprint
-        self.version, self.saved = 0, True
+        self.version, self.saved, self.failed = 0, True, ""
+        self._tried = 0  # the version that was to be written last
         self._present, self._growing, self._report = present, growing, report
         self._written_at: int | None = None  # the file's time of change after our last saving
         self._wake = threading.Condition()
@@ -64,22 +67,29 @@ class Saver:
         pause = 0.0
         while not self._closed:
             with self._wake:
-                self._wake.wait_for(lambda: self._closed or not self.saved, max(SAVE_INTERVAL, pause))
+                self._wake.wait_for(self._has_work, max(SAVE_INTERVAL, pause))
             if not self.saved or self._growing():
                 before = time.perf_counter()
                 self._save()
                 pause = (time.perf_counter() - before) / MAX_SAVE_SHARE
-        self._save()
+        if not self.saved:
+            self._save()
+
+    def _has_work(self) -> bool:
+        return self._closed or (not self.saved and self.version != self._tried)
 
     def _save(self) -> None:
-        version, project = self.version, self._present()
+        version, project, failed = self.version, self._present(), ""
         if self.path is not None and project is not None:
             try:
                 self._write(self.path, project)
             except (OSError, ValueError) as error:
-                self._report(error, "not saved: ")
+                failed = one_line(error)
+                if failed != self.failed:
+                    self._report(error, "not saved: ")
         with self._wake:
-            self.saved = self.version == version  # what failed is tried again after the next change
+            self._tried, self.failed = version, failed
+            self.saved = self.version == version and not failed
 
     def _write(self, path: Path, project: Project) -> None:
         if path.exists() and _time_of(path) != self._written_at:

@@ -4,7 +4,9 @@
 import hashlib
 import json
 import os
+import shutil
 import sys
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from pathlib import Path
@@ -12,7 +14,7 @@ from typing import Any
 
 from tricue.app.frames import Recording
 from tricue.app.local_server import serve_until_ended, show
-from tricue.app.project_file import data_folder, project_path
+from tricue.app.project_file import data_folder, path_beside, project_path, readable
 from tricue.app.server import make_app
 from tricue.app.serving import Serving
 from tricue.app.session import Session
@@ -44,15 +46,36 @@ def serve_project(
             say(f"{place.name} is open already at {own.url}")
             show(own.url, browser)
             return
-        with closing(Session(Recording(source), place, path, cameras, seed)) as session:
+        recording = Recording(source)
+        kept = _begun(path, path_beside(place))
+        with _saved(Session(recording, place, path, cameras, seed)) as session:
             if tracker:
                 session.check_tracker(tracker)
-            kept = (
-                path if path.parent == place.resolve().parent else f"{path}, as its folder can't be written"
-            )
-            say(f"the work is kept in {kept}")
+            say(f"the work is kept in {readable(kept)}")
             serving = Serving(session, tracker=tracker, notes=notes)
             serve_until_ended(serving, make_app(serving), port, browser, say, own.announce)
+
+
+def _begun(path: Path, beside: Path) -> str:
+    """Where the work is, in words; if not beside the recording, it begins with what is there."""
+    if path == beside:
+        return str(path)
+    kept = f"{path}, as it can't be written beside the recording"
+    if path.exists() or not os.access(beside, os.R_OK):
+        return kept
+    shutil.copyfile(beside, path)
+    return f"{kept}; it begins with what {beside} has"
+
+
+@contextmanager
+def _saved(session: Session) -> Iterator[Session]:
+    """A session, closed in the end; a warning tells what couldn't be saved."""
+    try:
+        yield session
+    finally:
+        session.close()
+        if session.unsaved:
+            warnings.warn(f"the last changes are not saved: {session.unsaved}", stacklevel=2)
 
 
 def serve_selection(
@@ -120,6 +143,8 @@ def _lock(file: Any) -> bool:
 
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
+    except BlockingIOError:
         return False
+    except OSError:  # a file system without locks, where nobody can be told
+        return True
     return True

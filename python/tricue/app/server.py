@@ -4,15 +4,15 @@
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
-from starlette.responses import FileResponse, JSONResponse, Response
+from starlette.responses import FileResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp
 
 from tricue.app.commands import do
-from tricue.app.exports import EXPORTS, picture
+from tricue.app.exports import EXPORTS
 from tricue.app.feed import state, tell_page
 from tricue.app.serving import Serving
-from tricue.app.web import HEADERS, OwnPagesOnly, answer, attached, bound, jpeg, page_of
+from tricue.app.web import HEADERS, OwnPagesOnly, answer, as_json, attached, bound, jpeg, page_of
 from tricue.draw.video import written_path
 from tricue.errors import one_line
 
@@ -33,7 +33,7 @@ def make_app(serving: Serving) -> ASGIApp:
 
 
 async def _state(serving: Serving, _: Request) -> Response:
-    return JSONResponse(state(serving), headers=HEADERS)
+    return as_json(state(serving))
 
 
 async def _frame(serving: Serving, request: Request) -> Response:
@@ -42,7 +42,7 @@ async def _frame(serving: Serving, request: Request) -> Response:
     try:
         data = await run_in_threadpool(_still, serving, number, channel)
     except (OSError, ValueError, RuntimeError) as error:
-        return JSONResponse({"error": one_line(error)}, 404, HEADERS)
+        return as_json({"error": one_line(error)}, 404)
     return Response(data, media_type="image/jpeg", headers=HEADERS)
 
 
@@ -50,7 +50,7 @@ def _still(serving: Serving, number: int, channel: str | None) -> bytes:
     serving.session.check_frame(number)
     with serving.recording() as recording:
         frame = recording.frame(number)
-    return jpeg(picture(frame, channel, serving.depth_span), "still")
+    return jpeg(serving.picture(frame, channel), "still")
 
 
 async def _do(serving: Serving, request: Request) -> Response:
@@ -58,15 +58,20 @@ async def _do(serving: Serving, request: Request) -> Response:
 
 
 async def _export(serving: Serving, request: Request) -> Response:
-    kind, name = request.path_params["kind"], serving.session.place.stem
+    kind, place = request.path_params["kind"], serving.session.place
+    name = place.name if place.is_dir() else place.stem
     if kind == "video":
         job = serving.session.job
         if job is None or job.path is None:
-            return JSONResponse({"error": "the overlay video isn't written yet"}, 404, HEADERS)
+            return as_json({"error": "the overlay video isn't written yet"}, 404)
         path = written_path(job.path)
         return FileResponse(path, headers=attached(name + ".overlay" + path.suffix))
     if kind not in EXPORTS:
-        return JSONResponse({"error": f"expected one of {', '.join(EXPORTS)}, got {kind}"}, 404, HEADERS)
+        return as_json({"error": f"expected one of {', '.join(EXPORTS)}, got {kind}"}, 404)
     export = EXPORTS[kind]
-    text = await run_in_threadpool(lambda: export.write(serving.session.tracked()))
-    return Response(text.encode(), media_type=export.media_type, headers=attached(name + export.suffix))
+    try:
+        text = await run_in_threadpool(lambda: export.write(serving.session.tracked()))
+    except (OSError, ValueError, RuntimeError) as error:
+        return as_json({"error": one_line(error)}, 500)
+    content = text.encode(errors="replace")
+    return Response(content, media_type=export.media_type, headers=attached(name + export.suffix))

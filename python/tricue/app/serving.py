@@ -3,14 +3,17 @@
 
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from tricue.app.exports import boxed_channel, picture
 from tricue.app.frames import Recording
 from tricue.app.local_server import Served
 from tricue.app.session import Session
 from tricue.camera.box import Box
+from tricue.camera.frame import Frame
+from tricue.draw.canvas import Image
 from tricue.draw.depth_pictures import depth_range
 
 
@@ -37,12 +40,23 @@ class Serving(Served):
 
     @cached_property
     def depth_span(self) -> tuple[float, float] | None:
-        """The range of depth in five frames of the recording: one for all, so that colors don't flicker."""
-        if "depth" not in self.session.recording.source.channels:
-            return None
+        """The range of depth in five frames of the recording: one for all, so that colors don't flicker.
+
+        None where none of them has a depth that can be read.
+        """
+        ranges = []
         with self.recording() as recording:
-            numbers = sorted({part * (recording.length - 1) // 4 for part in range(5)})
-            depths = [recording.frame(number).depth for number in numbers]
-        ranges = [span for depth in depths if depth is not None and (span := depth_range(depth))]
-        near = min((low for low, _ in ranges), default=0.0)
+            for number in sorted({part * (recording.length - 1) // 4 for part in range(5)}):
+                with suppress(OSError, ValueError, RuntimeError):  # those that can't be read tell nothing
+                    depth = recording.frame(number).depth
+                    if depth is not None and (span := depth_range(depth)):
+                        ranges.append(span)
+        if not ranges:
+            return None
+        near = min(low for low, _ in ranges)
         return near, max([near + 0.01, *(high for _, high in ranges)])
+
+    def picture(self, frame: Frame, channel: str | None = None) -> Image:
+        """A channel of a frame as :func:`tricue.app.exports.picture` gives it, depth in one range for all."""
+        name = channel or boxed_channel(frame)
+        return picture(frame, name, self.depth_span if name == "depth" else None)

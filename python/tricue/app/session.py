@@ -46,6 +46,7 @@ class Session:
         self.last_run: Run | None = None
         self.runs = 0  # those that have ended
         self.changed_video: list[str] = []
+        self._shortened = False  # whether the file has more, in frames that aren't there any more
         self._follower = Follower(recording, self.cameras, seed, self._report)
         self._commands, self._lock = threading.RLock(), threading.RLock()  # taken in this order
         self._thread: threading.Thread | None = None
@@ -63,6 +64,11 @@ class Session:
     def saved(self) -> bool:
         """Whether all of the project is in its file."""
         return self._saver.saved
+
+    @property
+    def unsaved(self) -> str:
+        """Why the project can't be written to its file; "" where it can."""
+        return self._saver.failed
 
     @property
     def project(self) -> Project:
@@ -137,13 +143,17 @@ class Session:
             self._saver.changed()
 
     def keep_project(self, keep: bool) -> None:
-        """Answer to a video that was changed: keep the project for it, or put that aside and begin anew."""
+        """Answer to a video that was changed: keep the project for it, or put that aside and begin anew.
+
+        One that had more in frames that aren't there any more is put aside as it was, too.
+        """
         with self._lock:
             if not self.changed_video or self.path is None:
                 return
-            if not keep:
+            if self._shortened or not keep:
                 project_file.put_aside(self.path)
                 self._saver.known()
+            if not keep:
                 self.history = History()
             self.changed_video = []
         self._saver.changed()
@@ -180,9 +190,9 @@ class Session:
                     )
                 )
             with self._lock:
-                self.history = self.history.step()
+                before, self.history = self.history, self.history.step()
                 run = self.run = Run(frame, step, tuple(each.id for each in able))
-            self._thread = threading.Thread(target=self._follow, args=(run, able), daemon=True)
+            self._thread = threading.Thread(target=self._follow, args=(run, able, before), daemon=True)
             self._thread.start()
             self._saver.changed(save=False)
 
@@ -194,7 +204,7 @@ class Session:
         run.stop.set()
         thread.join()
 
-    def _follow(self, run: Run, targets: Sequence[Target]) -> None:
+    def _follow(self, run: Run, targets: Sequence[Target], before: History) -> None:
         try:
             self._follower.follow(run, targets)
         except Exception as error:  # of a reader; trackers' are caught one by one
@@ -202,7 +212,7 @@ class Session:
         finally:
             with self._lock:
                 found = edits.add_tracks(self.history.present, run.tracks())
-                self.history = self.history.amend(found) if run.found else self.history.undo()
+                self.history = self.history.amend(found) if run.found else before
                 self.run, self.last_run, self.runs = None, run, self.runs + 1
             self._saver.changed()
 
@@ -229,7 +239,8 @@ class Session:
 
     def _load(self, path: Path) -> None:
         project, before = project_file.load(path, None if self.camera is None else self.camera.pose)
-        self.history = History(project)
+        self.history = History(edits.cut(project, self.recording.length))
+        self._shortened = self.history.present != project
         self.changed_video = self.footprint.differences(before)
         self._saver.known()
 
@@ -240,9 +251,7 @@ class Session:
     # Checks.
 
     def _report(self, error: Exception, where: str = "") -> None:
-        text = where + one_line(error)
-        if not self.errors or self.errors[-1] != text:
-            self.errors.append(text)
+        self.errors.append(where + one_line(error))
 
     def check_frame(self, frame: Any) -> None:
         """ValueError for what isn't the number of a frame."""

@@ -5,6 +5,7 @@ import asyncio
 import hmac
 import json
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Protocol
 from urllib.parse import quote, urlsplit
@@ -12,7 +13,7 @@ from urllib.parse import quote, urlsplit
 import cv2
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
-from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response
+from starlette.responses import FileResponse, PlainTextResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
@@ -42,15 +43,29 @@ class Page(Protocol):
 
 
 async def talk(page: Page, socket: WebSocket) -> None:
-    """Tell a page what is new, and hear it, until it is closed."""
-    telling = asyncio.create_task(page.tell())
+    """Tell a page what is new, and hear it, until it is closed; an error that ends it is told, too."""
+    tasks = [asyncio.create_task(page.tell()), asyncio.create_task(_hear(page, socket))]
     try:
+        done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        error = next((found for task in done if (found := task.exception())), None)
+        if isinstance(error, Exception) and not isinstance(error, WebSocketDisconnect):
+            with suppress(RuntimeError, WebSocketDisconnect):  # the page has gone meanwhile
+                await tell(socket, {"type": "error", "error": one_line(error)})
+                await socket.close(1011)
+    finally:
+        for task in tasks:
+            task.cancel()
+
+
+async def tell(socket: WebSocket, message: Any) -> None:
+    """Send a message to a page."""
+    await socket.send_text(json.dumps(message))
+
+
+async def _hear(page: Page, socket: WebSocket) -> None:
+    with suppress(WebSocketDisconnect, RuntimeError, ValueError, KeyError, TypeError):
         while True:
             page.hear(await socket.receive_json())
-    except (WebSocketDisconnect, RuntimeError, ValueError, KeyError, TypeError):
-        pass
-    finally:
-        telling.cancel()
 
 
 class OwnPagesOnly:
@@ -72,10 +87,14 @@ class OwnPagesOnly:
     def _refusal(self, scope: Scope) -> str:
         headers = {name.decode("latin-1"): value.decode("latin-1") for name, value in scope["headers"]}
         host = headers.get("host", "")
-        if urlsplit(f"//{host}").hostname not in ("127.0.0.1", "localhost"):
-            return "expected to be asked as 127.0.0.1"
         origin = headers.get("origin")
-        if origin is not None and urlsplit(origin).netloc != host:
+        try:
+            asked_as, asker = urlsplit(f"//{host}").hostname, urlsplit(origin or "").netloc
+        except ValueError:  # neither is an address
+            asked_as = asker = None
+        if asked_as not in ("127.0.0.1", "localhost"):
+            return "expected to be asked as 127.0.0.1"
+        if origin is not None and asker != host:
             return "expected its own page, this is another site's"
         given = "/" + scope["path"].split("/")[1]
         if not hmac.compare_digest(given.encode(), self.base.encode()):
@@ -115,8 +134,13 @@ async def answer(request: Request, do: Callable[[dict[str, Any]], dict[str, Any]
             raise ValueError("expected a command, an object")
         found = await run_in_threadpool(do, command)
     except (OSError, ValueError, TypeError, RuntimeError, ImportError) as error:
-        return JSONResponse({"error": one_line(error)}, 400, HEADERS)
-    return JSONResponse(found or {}, headers=HEADERS)
+        return as_json({"error": one_line(error)}, 400)
+    return as_json(found or {})
+
+
+def as_json(content: Any, status: int = 200) -> Response:
+    """An answer as JSON in ASCII, which names of files can't break that are no UTF-8."""
+    return Response(json.dumps(content, allow_nan=False), status, HEADERS, "application/json")
 
 
 def jpeg(image: Any, use: str) -> bytes:

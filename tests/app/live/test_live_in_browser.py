@@ -4,6 +4,7 @@
 import csv
 import io
 import signal
+import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -154,6 +155,7 @@ def test_drawn_while_it_runs(chromium: Any, opened: Callable[..., Any]) -> None:
         page.fill(f"#box-{name}", f"{value:g}")
     page.wait_for_timeout(800)
     assert tab.shown() == number
+    page.route("**/do", lambda route: (time.sleep(2.5), route.continue_()))  # a slow network
     page.click("#box-set")
     page.locator("#targets button", has_text="Target 1").wait_for()
     wait(lambda: tab.shown() > number + 3)
@@ -202,10 +204,16 @@ def test_a_stream_that_never_starts(chromium: Any, opened: Callable[..., Any], c
     tab.page.locator("#problem").wait_for()
     assert "no image within 10 s" in tab.page.locator("#problem").inner_text()
     assert "is the address right?" in server.process.stdout.readline()
+    tab.page.keyboard.press("+")
+    tab.page.mouse.move(200, 200)
+    tab.page.mouse.wheel(0, -200)
     camera.start()
     tab.page.click("#again")
     tab.ready()
     tab.page.locator("#problem").wait_for(state="hidden")
+    tab.draw(*START)  # in a picture that was zoomed before there was one
+    tab.page.locator("#targets button", has_text="Target 1").wait_for()
+    assert tab.troubles == []
 
 
 @pytest.mark.parametrize("size", [LAPTOP, PHONE], ids=["laptop", "phone"])

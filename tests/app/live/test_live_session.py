@@ -11,7 +11,8 @@ import pytest
 from tricue import Box, Status
 
 from tests.app.conftest import START
-from tests.app.live.conftest import Studio, level, wait
+from tests.app.live import conftest as live_conftest
+from tests.app.live.conftest import IMAGES, Studio, level, wait
 
 
 def place(studio: Studio, target: int = 1) -> Box:
@@ -86,6 +87,31 @@ def test_targets_are_corrected_named_and_removed(studio: Studio) -> None:
             change(1)
 
 
+def test_a_removed_target_keeps_no_frame(studio: Studio) -> None:
+    """It proves that one drawn and removed in a pause leaves the backlog as it was."""
+    studio.begin()
+    studio.session.pause()
+    studio.session.add(0, list(START), "fused")
+    studio.session.delete(1)
+    assert list(studio.session._backlog._held) == [studio.session]
+
+
+def test_images_of_another_size(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that trackers stop where the camera comes back so, and that boxes then are of that size."""
+    studio.begin()
+    studio.session.add(0, list(START), "fused")
+    before = studio.session.size
+    monkeypatch.setattr(live_conftest, "IMAGES", [cv2.resize(each, None, fx=2, fy=2) for each in IMAGES])
+    number = studio.shows(2)
+    width, height = studio.session.size
+    assert (width, height) == (2 * before[0], 2 * before[1])
+    assert studio.session.errors == [f"a camera: its images are {width}x{height} px now; draw the boxes anew"]
+    assert studio.session.targets[0].stopped
+    studio.session.draw(1, number, [2 * (START.x + level(number)), *(2 * each for each in START[1:])])
+    number = studio.shows()
+    assert abs(place(studio).x - 2 * (START.x + level(number))) < 6
+
+
 def test_a_tracker_that_breaks_ends_alone(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
     """It proves that an error of one tracker is said once, and others go on."""
     studio.begin()
@@ -130,6 +156,21 @@ def test_what_is_recorded(studio: Studio, tmp_path: Path) -> None:
     capture = cv2.VideoCapture(str(video))
     assert capture.isOpened()
     assert capture.read()[0]
+
+
+def test_recordings_of_one_second_have_names_of_their_own(
+    studio: Studio, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It proves that none is overwritten by the next."""
+    studio.begin()
+    monkeypatch.setattr("time.strftime", lambda _: "now")
+    tables = []
+    for _ in range(3):
+        studio.session.record()
+        studio.shows()
+        studio.session.stop_recording()
+        tables.append(studio.session.recorded[0].name)
+    assert tables == ["a-camera-now.csv", "a-camera-now-2.csv", "a-camera-now-3.csv"]
 
 
 def test_a_recording_is_finished_at_the_end(studio: Studio) -> None:

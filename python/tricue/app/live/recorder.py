@@ -25,7 +25,7 @@ MAX_STILL = 1.0  # seconds that the video shows one picture, however long none c
 Tracks = Sequence[tuple[Target, Track]]
 
 
-class Drawn(NamedTuple):
+class VideoFrame(NamedTuple):
     """A frame for the overlay video."""
 
     seconds: float
@@ -54,7 +54,7 @@ class Recorder:
         self._put_rows([columns(form)])
         head = json.dumps(about, indent=1, allow_nan=False, ensure_ascii=False)
         self._json.write(head.removesuffix("\n}") + ',\n "tracks": [')
-        self._waiting: Queue[Drawn | None] = Queue(MAX_WAITING)
+        self._waiting: Queue[VideoFrame | None] = Queue(MAX_WAITING)
         self._thread = threading.Thread(target=self._draw, name="recorder", daemon=True)
         self._thread.start()
 
@@ -76,7 +76,7 @@ class Recorder:
         self._json.flush()
         self._targets |= {target.id: target for target, _ in tracks}
         with suppress(Full):  # the video shows the picture before for longer
-            self._waiting.put_nowait(Drawn(seconds, frame, tracks))
+            self._waiting.put_nowait(VideoFrame(seconds, frame, tracks))
 
     def close(self) -> None:
         """Finish the files."""

@@ -10,7 +10,7 @@ import numpy as np
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
-from starlette.responses import FileResponse, JSONResponse, Response
+from starlette.responses import FileResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp
 from starlette.websockets import WebSocket
@@ -19,7 +19,7 @@ from tricue.app.exports import picture
 from tricue.app.feed import as_row
 from tricue.app.live.session import LiveSession, Shown
 from tricue.app.local_server import Served
-from tricue.app.web import HEADERS, OwnPagesOnly, answer, attached, bound, jpeg, page_of, talk
+from tricue.app.web import OwnPagesOnly, answer, as_json, attached, bound, jpeg, page_of, talk, tell
 
 INTERVAL = 0.04  # seconds between what a page is told
 
@@ -76,7 +76,7 @@ def state(serving: LiveServing) -> dict[str, Any]:
 
 
 async def _state(serving: LiveServing, _: Request) -> Response:
-    return JSONResponse(state(serving), headers=HEADERS)
+    return as_json(state(serving))
 
 
 async def _do(serving: LiveServing, request: Request) -> Response:
@@ -113,13 +113,13 @@ async def _recorded(serving: LiveServing, request: Request) -> Response:
     for path in serving.session.recorded:
         if path.suffix == f".{suffix}" and path.exists():
             return FileResponse(path, headers=attached(path.name))
-    return JSONResponse({"error": f"no {suffix} is recorded"}, 404, HEADERS)
+    return as_json({"error": f"no {suffix} is recorded"}, 404)
 
 
 async def _tell_page(serving: LiveServing, socket: WebSocket) -> None:
     """Tell a page what is new, until it is closed."""
-    await socket.accept()
     page = _Page(serving, socket)
+    await socket.accept()
     try:
         await talk(page, socket)
     finally:
@@ -156,10 +156,10 @@ class _Page:
         now = await run_in_threadpool(state, self.serving)
         if now != self.state:
             self.state = now
-            await self.socket.send_json({"type": "state", **now})
+            await tell(self.socket, {"type": "state", **now})
         errors, self.errors = session.errors[self.errors :], len(session.errors)
         for error in errors:
-            await self.socket.send_json({"type": "error", "error": error})
+            await tell(self.socket, {"type": "error", "error": error})
         recorder = session.recorder
         health = {
             **session.health._asdict(),
@@ -168,7 +168,7 @@ class _Page:
         }
         if health != self.health:
             self.health = health
-            await self.socket.send_json({"type": "health", **health})
+            await tell(self.socket, {"type": "health", **health})
 
     async def _tell_tracks(self) -> None:
         recent = list(self.serving.session.recent)
@@ -177,7 +177,7 @@ class _Page:
         if news:
             self.news = news[-1]
             frames = [(each.number, round(each.seconds, 3), _rows(each)) for each in news]
-            await self.socket.send_json({"type": "tracks", "frames": frames})
+            await tell(self.socket, {"type": "tracks", "frames": frames})
 
     async def _tell_picture(self) -> None:
         latest = self.serving.session.latest

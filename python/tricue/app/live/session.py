@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A camera in work: its newest frame always, the targets tracked in it, and what is recorded of them."""
 
+import itertools
 import re
 import threading
 import time
@@ -10,6 +11,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from tricue.app.frames import image_of
 from tricue.app.live.backlog import Backlog
 from tricue.app.live.recorder import Recorder
 from tricue.app.project import MAX_NAME, Target
@@ -202,6 +204,7 @@ class LiveSession:
         with self._lock:
             self._number += 1
             seconds = time.monotonic() if frame.timestamp is None else frame.timestamp
+            self._check_size(frame)
             self._backlog.add(self._number, seconds, frame)
             if self.phase != "live":
                 return
@@ -213,11 +216,22 @@ class LiveSession:
             self.recent.append(shown)
             self._record(shown, frame)
 
+    def _check_size(self, frame: Frame) -> None:
+        """Where the camera gives images of another size than before, the boxes of before mean nothing."""
+        height, width = image_of(frame).shape[:2]
+        if (width, height) == self.size:
+            return
+        self.size = width, height
+        self._backlog.clear()
+        for followed in self._followed.values():
+            followed.stopped, followed.track = True, replace(followed.track, status=Status.LOST)
+        self.errors.append(f"{self.name}: its images are {width}x{height} px now; draw the boxes anew")
+
     def _catch_up(self, followed: Followed) -> None:
         """Show a tracker the frames that it hasn't seen; an error ends it alone."""
         for number, frame in [] if followed.stopped else self._backlog.since(followed.at):
             try:
-                followed.track = self._told(followed.tracker.update(frame))
+                followed.track = self._measured(followed.tracker.update(frame))
             except Exception as error:  # whatever a third party's tracker raises
                 followed.stopped = True
                 followed.track = replace(followed.track, status=Status.LOST)
@@ -229,7 +243,7 @@ class LiveSession:
     def _tracks(self) -> dict[int, Track]:
         return {target: followed.track for target, followed in self._followed.items()}
 
-    def _told(self, track: Track) -> Track:
+    def _measured(self, track: Track) -> Track:
         """In a default camera, positions would be no meters."""
         return track if self._cameras else track.in_image()
 
@@ -251,7 +265,9 @@ class LiveSession:
     def delete(self, target: Any) -> None:
         """Follow a target no more."""
         with self._lock:
-            del self._followed[self._get(target).target.id]
+            number = self._get(target).target.id
+            del self._followed[number]
+            self._backlog.hold(number, None)
 
     def rename(self, target: Any, name: Any) -> None:
         """Call a target something else."""
@@ -275,7 +291,7 @@ class LiveSession:
             raise ValueError(f"frame: expected the number of a frame that is shown, got {number!r:.40}")
         frame = self._backlog.get(number)
         tracker = make_tracker(target.tracker, self.source, self._cameras, self.seed)
-        track = self._told(tracker.init(frame, box))
+        track = self._measured(tracker.init(frame, box))
         self._followed[target.id] = Followed(target, tracker, track, number)
         self._backlog.hold(target.id, number)
         if self.phase == "paused":  # the picture stays, so its tracks are told anew
@@ -301,7 +317,9 @@ class LiveSession:
             if self.source is None or self.phase not in ("live", "paused"):
                 raise ValueError("expected a camera that gives frames; there is nothing to record")
             plain = re.sub(r"[^\w.-]+", "-", self.name).strip("-")
-            stem = self.folder / f"{plain}-{time.strftime('%Y-%m-%d-%H.%M.%S')}"
+            name = f"{plain}-{time.strftime('%Y-%m-%d-%H.%M.%S')}"
+            names = (f"{name}-{count}" if count > 1 else name for count in itertools.count(1))
+            stem = next(self.folder / each for each in names if not (self.folder / f"{each}.csv").exists())
             world = bool(self._camera is not None and self._camera.pose is not None)
             form = TableForm(world, several=True)
             self.recorder = Recorder(stem, self._about(), self.source.fps, form)

@@ -2,7 +2,7 @@
 // The page: its parts, what they do together, and the keys.
 
 import { Model, clock } from "./model.js";
-import { commonKeys, listenToKeys } from "./keys.js";
+import { commonKeys, leaveKeys, listenToKeys } from "./keys.js";
 import { command, listen, Pictures } from "./link.js";
 import { Panel } from "./panel.js";
 import { Stage } from "./stage.js";
@@ -12,13 +12,14 @@ import { complain } from "./toasts.js";
 
 const get = (id) => document.getElementById(id);
 const model = new Model();
-const pictures = new Pictures();
-const stage = new Stage(get("picture"), model, { drawn: draw, clicked: (id) => model.choose(id) });
+const stage = new Stage(get("picture"), model, { drawn: draw, clicked: (id) => model.choose(id), held: hold });
+const pictures = new Pictures((image) => image === stage.image);
 new Timeline(get("timeline"), model, go);
 const panel = new Panel(model, { act, went: go });
 let loading = false; // a picture is being fetched
-let playing = null; // {frame, time} since when the video plays
+let playing = null; // {begin, began}: the time in the video, and the clock's, since when it plays
 let wanted = null; // where to go once it is paused
+let finished = false; // whether the boxes that were asked for are drawn
 
 // Commands
 
@@ -49,10 +50,16 @@ function known(id) {
   });
 }
 
-function draw(frame, box) {
-  stopPlaying();
-  if (model.target()) return act("draw", { target: model.chosen, frame, box });
-  return act("add", { frame, box, tracker: panel.tracker });
+/** The picture stays while someone draws in it; null for no longer. */
+function hold(frame) {
+  if (frame === null) load();
+  else stopPlaying();
+}
+
+async function draw(frame, box) {
+  if (model.target()) await act("draw", { target: model.chosen, frame, box });
+  else await act("add", { frame, box, tracker: panel.tracker });
+  load();
 }
 
 function track(step) {
@@ -74,21 +81,31 @@ function go(frame) {
 
 /** Show the picture of the frame that is looked at, and of those looked at meanwhile only the last. */
 async function load() {
-  if (loading || !model.state || model.state.run) return;
+  if (loading || !model.state) return;
   loading = true;
-  while ((stage.shown !== model.frame || stage.coarse) && !model.state.run) {
+  while ((stage.shown !== model.frame || stage.coarse) && !model.state.run && !stage.busy) {
     const frame = model.frame;
-    try {
-      const image = await pictures.get(frame);
-      if (!model.state.run) stage.show(frame, image);
-      say(`shown ${frame}`);
-    } catch (error) {
-      stopPlaying();
-      complain(error.message);
-      break;
-    }
+    const image = await picture(frame);
+    if (frame !== model.frame || model.state.run || stage.busy) continue;
+    show(frame, image);
   }
   loading = false;
+}
+
+/** A frame's picture; null, and a complaint, if it can't be shown. */
+async function picture(frame) {
+  try {
+    return await pictures.get(frame);
+  } catch (error) {
+    complain(error.message);
+    return null;
+  }
+}
+
+function show(frame, image) {
+  stage.show(frame, image);
+  updateHint();
+  say(`shown ${frame}`);
 }
 
 function say(text) {
@@ -97,24 +114,18 @@ function say(text) {
 
 async function play() {
   if (model.frame === model.state.frames - 1) model.go(0);
-  const mine = (playing = { frame: model.frame, began: performance.now() });
+  const mine = (playing = { begin: model.seconds(model.frame), began: performance.now() });
   updateControls();
   while (playing === mine) {
-    const passed = (performance.now() - mine.began) / 1000;
-    const due = mine.frame + Math.floor(passed * model.state.fps);
+    const due = model.frameAt(mine.begin + (performance.now() - mine.began) / 1000);
     const next = Math.min(Math.max(due, model.frame + 1), model.state.frames - 1);
-    try {
-      const image = await pictures.get(next);
-      const wait = ((next - mine.frame) / model.state.fps) * 1000 - (performance.now() - mine.began);
-      if (next + 1 < model.state.frames) pictures.get(next + 1).catch(() => {});
-      if (wait > 0) await new Promise((resolve) => setTimeout(resolve, wait));
-      if (playing !== mine) return;
-      stage.show(next, image);
-      model.go(next);
-    } catch (error) {
-      complain(error.message);
-      break;
-    }
+    const image = await picture(next);
+    const wait = (model.seconds(next) - mine.begin) * 1000 - (performance.now() - mine.began);
+    if (next + 1 < model.state.frames) pictures.get(next + 1).catch(() => {});
+    if (wait > 0) await new Promise((resolve) => setTimeout(resolve, wait));
+    if (playing !== mine) return;
+    model.go(next);
+    show(next, image);
     if (next === model.state.frames - 1) break;
   }
   if (playing === mine) stopPlaying();
@@ -157,12 +168,13 @@ listen({
   async show(frame, blob) {
     const image = await createImageBitmap(blob);
     if (!model.state?.run) return;
-    stage.show(frame, image, true);
+    if (!stage.busy) stage.show(frame, image, true);
     model.go(frame);
   },
   status(there) {
-    get("gone").hidden = there;
-    get("gone-file").textContent = model.state?.file ? `The work is in ${model.state.file}.` : "";
+    if (!there) stopPlaying();
+    get("gone").hidden = there || finished;
+    get("gone-file").textContent = model.state ? workText(model.state) : "";
   },
 });
 
@@ -203,7 +215,7 @@ function updateControls() {
   get("name").textContent = state.name;
   document.title = `${state.name} - tricue`;
   get("saved").textContent = savedText(state);
-  get("saved").title = state.file ?? "";
+  get("saved").title = state.unsaved || (state.file ?? "");
   get("undo").disabled = !state.undo;
   get("redo").disabled = !state.redo;
   get("export").disabled = !state.targets.length;
@@ -220,14 +232,20 @@ function updateControls() {
   get("frame").max = state.frames - 1;
   get("changed").hidden = !state.changed_video.length;
   get("changed-how").textContent = state.changed_video.join(", ");
-  get("help-file").textContent = state.file ? `The work is kept in ${state.file}.` : "";
+  get("help-file").textContent = workText(state);
   document.documentElement.style.setProperty("--aspect", state.size[0] / state.size[1]);
   updateHint();
   updateVideo(state.video);
 }
 
+function workText(state) {
+  if (state.file && state.unsaved) return `The last changes are not saved: ${state.unsaved}.`;
+  return state.file ? `The work is in ${state.file}.` : "";
+}
+
 function savedText(state) {
   if (!state.file) return "";
+  if (state.unsaved) return `not saved: ${state.unsaved}`;
   if (state.changed_video.length) return "not saved";
   const where = state.beside ? "" : ` in ${state.file}`;
   return state.saved && !state.run ? `saved${where}` : `saving${where}`;
@@ -238,6 +256,7 @@ function updateHint() {
   const target = model.target();
   let text = "";
   if (state.run) text = "";
+  else if (stage.shown === model.frame && !stage.image) text = `Frame ${model.frame} can't be shown`;
   else if (!state.targets.length) text = "Drag a box around what to follow";
   else if (!target) text = "Drag a box around the next target, or choose one";
   else if (!state.selecting && target.drawn.length === 1 && target.drawn[0] === model.frame && onlyDrawn(target)) {
@@ -256,16 +275,18 @@ function updateVideo(video) {
   const writing = Boolean(video) && !video.done && !video.error;
   bar.hidden = !writing;
   get("video").textContent = writing ? "Cancel" : "Video";
-  if (!video) return;
-  bar.value = video.written / video.total;
-  get("video-state").textContent = video.error || (video.done ? "written" : `writing, ${Math.floor(100 * bar.value)} %`);
-  if (video.done && get("video").dataset.asked) {
+  get("video-file").hidden = !video?.done;
+  bar.value = video ? video.written / video.total : 0;
+  get("video-state").textContent = videoText(video, bar.value);
+  if (video?.done && get("video").dataset.asked) {
     delete get("video").dataset.asked;
-    const link = document.createElement("a");
-    link.href = "export/video";
-    link.download = "";
-    link.click();
+    get("video-file").click();
   }
+}
+
+function videoText(video, share) {
+  if (!video) return "with the boxes drawn in it; plays in any browser";
+  return video.error || (video.done ? "written" : `writing, ${Math.floor(100 * share)} %`);
 }
 
 function updateFrame() {
@@ -309,7 +330,8 @@ const CLICKS = {
     return act("video", { trail: stage.trail });
   },
   async done() {
-    await act("select");
+    if (!(await act("select"))) return;
+    finished = get("gone").hidden = true;
     get("selecting").firstElementChild.textContent = "Done. This page can be closed.";
     get("done").hidden = true;
   },
@@ -322,7 +344,13 @@ get("trail").addEventListener("change", (event) => {
   stage.trail = event.target.checked;
   stage.draw();
 });
-get("frame").addEventListener("change", (event) => go(event.target.valueAsNumber));
+get("frame").addEventListener("change", (event) => {
+  const frame = event.target.valueAsNumber;
+  if (!Number.isNaN(frame)) go(frame);
+  event.target.value = model.frame; // which isn't what was written if there is no such frame
+});
+get("frame").addEventListener("keydown", (event) => event.key === "Enter" && event.target.blur());
+leaveKeys(get("who"));
 
 // Keys
 

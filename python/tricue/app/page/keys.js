@@ -2,6 +2,7 @@
 // The keys of a page: those that all pages have, and who gets a key that is pressed.
 
 const TYPING = "input:not([type=checkbox]), select, textarea";
+const REPEATED = ["ArrowLeft", "ArrowRight", "+", "=", "-"]; // while they are held
 const PRESSED_BY_KEYS = "button, a, input, summary"; // by blank and enter
 
 /** Keys, by their names, that zoom, choose targets, and show or hide trails. */
@@ -26,6 +27,14 @@ export function commonKeys(model, stage) {
   return keys;
 }
 
+/** Let a list in which one chose with the pointer leave the keys to the page. */
+export function leaveKeys(list) {
+  let pressed = false;
+  list.addEventListener("pointerdown", () => (pressed = true));
+  list.addEventListener("blur", () => (pressed = false));
+  list.addEventListener("change", () => pressed && list.blur());
+}
+
 /** Do what keys stand for, with the event, unless someone types, a dialog is open, or nothing is loaded.
  *  withControl: takes one that is pressed together with Ctrl, and says whether it did something. */
 export function listenToKeys(model, keys, withControl = () => false) {
@@ -41,6 +50,6 @@ export function listenToKeys(model, keys, withControl = () => false) {
     const action = keys[key] ?? keys[key.toLowerCase()];
     if (!action) return;
     event.preventDefault();
-    action(event);
+    if (!event.repeat || REPEATED.includes(key)) action(event);
   });
 }

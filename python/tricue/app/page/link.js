@@ -3,15 +3,16 @@
 
 /** Send a command; its answer, or an Error with the server's words. */
 export async function command(name, values = {}) {
-  let response;
-  try {
-    response = await fetch("do", { method: "POST", body: JSON.stringify({ do: name, ...values }) });
-  } catch {
-    throw new Error("the server doesn't answer");
-  }
+  const response = await ask("do", { method: "POST", body: JSON.stringify({ do: name, ...values }) });
   const answer = await response.json().catch(() => ({ error: `the server answers ${response.status}` }));
   if (answer.error) throw new Error(answer.error);
   return answer;
+}
+
+function ask(path, options = {}) {
+  return fetch(path, options).catch(() => {
+    throw new Error("the server doesn't answer");
+  });
 }
 
 /** Keep a connection; `hear` gets messages, `show` pictures (frame, Blob), `status` whether it is there, `tell`
@@ -38,17 +39,26 @@ export function listen({ hear, show, status, tell = () => {} }) {
   };
 }
 
-const MAX_KEPT = 48; // pictures
+const MAX_BYTES = 256 << 20; // of pictures
+const FEWEST = 3; // pictures, however large
 
-/** Pictures of frames, fetched one at a time; of several that are wanted meanwhile, only the last. */
+/** Pictures of frames, fetched one at a time, and kept while there is room for them. */
 export class Pictures {
-  #kept = new Map();
+  #kept = new Map(); // by frame, those wanted last at the end
   #coming = new Map();
+
+  /** inUse(image): whether an image that is kept no longer is still shown. */
+  constructor(inUse) {
+    this.inUse = inUse;
+  }
 
   /** The picture of a frame as an ImageBitmap; an Error with the server's words. */
   get(frame) {
     const kept = this.#kept.get(frame);
-    if (kept) return Promise.resolve(kept);
+    if (kept) {
+      this.#keep(frame, kept);
+      return Promise.resolve(kept);
+    }
     if (!this.#coming.has(frame)) {
       this.#coming.set(frame, this.#fetch(frame).finally(() => this.#coming.delete(frame)));
     }
@@ -56,11 +66,21 @@ export class Pictures {
   }
 
   async #fetch(frame) {
-    const response = await fetch(`frame/${frame}.jpg`);
+    const response = await ask(`frame/${frame}.jpg`);
     if (!response.ok) throw new Error((await response.json()).error);
     const image = await createImageBitmap(await response.blob());
-    this.#kept.set(frame, image);
-    if (this.#kept.size > MAX_KEPT) this.#kept.delete(this.#kept.keys().next().value);
+    this.#keep(frame, image);
     return image;
+  }
+
+  #keep(frame, image) {
+    this.#kept.delete(frame);
+    this.#kept.set(frame, image);
+    const most = Math.max(FEWEST, MAX_BYTES / (4 * image.width * image.height));
+    while (this.#kept.size > most) {
+      const [oldest, gone] = this.#kept.entries().next().value;
+      this.#kept.delete(oldest);
+      if (!this.inUse(gone)) gone.close();
+    }
   }
 }

@@ -2,7 +2,7 @@
 // The page of a camera: the newest picture, the targets in it, drawing, recording, and the keys.
 
 import { LiveModel } from "./live_model.js";
-import { commonKeys, listenToKeys } from "./keys.js";
+import { commonKeys, leaveKeys, listenToKeys } from "./keys.js";
 import { command, listen } from "./link.js";
 import { Stage } from "./stage.js";
 import { listTargets } from "./target_list.js";
@@ -32,6 +32,7 @@ function hold(frame) {
   send({ hold: frame });
 }
 
+/** Draw a box; the frame is kept until the server has it. */
 async function draw(frame, box) {
   if (model.target()) await act("draw", { target: model.chosen, frame, box });
   else {
@@ -60,11 +61,11 @@ function remove() {
   if (model.target()) act("delete", { target: model.chosen });
 }
 
-function setBox() {
+async function setBox() {
   const box = ["x", "y", "w", "h"].map((name) => get(`box-${name}`).valueAsNumber);
   if (box.some(Number.isNaN)) return complain("box: expected four numbers");
-  document.activeElement.blur();
-  return draw(stage.shown, box);
+  await draw(stage.shown, box);
+  if (get("box").contains(document.activeElement)) document.activeElement.blur();
 }
 
 // What the server tells
@@ -200,6 +201,7 @@ get("target-tracker").addEventListener("change", (event) => {
   if (model.target()) act("tracker", { target: model.chosen, tracker: chosenTracker });
   else updateTargets();
 });
+leaveKeys(get("target-tracker"));
 get("box").addEventListener("keydown", (event) => event.key === "Enter" && event.target.type === "number" && setBox());
 // Numbers belong to a picture, which stays while they are written.
 get("box").addEventListener("focusin", (event) => {

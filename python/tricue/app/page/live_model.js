@@ -30,21 +30,21 @@ export class LiveModel extends Targets {
   }
 
   box(id, frame) {
-    return this.#row(id, frame)?.slice(3, 7) ?? null;
+    return this.#track(id, frame)?.box ?? null;
   }
 
   status(id, frame) {
-    return this.#row(id, frame)?.[1] ?? NONE;
+    return this.#track(id, frame)?.status ?? NONE;
   }
 
   score(id, frame) {
-    return this.#row(id, frame)?.[2] ?? 0;
+    return this.#track(id, frame)?.score ?? 0;
   }
 
   /** The distance or the position of a target in words, "" where it isn't known. */
   place(id, frame) {
-    const [x, y, z] = this.#row(id, frame)?.slice(7) ?? [];
-    return z === undefined || this.status(id, frame) === LOST ? "" : `${z.toFixed(2)} m`;
+    const track = this.#track(id, frame);
+    return !track?.place.length || track.status === LOST ? "" : `${track.place[2].toFixed(2)} m`;
   }
 
   /** Whether it is known where a target is in a frame. */
@@ -57,7 +57,10 @@ export class LiveModel extends Targets {
     return [...this.#frames.keys()].filter((at) => at <= frame && this.seconds(at) >= seconds);
   }
 
-  #row(id, frame) {
-    return this.#frames.get(frame)?.rows[id] ?? null;
+  #track(id, frame) {
+    const row = this.#frames.get(frame)?.rows[id];
+    if (!row) return null;
+    const [, status, score, x, y, width, height, ...place] = row;
+    return { status, score, box: [x, y, width, height], place };
   }
 }

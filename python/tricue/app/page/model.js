@@ -62,6 +62,17 @@ export class Model extends Targets {
     return this.times[frame] ?? frame / this.state.fps;
   }
 
+  /** The last frame up to a time; the first one before it. */
+  frameAt(seconds) {
+    let first = 0, beyond = this.state.frames;
+    while (beyond - first > 1) {
+      const middle = (first + beyond) >> 1;
+      if (this.seconds(middle) <= seconds) first = middle;
+      else beyond = middle;
+    }
+    return first;
+  }
+
   box(id, frame) {
     return this.tracks.get(id)?.box(frame) ?? null;
   }

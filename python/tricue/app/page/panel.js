@@ -3,8 +3,10 @@
 
 import { clock } from "./model.js";
 import { drawPath, hasPath } from "./path.js";
+import { leaveKeys } from "./keys.js";
 import { listTargets } from "./target_list.js";
 import { LOST, NONE, OCCLUDED, STATUS_NAMES } from "./targets.js";
+import { complain } from "./toasts.js";
 
 const VIEW_INTERVAL = 200; // milliseconds between pictures of another channel
 const get = (id) => document.getElementById(id);
@@ -19,6 +21,7 @@ export class Panel {
     get("target-name").addEventListener("change", (event) => this.#rename(event.target.value));
     get("target-name").addEventListener("keydown", (event) => event.key === "Enter" && event.target.blur());
     get("target-tracker").addEventListener("change", (event) => this.#chooseTracker(event.target.value));
+    leaveKeys(get("target-tracker"));
     get("box-set").addEventListener("click", () => this.#setBox());
     get("box").addEventListener("keydown", (event) => event.key === "Enter" && event.target.type === "number" && this.#setBox());
     get("box-erase").addEventListener("click", () => act("erase", { target: model.chosen, frame: model.frame }));
@@ -84,9 +87,8 @@ export class Panel {
       item.append(button);
       return item;
     });
-    if (!get("lost-ranges").contains(document.activeElement) || items.length !== get("lost-ranges").children.length) {
-      get("lost-ranges").replaceChildren(...items);
-    }
+    const before = get("lost-ranges");
+    if (before.innerHTML !== items.map((item) => item.outerHTML).join("")) before.replaceChildren(...items);
     this.#updateFrame();
   }
 
@@ -95,7 +97,8 @@ export class Panel {
     if (!model.state) return;
     this.#updateNow();
     const box = model.chosen === null ? null : model.box(model.chosen, model.frame);
-    if (!get("box").contains(document.activeElement)) {
+    const active = document.activeElement;
+    if (!(active?.type === "number" && get("box").contains(active))) {
       ["x", "y", "w", "h"].forEach((name, index) => {
         get(`box-${name}`).value = box ? Math.round(box[index] * 10) / 10 : "";
       });
@@ -139,7 +142,7 @@ export class Panel {
   #setBox() {
     const { model } = this;
     const box = ["x", "y", "w", "h"].map((name) => get(`box-${name}`).valueAsNumber);
-    if (box.some(Number.isNaN)) return this.act("draw", { target: model.chosen, frame: model.frame, box: null });
+    if (box.some(Number.isNaN)) return complain("box: expected four numbers");
     const where = { frame: model.frame, box };
     document.activeElement.blur();
     if (model.target()) return this.act("draw", { target: model.chosen, ...where });

@@ -39,12 +39,17 @@ export class Stage {
     return this.#shown;
   }
 
+  /** The picture of that frame, null if there is none. */
+  get image() {
+    return this.#image;
+  }
+
   /** Whether someone is drawing in the picture. */
   get busy() {
     return Boolean(this.#drag) && this.#drag.kind !== "view";
   }
 
-  /** coarse: whether the picture may have fewer pixels than the frame. */
+  /** Show a frame's picture, null for a frame that has none. coarse: whether it may have fewer pixels than the frame. */
   show(frame, image, coarse = false) {
     this.#image = image;
     this.coarse = coarse;
@@ -54,6 +59,7 @@ export class Stage {
 
   /** Zoom in or out around the middle; 0 shows the whole frame. */
   zoomBy(factor, [x, y] = this.#middleOfCanvas()) {
+    if (!this.#image) return;
     const before = this.#toFrame(x, y);
     this.#zoom = factor === 0 ? 1 : Math.min(Math.max(this.#zoom * factor, 1), MAX_ZOOM);
     const after = this.#toFrame(x, y);
@@ -65,8 +71,7 @@ export class Stage {
   }
 
   cancel() {
-    if (this.busy) this.held(null);
-    this.#drag = null;
+    this.#letGo(null);
     this.draw();
   }
 
@@ -115,20 +120,27 @@ export class Stage {
     return [Math.min(Math.max(x, 0), width), Math.min(Math.max(y, 0), height)];
   }
 
+  /** A box somewhere else, a part of it still inside. */
+  #movedBy([x, y, width, height], right, down) {
+    const [across, high] = this.model.state.size;
+    const clamp = (value, side, whole) => Math.min(Math.max(value, MIN_BOX - side), whole - MIN_BOX);
+    return [clamp(x + right, width, across), clamp(y + down, height, high), width, height];
+  }
+
   // Drawing
 
   #press(event) {
-    if (!this.model.state || this.#shown < 0 || event.button > 1) return;
+    if (!this.model.state || !this.#image || event.button > 1) return;
     this.canvas.focus({ preventScroll: true });
     this.canvas.setPointerCapture(event.pointerId);
     this.#pointers.set(event.pointerId, this.#at(event));
     if (this.#pointers.size > 1 || event.button === 1) {
-      if (this.busy) this.held(null);
-      this.#drag = { kind: "view", zoom: this.#zoom };
+      this.#letGo({ kind: "view", zoom: this.#zoom });
       return this.draw();
     }
     if (this.model.state.run) return;
-    this.held(this.#shown);
+    const frame = this.#shown;
+    this.held(frame);
     const at = this.#at(event), start = this.#toFrame(...at);
     const box = event.shiftKey ? null : this.#own(); // with Shift a box is always drawn anew
     const reach = event.pointerType === "touch" ? TOUCH_HANDLE : HANDLE + 3;
@@ -136,12 +148,19 @@ export class Stage {
     if (corner >= 0) {
       const [across, down] = CORNERS[(corner + 2) % 4];
       const fixed = [box[0] + across * box[2], box[1] + down * box[3]];
-      this.#drag = { kind: "draw", start: fixed, box: [...box], moved: false, from: at };
+      this.#drag = { kind: "draw", frame, start: fixed, box: [...box], moved: false, from: at };
     } else if (box && within(box, start)) {
-      this.#drag = { kind: "move", start, first: [...box], box: [...box], moved: false, from: at };
+      this.#drag = { kind: "move", frame, start, first: [...box], box: [...box], moved: false, from: at };
     } else {
-      this.#drag = { kind: "draw", start: this.#inside(start), box: null, moved: false, from: at };
+      this.#drag = { kind: "draw", frame, start: this.#inside(start), box: null, moved: false, from: at };
     }
+  }
+
+  /** End the drawing, if there is one, for another drag or none. */
+  #letGo(drag) {
+    const busy = this.busy;
+    this.#drag = drag;
+    if (busy) this.held(null);
   }
 
   #move(event) {
@@ -156,7 +175,7 @@ export class Stage {
     if (!drag.moved) return;
     const here = this.#toFrame(...at);
     if (drag.kind === "move") {
-      drag.box = [drag.first[0] + here[0] - drag.start[0], drag.first[1] + here[1] - drag.start[1], ...drag.first.slice(2)];
+      drag.box = this.#movedBy(drag.first, here[0] - drag.start[0], here[1] - drag.start[1]);
     } else {
       const [x, y] = this.#inside(here);
       const [left, top] = drag.start;
@@ -193,7 +212,7 @@ export class Stage {
     }
     this.#drag = null;
     if (drag.moved && drag.box && drag.box[2] >= MIN_BOX && drag.box[3] >= MIN_BOX) {
-      this.drawn(this.#shown, drag.box.map((value) => Math.round(value * 10) / 10));
+      this.drawn(drag.frame, drag.box.map((value) => Math.round(value * 10) / 10));
     } else if (!drag.moved) {
       this.clicked(this.#targetAt(this.#toFrame(...this.#at(event))));
       this.held(null);

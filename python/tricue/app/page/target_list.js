@@ -1,22 +1,31 @@
 // SPDX-License-Identifier: MIT
 // The list of targets: a button for each that chooses it, in its color, with room for what it does now.
 
-/** Fill the list anew; the button that had the focus keeps it. */
+/** Bring the list up to date; buttons stay what they are, so that they can be clicked and keep the focus meanwhile. */
 export function listTargets(list, model) {
-  const items = model.state.targets.map((target, index) => {
-    const item = document.createElement("li"), button = document.createElement("button");
-    const swatch = document.createElement("i"), name = document.createElement("b"), now = document.createElement("span");
-    swatch.style.background = model.color(target.id);
-    name.textContent = target.name;
-    button.append(swatch, name, now);
-    button.dataset.target = target.id;
+  const { targets } = model.state;
+  for (const item of [...list.children]) if (!model.target(idOf(item))) item.remove();
+  targets.forEach((target, index) => {
+    const there = list.children[index] ?? null;
+    const item = there && idOf(there) === target.id ? there : list.insertBefore(newItem(target.id, model), there);
+    const button = item.firstChild;
+    button.querySelector("b").textContent = target.name;
     button.title = index < 9 ? `Choose (${index + 1})` : "Choose";
     button.setAttribute("aria-pressed", target.id === model.chosen);
-    button.addEventListener("click", () => model.choose(target.id));
-    item.append(button);
-    return item;
   });
-  const focused = document.activeElement?.dataset?.target;
-  list.replaceChildren(...items);
-  if (focused) list.querySelector(`[data-target="${focused}"]`)?.focus();
+}
+
+function newItem(id, model) {
+  const item = document.createElement("li"), button = document.createElement("button");
+  const swatch = document.createElement("i");
+  swatch.style.background = model.color(id);
+  button.append(swatch, document.createElement("b"), document.createElement("span"));
+  button.dataset.target = id;
+  button.addEventListener("click", () => model.choose(id));
+  item.append(button);
+  return item;
+}
+
+function idOf(item) {
+  return Number(item.firstChild.dataset.target);
 }

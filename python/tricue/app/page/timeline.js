@@ -18,6 +18,7 @@ export class Timeline {
     for (const name of ["state", "tracks", "frame", "choice"]) model.addEventListener(name, () => this.draw());
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
     canvas.addEventListener("pointerdown", (event) => {
+      canvas.focus({ preventScroll: true }); // what is being written is done before another target is chosen
       canvas.setPointerCapture(event.pointerId);
       this.#go(event, true);
     });
@@ -61,7 +62,7 @@ export class Timeline {
     const pen = canvas.getContext("2d");
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.ink = getComputedStyle(canvas);
-    this.#paintRuler(pen, width, frames);
+    this.#paintRuler(pen, width);
     if (!targets.length) this.#paintEmpty(pen, width, lane);
     targets.forEach((target, index) => this.#paintLane(pen, target, RULER + index * (lane + GAP), width, lane));
     const at = ((model.frame + 0.5) / frames) * width;
@@ -79,19 +80,26 @@ export class Timeline {
     return this.ink.getPropertyValue(name);
   }
 
-  #paintRuler(pen, width, frames) {
+  #paintRuler(pen, width) {
     const { model } = this;
-    const whole = model.seconds(frames - 1) + 1 / model.state.fps;
+    const { frames, fps } = model.state;
+    const whole = model.seconds(frames - 1) + 1 / fps;
     const step = STEPS.find((each) => (each / whole) * width > 64) ?? 3600;
     pen.fillStyle = this.#color("--soft");
     pen.font = "11px system-ui, sans-serif";
     pen.textBaseline = "middle";
+    let free = 0; // from where on nothing is written yet
     for (let time = 0; time < whole; time += step) {
-      const at = (time / whole) * width;
+      const frame = model.frameAt(time), begin = model.seconds(frame);
+      const end = frame + 1 < frames ? model.seconds(frame + 1) : whole;
+      const at = ((frame + Math.min((time - begin) / (end - begin), 1)) / frames) * width;
       pen.fillRect(at, 10, 1, RULER - 12);
       const minutes = Math.floor(time / 60 + 1e-9), rest = time - 60 * minutes;
       const text = `${minutes}:${rest.toFixed(step < 1 ? 1 : 0).padStart(step < 1 ? 4 : 2, "0")}`;
-      if (at + pen.measureText(text).width + 6 < width) pen.fillText(text, at + 4, 8);
+      const right = at + pen.measureText(text).width + 6;
+      if (at < free || right >= width) continue;
+      pen.fillText(text, at + 4, 8);
+      free = right;
     }
   }
 

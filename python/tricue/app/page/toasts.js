@@ -6,6 +6,7 @@ const SHOWN_FOR = 20000; // milliseconds
 
 export function complain(text) {
   const toasts = document.getElementById("toasts");
+  for (const same of [...toasts.children].filter((each) => each.textContent === text)) same.remove();
   const toast = document.createElement("div"), words = document.createElement("span"), close = document.createElement("button");
   toast.className = "toast";
   words.textContent = text;
