@@ -14,7 +14,7 @@ FOCAL_BASELINE = RIG.intrinsics.fx * RIG.baseline  # pixels times meters
 NUMBERED = np.arange(1, 13, dtype=np.float32).reshape(3, 4)
 NAN = np.nan
 GRIDS = [(-20.0, -20.0, 1.0), (310.0, 230.0, 1.0), (-500.0, 60.0, 2.0), (0.0, 0.0, 20.0), (100.0, 60.0, 0.02)]
-CHANCE_MATCHES = "chance matches pass: two thirds of a wall that isn't in the range searched have a depth"
+CHANCE_MATCHES = "chance matches pass: almost half of a wall that isn't in the range searched have a depth"
 
 
 def grain(width: int, seed: int) -> np.ndarray:
