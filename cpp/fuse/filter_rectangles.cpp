@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -99,13 +100,13 @@ Eigen::Map<const States> sampling(const StackView<double>& noise, int plane) {
     return {noise.row(plane, 0), noise.rows, noise.cols};
 }
 
-States draw_around(VectorRef mean, const Refinement& refinement, StatesRef noise) {
+States draw_around(VectorRef mean, const Refinement& refinement, double nearest, StatesRef noise) {
+    constexpr double kAny = -std::numeric_limits<double>::infinity();
+    const double least[kNumbers] = {kAny, kAny, nearest, refinement.least, refinement.least};
     States close(noise.rows(), noise.cols());
     for (Index i = 0; i < close.rows(); ++i)
-        for (Index d = 0; d < kNumbers; ++d) {
-            const double x = mean[d] + refinement.scale[d] * noise(i, d);
-            close(i, d) = d < 3 ? x : std::max(x, refinement.least);
-        }
+        for (Index d = 0; d < kNumbers; ++d)
+            close(i, d) = std::max(mean[d] + refinement.scale[d] * noise(i, d), least[d]);
     return close;
 }
 
@@ -151,7 +152,7 @@ FilteredRectangles filter_rectangles(const DepthView& depth, VectorRef camera,
     after.particles = propose(previous, dynamics, sampling(noise, 0), detection, bounds);
     Summary summary = weigh(previous, dynamics, detection);
     if (noise.planes > 1) {
-        after.particles = draw_around(summary.mean, refinement, sampling(noise, 1));
+        after.particles = draw_around(summary.mean, refinement, bounds.lower[2], sampling(noise, 1));
         const Vector still = Vector::Zero(kNumbers);
         summary = weigh(after.particles, {still, refinement.scale}, {detection.mean, detection.root, 0.0});
     }

@@ -47,9 +47,9 @@ struct FilteredRectangles {
 /// One step of a particle filter on upright rectangles in meters (X, Y, Z, W, H) before a depth camera, by resample, propose,
 /// depth_contrast, rectangle_prior, reweight and summarize.
 ///
-/// A second sampling is drawn around the mean of the first: x = mean + scale * noise, W and H at least `least`; its weights are the
-/// likelihoods. The log-likelihood is l(d) + contrast (inside - around) + rectangle_prior, where d, inside and around are those of
-/// depth_contrast, and l(d) is -sharpness d², or log(max(1 - d, 1e-12)) where `linear`.
+/// A second sampling is drawn around the mean of the first: x = mean + scale * noise, Z at least its lower bound, W and H at least
+/// `least`; its weights are the likelihoods. The log-likelihood is l(d) + contrast (inside - around) + rectangle_prior, where d,
+/// inside and around are those of depth_contrast, and l(d) is -sharpness d², or log(max(1 - d, 1e-12)) where `linear`.
 ///
 /// @param depth float32 (H, W), meters
 /// @param camera float64 (4,): fx, fy, cx, cy, pixels

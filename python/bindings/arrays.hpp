@@ -59,6 +59,17 @@ const Scalar* contiguous(const py::array& array, const char* name) {
     return static_cast<const Scalar*>(array.data());
 }
 
+/// Beyond it float32 has no halves of pixels, and offsets of pixels don't fit into 32 bits.
+constexpr py::ssize_t kMaxImageSide = 1 << 20;
+
+/// Rows (axis 0) or columns (axis 1) of an image.
+inline int image_side(const py::array& array, int axis, const char* name) {
+    if (array.shape(axis) > kMaxImageSide)
+        throw py::value_error(std::string(name) + ": expected at most " + std::to_string(kMaxImageSide) +
+                              " rows and columns, got " + describe(array));
+    return static_cast<int>(array.shape(axis));
+}
+
 inline ImageView color_image(const py::object& object, const char* name) {
     const auto array = require<std::uint8_t>(object, name, 3, "a uint8 BGR image (H, W, 3)");
     if (array.shape(2) != 3)
@@ -70,8 +81,8 @@ inline ImageView color_image(const py::object& object, const char* name) {
     if (array.size() > 0 && !(packed && downward))
         throw py::value_error(std::string(name) +
                               ": expected packed pixels; numpy.ascontiguousarray makes them");
-    return {static_cast<const std::uint8_t*>(array.data()), static_cast<int>(array.shape(0)),
-            static_cast<int>(array.shape(1)), 3, array.strides(0)};
+    return {static_cast<const std::uint8_t*>(array.data()), image_side(array, 0, name),
+            image_side(array, 1, name), 3, array.strides(0)};
 }
 
 inline ImageView gray_image(const py::object& object, const char* name) {
@@ -81,8 +92,8 @@ inline ImageView gray_image(const py::object& object, const char* name) {
     if (array.size() > 0 && !(packed && downward))
         throw py::value_error(std::string(name) +
                               ": expected packed pixels; numpy.ascontiguousarray makes them");
-    return {static_cast<const std::uint8_t*>(array.data()), static_cast<int>(array.shape(0)),
-            static_cast<int>(array.shape(1)), 1, array.strides(0)};
+    return {static_cast<const std::uint8_t*>(array.data()), image_side(array, 0, name),
+            image_side(array, 1, name), 1, array.strides(0)};
 }
 
 /// Pixels packed, rows maybe padded: a view of a part of an image works as the image does.
@@ -102,8 +113,8 @@ py::array packed_rows(const py::object& object, const char* name, const char* ex
 
 inline PlaneView plane_view(const py::object& object, const char* name, const char* expected) {
     const auto array = packed_rows<float>(object, name, expected);
-    return {static_cast<const float*>(array.data()), static_cast<int>(array.shape(0)),
-            static_cast<int>(array.shape(1)), array.strides(0) / py::ssize_t{sizeof(float)}};
+    return {static_cast<const float*>(array.data()), image_side(array, 0, name), image_side(array, 1, name),
+            array.strides(0) / py::ssize_t{sizeof(float)}};
 }
 
 inline DepthView depth_image(const py::object& object, const char* name) {
@@ -113,8 +124,8 @@ inline DepthView depth_image(const py::object& object, const char* name) {
 inline ImageView mask_image(const py::object& object, const char* name,
                             const char* expected = "a uint8 mask (H, W)") {
     const auto array = require<std::uint8_t>(object, name, 2, expected);
-    return {contiguous<std::uint8_t>(array, name), static_cast<int>(array.shape(0)),
-            static_cast<int>(array.shape(1)), 1, array.shape(1)};
+    return {contiguous<std::uint8_t>(array, name), image_side(array, 0, name), image_side(array, 1, name), 1,
+            array.shape(1)};
 }
 
 inline SampleView samples(const py::object& object, const char* name) {

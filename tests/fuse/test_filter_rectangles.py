@@ -182,3 +182,12 @@ def test_converts_nothing(name: str) -> None:
     """Another type is named, not converted."""
     with pytest.raises(TypeError, match=f"{name}: expected .*float16"):
         _core.filter_rectangles(**case(**{name: case()[name].astype(np.float16)}))
+
+
+def test_close_draws_stay_beyond_the_nearest_depth(kernels: Kernels) -> None:
+    """Around a target just beyond the lower bound of Z the second sampling goes no nearer."""
+    near = STATE * [1, 1, 0.155, 1, 1]
+    found = kernels.filter_rectangles(
+        **case(3, particles=np.tile(near, (40, 1)), detection=(near, np.diag([0.05] * 5), 0.4))
+    )
+    assert found[0][:, 2].min() == 0.3

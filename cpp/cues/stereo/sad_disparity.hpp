@@ -29,10 +29,11 @@ struct StereoMatching {
 /// Block matching by sums of absolute differences: the disparity d of each pixel of a region, x_right = x_left - d, equations (3),
 /// (4).
 ///
-/// The cost of d is the sum of min(|F_left(x + i, y + j) - F_right(x + i - d, y + j)|, 31) over the window around (x, y), with F
-/// the gray levels or the x-Sobel filter. Images are extended by their edge pixels. A d whose x - d lies outside the right image is
-/// no candidate; of equal costs the smallest d wins. The fraction of a pixel is where two lines of opposite slope through the costs
-/// of d - 1, d, d + 1 meet, in float32; there is none where d is the first or last candidate.
+/// The cost of d is the sum of |F_left(x + i, y + j) - F_right(x + i - d, y + j)| over the window around (x, y), with F the gray
+/// levels, or the x-Sobel filter, with which each difference counts as at most 31. Images are extended by their edge pixels. A d
+/// whose x - d lies outside the right image is no candidate; of equal costs the smallest d wins. The fraction of a pixel is where
+/// two lines of opposite slope through the costs of d - 1, d, d + 1 meet, in float32; there is none where d is the first or last
+/// candidate.
 ///
 /// A pixel is NaN outside the ellipse or the left image, without a candidate, or where it is rejected:
 /// - by uniqueness, if any d' not next to d costs at most (1 + uniqueness / 100) times as much (as in cv2.StereoBM);

@@ -118,3 +118,17 @@ def test_ellipses_beyond_float32_read_the_border(ellipse: tuple[float, ...]) -> 
     pattern = np.tile([[0.0, 0.0], [0.5, 0.5], [1.0, -1.0], [1e300, -1e39]], (3, 1))
     found = _core.sample_ellipses(image, np.array([ellipse]), pattern)
     assert_array_equal(found, reference.sample_ellipses(image, np.array([ellipse]), pattern))
+
+
+def test_images_of_many_bytes_are_refused() -> None:
+    """Places are offsets of 32 bits: rows that are farther apart in memory would be read elsewhere."""
+    rows = np.lib.stride_tricks.as_strided(np.zeros(6, np.uint8), (400, 2, 3), (6_000_000, 3, 1))
+    with pytest.raises(ValueError, match=r"^image: expected at most 2 GB from its first to its last pixel"):
+        _core.sample_ellipses(rows, ONE, CENTER)
+
+
+def test_images_of_many_rows_are_refused() -> None:
+    """So many rows aren't an image, and float32 can't tell them apart."""
+    rows = np.broadcast_to(np.zeros((1, 2, 3), np.uint8), (2**20 + 1, 2, 3))
+    with pytest.raises(ValueError, match=r"^image: expected at most 1048576 rows and columns, got"):
+        _core.sample_ellipses(rows, ONE, CENTER)

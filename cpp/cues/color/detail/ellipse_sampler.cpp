@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "base/check.hpp"
 #include "base/overlapping_blocks.hpp"
@@ -73,6 +74,8 @@ EllipseSampler::EllipseSampler(const ImageView& image, StatesRef pattern, const 
     offsets_.resize(kBatch * pattern.rows());
     words_.resize(kBatch * pattern.rows());
     const std::ptrdiff_t bytes = (image.rows - 1) * image.stride + 3 * std::ptrdiff_t{image.cols};
+    if (bytes > std::numeric_limits<std::int32_t>::max())
+        refuse("image", "at most 2 GB from its first to its last pixel", static_cast<double>(bytes));
     last_word_ = static_cast<std::int32_t>(std::max<std::ptrdiff_t>(bytes - 4, 0));
     if (bytes < 4) std::memcpy(single_pixel_, image.data, 3);
 }

@@ -58,7 +58,7 @@ def filter_rectangles(
     weights, _ = reweight(log_likelihood(states), states, previous, drift, scale, seen, root, share)
     mean, covariance, _ = summarize(states, weights)
     if len(noise) > 1:
-        states = _draw_around(mean, *refinement, noise[1])
+        states = _draw_around(mean, *refinement, bounds[0][2], noise[1])
         weights = _normalized(log_likelihood(states))
         mean, covariance, _ = summarize(states, weights)
     return states, weights, mean, covariance, view.measure(mean[None])[0], view.histogram(mean)
@@ -111,8 +111,9 @@ class _View(NamedTuple):
         )
 
 
-def _draw_around(mean: Floats, scale: Floats, least: float, noise: Floats) -> Floats:
+def _draw_around(mean: Floats, scale: Floats, least: float, nearest: float, noise: Floats) -> Floats:
     states = mean + scale * noise
+    states[:, 2] = np.maximum(states[:, 2], nearest)
     states[:, 3:] = np.maximum(states[:, 3:], least)
     return states
 
