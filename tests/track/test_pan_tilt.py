@@ -71,6 +71,27 @@ def test_a_steady_target_is_not_followed_late():
     np.testing.assert_allclose(alone[-15:, 0], 0.2 / 2.0, rtol=0.15)
 
 
+@pytest.mark.parametrize("gap", [0.2, 0.5, 1.0])
+def test_a_longer_interval_is_no_farther_way(gap):
+    """A head that is told angles turns to a target that stands at once after a gap, and not beyond."""
+    head = PanTilt(CAMERA, max_acceleration=100)
+    for index in range(3):
+        command = head.command(track_at(math.tan(0.2), 0), 0.0, 0.0, timestamp=index * gap)
+    assert command.pan == pytest.approx(min(4.0 * gap, 1) * 0.2)
+
+
+@pytest.mark.parametrize("rate", [1.5, 2.0, 3.0, 5.0])
+def test_it_settles_at_low_frame_rates(rate):
+    """Angles that are told two to five times a second lead to the target without swinging about it."""
+    head, pan, seen = PanTilt(CAMERA), 0.0, []
+    for index in range(20):
+        target = track_of(np.array([0.2, 0.0]), np.array([pan, 0.0]))
+        pan = head.command(target, pan, 0.0, timestamp=index / rate).pan
+        seen.append(pan)
+    assert max(seen) <= 0.2 + 1e-9
+    assert seen[-1] == pytest.approx(0.2, abs=1e-3)
+
+
 def test_latency_is_extrapolated():
     """A head that moves two frames late swings about the target less where that is known."""
     path = np.tile([0.3, 0.0], (60, 1))

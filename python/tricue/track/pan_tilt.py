@@ -43,6 +43,7 @@ class PanTilt:
     box's center by ``intrinsics``; without them at the track's ``position``.
 
     gain: 1/s; an error of 1 rad makes a speed of so many rad/s. Above about 1 / (2 latency) the head swings.
+    Where frames are farther apart than 1 / gain, the speed is that which makes up for the error in that time.
     velocity_gain: how much of the target's velocity is fed forward, 0 to 1. velocity_time: seconds over which
     that velocity is averaged. latency: seconds from a frame to when its command moves the head, over which
     both are extrapolated. dead_band: radians of the error on each axis that nothing is done about. max_speed:
@@ -113,7 +114,7 @@ class PanTilt:
             speeds = self.velocity_gain * self._velocity
         else:
             self._measure(self._direction(track, angles), interval)
-            speeds = self._speeds(angles)
+            speeds = self._speeds(angles, interval)
         return self._limited(speeds, angles, interval)
 
     def _direction(self, track: Track, angles: np.ndarray) -> np.ndarray:
@@ -150,14 +151,17 @@ class PanTilt:
             self._velocity += weight * (_wrapped(direction - self._target) / seconds - self._velocity)
         self._target, self._seen = direction, self._now
 
-    def _speeds(self, angles: np.ndarray) -> np.ndarray:
-        """Feed-forward plus proportional, at the time when the command moves the head."""
+    def _speeds(self, angles: np.ndarray, interval: float) -> np.ndarray:
+        """Feed-forward plus proportional, at the time when the command moves the head.
+
+        interval: seconds to the next frame, in which the error is made up for at most once.
+        """
         assert self._target is not None
         velocity = self.velocity_gain * self._velocity
         moving = np.array([self._last.pan_speed, self._last.tilt_speed])
         error = _wrapped(self._target - angles) + self.latency * (velocity - moving)
         outside = np.sign(error) * np.maximum(np.abs(error) - self.dead_band, 0.0)
-        return np.asarray(velocity + self.gain * outside)
+        return np.asarray(velocity + min(self.gain, 1 / interval) * outside)
 
     def _limited(self, speeds: np.ndarray, angles: np.ndarray, interval: float) -> PanTiltCommand:
         """The command for these speeds, within the limits of speed and of angles."""

@@ -4,11 +4,12 @@
 import copy
 import pickle
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
 import pytest
-from tricue import Frame, MultiTracker, Status, StereoRig, create
+from tricue import Frame, MultiTracker, Status, StereoRig, Track, create
 from tricue.camera.rig import Intrinsics
 from tricue.errors import BoxError, MissingChannelError
 from tricue.kernels import load
@@ -122,6 +123,7 @@ def test_without_targets_there_are_no_tracks(things):
         ({"workers": 0}, "workers: expected"),
         ({"workers": 1.5}, "workers: expected a whole number"),
         ({"learn_evry": 1}, "learn_evry: unknown parameter of FusedParams; did you mean learn_every"),
+        ({"intrinsic": 1}, "intrinsic: unknown parameter of FusedParams; did you mean intrinsics"),
         ({"on_lost": "print"}, "on_lost: expected a function of id and track, got 'print'"),
         ({"rig": "a.toml"}, "rig: expected tricue.StereoRig, got str"),
     ],
@@ -169,6 +171,55 @@ def test_on_lost_may_remove_targets(things):
     assert several.ids == ()
 
 
+def test_an_error_of_on_lost_hides_no_other_loss(things):
+    """It is called for all, and the tracks are those of that frame; then the first error is raised."""
+    told: list[int] = []
+
+    def tell(number: int, track: Track) -> None:
+        told.append(number)
+        raise OSError(f"no siren for {number}")
+
+    several = MultiTracker(on_lost=tell)
+    for box in things.boxes[:3]:
+        several.add(things.frames[0], box)
+    with pytest.raises(OSError, match="no siren for 1"):
+        on(several, 6 * [Frame(np.zeros_like(things.frames[0].color))])
+    assert told == [1, 2, 3]
+    assert {track.status for track in several.tracks.values()} == {Status.LOST}
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_an_error_names_its_target(workers, things):
+    """After a change of the frame's size, it is the one whose first frame had another size."""
+    small = Frame(np.ascontiguousarray(things.frames[0].color[::2, ::2]))
+    with MultiTracker(workers=workers) as several:
+        several.add(things.frames[0], things.boxes[0])
+        several.add(small, (10, 10, 40, 40))
+        with pytest.raises(ValueError, match=r"^target 2: frame.color: expected the first frame's size"):
+            several.update(things.frames[1])
+        with pytest.raises(ValueError, match=r"^target 1: frame.color: expected the first frame's size"):
+            several.update(small)
+        several.remove(2)
+        assert list(several.update(things.frames[1])) == [1]
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_threads_may_share_it(workers, things, alone, started):
+    """Another thread adds and removes targets meanwhile; those that stay are followed as alone."""
+    with started(FUSED, workers=workers) as several:
+
+        def add_and_remove() -> None:
+            for _ in range(10):
+                several.remove(several.add(things.frames[0], things.boxes[0]))
+
+        with ThreadPoolExecutor(1) as pool:
+            done = pool.submit(add_and_remove)
+            found = on(several, things.frames[1:])
+            done.result()
+        assert several.ids == (1, 2, 3, 4)
+    assert [{number: tracks[number] for number in (1, 2, 3, 4)} for tracks in found] == alone(FUSED)
+
+
 @each_workers
 @pytest.mark.parametrize("place", [0, 1, 2])
 def test_an_error_of_one_target_leaves_all(workers, place, things, alone):
@@ -184,7 +235,8 @@ def test_an_error_of_one_target_leaves_all(workers, place, things, alone):
             several.add(both[0], start, kind)
             expected.add(both[0], start, kind)
         for frame in both[1:]:
-            with pytest.raises(MissingChannelError, match="expected the channel depth") as error:
+            message = f"target {place + 1}: frame: expected the channel depth"
+            with pytest.raises(MissingChannelError, match=message) as error:
                 several.update(Frame(frame.color))
             assert error.value.channel == "depth"
             assert several.update(frame) == expected.update(frame)

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from tricue import MultiTracker
 from tricue.errors import WorkerEndedError
+from tricue.track.multi import remote_targets
 from tricue.track.multi.worker import _portable
 
 FUSED = ("fused",) * 4
@@ -174,6 +175,62 @@ def test_a_worker_that_is_killed_during_an_update(started, things, alone):
         with pytest.raises(WorkerEndedError, match="its targets 2, 4 are gone"):
             several.update(things.frames[5])
         assert several.update(things.frames[1]) == {number: expected[0][number] for number in (1, 3)}
+
+
+class Refusing:
+    """A third party's, which refuses the second frame while a worker dies."""
+
+    killing: MultiTracker | None = None
+
+    def init(self, image, box) -> None:
+        self.box = box
+
+    def update(self, image):
+        if Refusing.killing is not None:
+            process = process_of(Refusing.killing)
+            os.kill(process, signal.SIGKILL)
+            assert ends(process)
+            raise ValueError("a frame that it refuses")
+        return self.box
+
+
+@pytest.mark.parametrize("then", ["update", "remove"])
+def test_a_worker_that_is_killed_while_another_target_fails(then, things, monkeypatch):
+    """That error comes first. The next call names the targets that went; the others go on."""
+    frames, boxes = things.frames, things.boxes
+    with MultiTracker(workers=2) as several:
+        several.add(frames[0], boxes[0], f"{__name__}:Refusing")
+        several.add(frames[0], boxes[1])
+        several.update(frames[1])
+        monkeypatch.setattr(Refusing, "killing", several)
+        with pytest.raises(ValueError, match="target 1: a frame that it refuses"):
+            several.update(frames[2])
+        monkeypatch.setattr(Refusing, "killing", None)
+        with pytest.raises(WorkerEndedError, match="a worker process ended; its targets 2 are gone"):
+            several.update(frames[2]) if then == "update" else several.remove(2)
+        assert several.ids == (1,)
+        assert list(several.update(frames[2])) == [1]
+        assert several.add(frames[2], boxes[1]) == 3
+        assert list(several.update(frames[3])) == [1, 3]
+
+
+def test_an_answer_that_was_read_in_part_ends_its_worker(started, things, alone, monkeypatch):
+    """Ctrl-C in the middle of it would leave bytes that the next answer doesn't start with."""
+    with started(FUSED, workers=2) as several:
+        worker = several._targets._workers[0]
+
+        def read_in_part(connection):
+            os.read(connection.fileno(), 2)
+            raise KeyboardInterrupt
+
+        with monkeypatch.context() as patched:
+            patched.setattr(remote_targets, "receive", read_in_part)
+            with pytest.raises(KeyboardInterrupt):
+                several.update(things.frames[5])
+        assert worker.ended
+        with pytest.raises(WorkerEndedError, match="its targets 2, 4 are gone"):
+            several.update(things.frames[1])
+        assert several.update(things.frames[1]) == {number: alone(FUSED)[0][number] for number in (1, 3)}
 
 
 def test_a_fork_is_told_to_copy(started, things):

@@ -58,10 +58,10 @@ class DistributedTargets:
         return tracks
 
     def undo(self, number: int) -> None:
-        """Take an update back, if it was the last one."""
+        """Take an update back, if it was the last one. Targets of a worker that has ended are gone."""
         self._here.undo(number)
         for worker in self._workers:
-            with suppress(WorkerEndedError):  # whose targets then are gone
+            with suppress(WorkerEndedError):  # ``ids`` tells
                 if not worker.ended:
                     worker.undo(number)
 

@@ -2,6 +2,7 @@
 """Targets that another process follows."""
 
 import os
+import select
 import socket
 import subprocess
 import sys
@@ -42,6 +43,8 @@ class RemoteTargets:
             command = [sys.executable, "-c", code]
             self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, pass_fds=files)
         self._connection = Connection(mine.detach())
+        self._answers = select.poll()
+        self._answers.register(self._connection.fileno(), select.POLLIN)
         self.close = weakref.finalize(self, _end, self._connection, self._process, self._owner)
 
     def add(self, target: int, tracker: Tracker, frame: SharedFrame, box: BoxLike | None) -> Track:
@@ -104,13 +107,21 @@ class RemoteTargets:
             raise self._end() from None
 
     def _receive(self) -> Any:
-        """The answer to the last request; those to earlier ones nobody waited for, as after Ctrl-C."""
+        """The answer to the last request; those to earlier ones nobody waited for, as after Ctrl-C.
+
+        Ctrl-C while waiting leaves the connection whole. An answer that was read in part makes it useless, as
+        the next one would start anywhere; then the worker is ended.
+        """
         number, succeeded, value = 0, False, None
-        try:
-            while number != self._number:
+        while number != self._number:
+            self._answers.poll()
+            try:
                 number, succeeded, value = receive(self._connection)
-        except (EOFError, OSError, UnpicklingError):
-            raise self._end() from None
+            except (EOFError, OSError, UnpicklingError):
+                raise self._end() from None
+            except BaseException:
+                self._end()
+                raise
         if not succeeded:
             assert isinstance(value, Exception)
             raise value

@@ -47,13 +47,13 @@ class Targets:
         self._trackers.pop(target, None)
 
     def update(self, number: int, frame: SharedFrame) -> dict[int, Track]:
-        """Follow all targets into a frame. After an error none has seen it.
+        """Follow all targets into a frame. After an error, which names its target, none has seen it.
 
         number: of the update, by which :meth:`undo` knows it.
         """
         self._before = number, {target: vars(tracker).copy() for target, tracker in self._trackers.items()}
         try:
-            return {target: tracker.update(frame) for target, tracker in self._trackers.items()}
+            return {target: _update(target, tracker, frame) for target, tracker in self._trackers.items()}
         except BaseException:
             self.undo(number)
             raise
@@ -71,3 +71,13 @@ class Targets:
     def close(self) -> None:
         """Follow none of them any longer."""
         self._trackers, self._before = {}, (0, {})
+
+
+def _update(target: int, tracker: Tracker, frame: SharedFrame) -> Track:
+    """The target's track; an error with a message names the target."""
+    try:
+        return tracker.update(frame)
+    except Exception as error:
+        if error.args and isinstance(error.args[0], str):
+            error.args = f"target {target}: {error.args[0]}", *error.args[1:]
+        raise

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Several targets at once: a tracker for each, one call per frame."""
 
+import os
+import threading
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -32,11 +34,14 @@ class MultiTracker:
 
     tracker: the kind for targets that ask for no other, a name as :func:`tricue.create` takes it.
     workers: the processes that share the targets, this one among them. Tracks are the same whatever their
-        number. They see the frames in shared memory. There are no threads: the trackers' loops are Python, so
-        that two threads are hardly faster than one.
-    on_lost: called with id and track when a target becomes LOST, after all were updated.
+        number. They see the frames in shared memory, on Linux; elsewhere there is one. There are no threads:
+        the trackers' loops are Python, so that two threads are hardly faster than one.
+    on_lost: called with id and track when a target becomes LOST, after all were updated. Where it raises an
+        error, it is called for the others all the same; then the first error is raised.
     rig, intrinsics: the camera, for all trackers that take one.
     seed, kernels: for all targets, as of every tracker. parameters: of the default kind.
+
+    Threads may share it: a call waits until another thread's is done, but for ``on_lost``.
 
     It is copied and pickled with all of its targets, as a tracker is (``on_lost`` then has to be a function
     that can be pickled). With workers, use it in ``with``, or call :meth:`close`; they also end with the
@@ -68,6 +73,7 @@ class MultiTracker:
         self._updates = 0
         self._told: frozenset[str] = frozenset()  # what was warned of
         self._targets = _targets(self.workers)
+        self._lock = threading.RLock()  # a handler of signals or of warnings may call, too
 
     @property
     def ids(self) -> tuple[int, ...]:
@@ -92,54 +98,61 @@ class MultiTracker:
             tracker, parameters = self.tracker, self._parameters | parameters
         made = self._create(tracker, parameters)
         shared = SharedFrame.of(as_frame(frame))
-        target = self._last_id + 1
-        with self._reporting_losses():
-            track = self._targets.add(target, made, shared, box)
-            try:
-                self._warn(shared)
-            except BaseException:  # where warnings are errors
-                self._targets.remove(target)
-                raise
-        self._last_id, self._tracks[target] = target, track
-        return target
+        with self._lock:
+            target = self._last_id + 1
+            with self._reporting_losses():
+                track = self._targets.add(target, made, shared, box)
+                try:
+                    self._warn(shared)
+                except BaseException:  # where warnings are errors
+                    self._targets.remove(target)
+                    raise
+            self._last_id, self._tracks[target] = target, track
+            return target
 
     def remove(self, id: int) -> None:  # noqa: A002
         """Follow a target no longer. ValueError for an id that isn't among :attr:`ids`."""
-        if id not in self._tracks:
-            raise ValueError(f"id: expected one of {', '.join(map(str, self.ids)) or 'no ids'}, got {id!r}")
-        with self._reporting_losses():
-            self._targets.remove(id)
-        del self._tracks[id]
+        with self._lock:
+            if id not in self._tracks:
+                expected = ", ".join(map(str, self.ids)) or "no ids"
+                raise ValueError(f"id: expected one of {expected}, got {id!r}")
+            with self._reporting_losses():
+                self._find_losses()
+                self._targets.remove(id)
+            del self._tracks[id]
 
     def update(self, frame: FrameLike) -> dict[int, Track]:
         """Follow all targets into the next frame; their tracks by their ids.
 
         What trackers compute of the whole frame alike is computed once, and its warnings are given once. An
-        error of one target is raised, and leaves all of them as they were; but a third party's tracker keeps
-        what it did before. Where a worker process was killed,
-        a RuntimeError tells which targets went with it; the others go on with the next frame.
+        error of one target names it ("target 2: ..."), and leaves all of them as they were; but a third
+        party's tracker keeps what it did before. Where a worker process was killed, or was ended as Ctrl-C
+        came in the middle of its answer, a RuntimeError tells which targets went with it; the others go on
+        with the next frame. If another error came first, the next call raises this one.
         """
         shared = SharedFrame.of(as_frame(frame))
-        self._updates += 1
-        with self._reporting_losses():
-            try:
-                found = self._targets.update(self._updates, shared)
-                self._warn(shared)
-            except BaseException:
-                self._targets.undo(self._updates)
-                raise
-        before, self._tracks = self._tracks, {target: found[target] for target in self._tracks}
-        lost = [target for target, track in self._tracks.items() if _has_become_lost(before[target], track)]
-        found = self.tracks
-        if self.on_lost is not None:
-            for target in lost:
-                self.on_lost(target, found[target])
+        with self._lock:
+            self._updates += 1
+            with self._reporting_losses():
+                self._find_losses()
+                try:
+                    found = self._targets.update(self._updates, shared)
+                    self._warn(shared)
+                except BaseException:
+                    self._targets.undo(self._updates)
+                    raise
+            before, self._tracks = self._tracks, {target: found[target] for target in self._tracks}
+            found = self.tracks
+        self._tell_of(
+            {target: track for target, track in found.items() if _has_become_lost(before[target], track)}
+        )
         return found
 
     def close(self) -> None:
         """Follow no target any longer, and end the workers."""
-        self._targets.close()
-        self._tracks = {}
+        with self._lock:
+            self._targets.close()
+            self._tracks = {}
 
     def __enter__(self) -> "MultiTracker":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
         return self
@@ -148,12 +161,17 @@ class MultiTracker:
         self.close()
 
     def __getstate__(self) -> dict[str, Any]:
-        with self._reporting_losses():
-            trackers = self._targets.copies()
-        return vars(self) | {"_tracks": self.tracks, "_targets": trackers}
+        with self._lock:
+            with self._reporting_losses():
+                self._find_losses()
+                trackers = self._targets.copies()
+            values = vars(self) | {"_tracks": self.tracks, "_targets": trackers}
+        del values["_lock"]
+        return values
 
     def __setstate__(self, values: dict[str, Any]) -> None:
         vars(self).update(values)
+        self._lock = threading.RLock()
         self._targets = _targets(self.workers)
         for target, tracker in sorted(values["_targets"].items()):
             self._targets.put(target, tracker)
@@ -167,6 +185,24 @@ class MultiTracker:
         elif "intrinsics" in takes:
             camera["intrinsics"] = self.rig.intrinsics if self.rig is not None else self.intrinsics
         return create(kind, **{"seed": self.seed, "kernels": self.kernels, **camera, **parameters})
+
+    def _tell_of(self, lost: dict[int, Track]) -> None:
+        """Call ``on_lost`` for all of them; then raise its first error, if any."""
+        on_lost, errors = self.on_lost, list[Exception]()
+        if on_lost is None:
+            return
+        for target, track in lost.items():
+            try:
+                on_lost(target, track)
+            except Exception as error:  # noqa: PERF203 (the others are called all the same)
+                errors.append(error)
+        if errors:
+            raise errors[0]
+
+    def _find_losses(self) -> None:
+        """WorkerEndedError where a worker has ended during a call that raised another error."""
+        if not self._tracks.keys() <= self._targets.ids:
+            raise WorkerEndedError("a worker process ended")
 
     @contextmanager
     def _reporting_losses(self) -> Iterator[None]:
@@ -191,6 +227,10 @@ class MultiTracker:
 def _targets(workers: int) -> "Targets | DistributedTargets":
     if workers == 1:
         return Targets()
+    if not hasattr(os, "memfd_create"):
+        raise ValueError(
+            f"workers: expected 1, as others share frames in Linux's memory files, got {workers}"
+        )
     from tricue.track.multi.distributed_targets import DistributedTargets  # and all that processes need
 
     return DistributedTargets(workers)
