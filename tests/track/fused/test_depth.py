@@ -105,13 +105,13 @@ def test_covariances_are_not_too_small(name, run):
 
 @pytest.mark.parametrize("name", CHANNELS)
 def test_covariances_are_not_much_too_large(name, run):
-    """While it is TRACKED the mean normalized squared error is above 0.12: the standard deviations are at
-    most five times the errors.
+    """While it is TRACKED the mean normalized squared error is above 0.047: the standard deviations are at
+    most eight times the errors, though the first box of a stress scene is exact, which a user's isn't.
     """
     normalized_errors = np.concatenate(
         [run(kind, name).normalized_errors[run(kind, name).tracked] for kind in STILL]
     )
-    assert normalized_errors.mean() > 3 / 5**2
+    assert normalized_errors.mean() > 3 / 8**2
 
 
 @pytest.mark.parametrize("name", CHANNELS)

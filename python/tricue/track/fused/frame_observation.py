@@ -75,7 +75,7 @@ def _observe(
         if known is not None and (known.height, known.width) != size:
             expected = f"the camera's size, {known.width}x{known.height}"
             raise ValueError(f"frame.{name}: expected {expected}, got {size[1]}x{size[0]}")
-    rig, camera = _rig_and_camera(*cameras, size)
+    rig, camera = rig_and_camera(*cameras, size)
     color = None if frame.color is None else _bgr(frame.color)
     depth_source = _depth_source(k, frame, color, rig) if with_depth or color is None else None
     return FrameObservation(
@@ -89,7 +89,7 @@ def _picture(frame: Frame) -> tuple[str, Any]:
 
 
 @lru_cache(maxsize=8)
-def _rig_and_camera(
+def rig_and_camera(
     rig: StereoRig | None, camera: Intrinsics | None, size: tuple[int, int]
 ) -> tuple[StereoRig, Intrinsics]:
     """The stereo rig and its left camera; default ones where none is given."""
