@@ -4,6 +4,7 @@ one; each tracker's own test_params.py adds its forms, files and extremes.
 """
 
 import dataclasses
+import re
 from typing import Any
 
 import numpy as np
@@ -351,6 +352,31 @@ def test_unknown_names_are_errors(tracker, wrong, right):
     """A misspelt parameter is a TypeError that proposes the right one."""
     with pytest.raises(TypeError, match=rf"^{wrong}: unknown parameter of .*did you mean {right}"):
         tracker(**{wrong: 1})
+
+
+@pytest.mark.parametrize(
+    ("tracker", "wrong", "hint"),
+    [
+        (ColorParticleTracker, "intrinsics", "ColorParticleTracker takes no camera"),
+        (ColorParticleTracker, "rig", "ColorParticleTracker takes no camera"),
+        (DepthParticleTracker, "rig", "DepthParticleTracker takes intrinsics="),
+        (StereoHeadTracker, "intrinsics", "StereoHeadTracker takes rig="),
+        (FusedTracker, "intrinsic", "did you mean intrinsics"),
+        (FusedTracker, "kernel", "did you mean kernels"),
+        (FlowDepthTracker, "rigs", "did you mean rig"),
+        (
+            FusedTracker,
+            "camera",
+            "expected one of rig, intrinsics, seed, kernels, or a parameter, which FusedTracker.Params",
+        ),
+    ],
+)
+def test_wrong_keywords_tell_those_of_the_constructor(tracker, wrong, hint):
+    """Cameras, seed and kernels are keywords as well; of a camera it is told which one the tracker takes."""
+    message = f"{wrong}: unknown parameter of {tracker.Params.__name__}; {hint}"
+    with pytest.raises(TypeError, match=f"^{re.escape(message)}") as error:
+        tracker(**{wrong: 1})
+    assert len(str(error.value)) < 180
 
 
 @pytest.mark.parametrize(

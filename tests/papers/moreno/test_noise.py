@@ -100,6 +100,13 @@ def test_the_figure_is_drawn(tmp_path):
     noise.draw(figure, runs, {})
     titles = [axes.get_title() for axes in figure.axes]
     assert sum(title != "" for title in titles) == len(QUANTITIES)
+    dashed = [
+        (axes, line) for axes in figure.axes for line in axes.lines if line.get_label().startswith("a bin")
+    ]
+    assert len(dashed) == 3
+    for axes, line in dashed:
+        bottom, top = axes.get_ylim()
+        assert bottom == 0 < line.get_ydata()[0] < top
 
 
 def test_a_head_outside_of_a_view_is_refused():

@@ -12,6 +12,7 @@ import tricue
 from tricue import DepthParticleTracker, Status, Track
 from tricue.scenes import DepthScene
 from tricue.track.depth_particle.measurement import NOT_MEASURED
+from tricue.track.depth_particle.motion import BodyMotion
 
 Params = DepthParticleTracker.Params
 
@@ -67,6 +68,26 @@ def test_the_paper_has_no_stage_of_ours():
     assert PAPER.depth_signature
     assert (PAPER.near, PAPER.far, PAPER.particles, PAPER.levels) == (0.3, 7.5, 100, 256)
     assert PAPER.speed_noise > 0  # K of (39)
+
+
+def test_the_papers_location_is_the_expected_value(passing: DepthScene, pass_by):
+    """As printed the position is the mean of the particles, the box's center; ours is the body's centroid."""
+    camera, off = passing.intrinsics, {}
+    for name, params in (("paper", PAPER), ("ours", Params())):
+        tracks = pass_by(params=params)
+        position = np.array([track.position for track in tracks])
+        center = np.array([track.box.center for track in tracks]) - 0.5  # a pixel's center is a whole number
+        rays = (center - (camera.cx, camera.cy)) / (camera.fx, camera.fy)
+        off[name] = np.abs(position[:, :2] - rays * position[:, 2:]).max()
+    assert off["paper"] < 1e-9
+    assert off["ours"] > 0.05
+
+
+def test_the_papers_noise_grows_with_the_last_step():
+    """K of (39) grows with the speed of the last step, neither smoothed nor limited."""
+    motion = BodyMotion.start(np.array([0, 0, 3, 0.6, 1.7]), np.array([True, True]))
+    motion = motion.update(np.array([0.5, 0, 3, 0.6, 1.7]), PAPER, 0.1, True)
+    np.testing.assert_allclose(motion.velocity, [5, 0, 0])
 
 
 def test_nothing_is_in_front_for_the_paper(passing: DepthScene):

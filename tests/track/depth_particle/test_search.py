@@ -9,6 +9,7 @@ from tricue import DepthParticleTracker
 from tricue.kernels import load
 from tricue.track.depth_objects.foreground import Foreground
 from tricue.track.depth_particle.depth_model import DepthModel
+from tricue.track.depth_particle.initialize import find_people
 from tricue.track.depth_particle.search import find_target
 
 K = load("native")
@@ -71,3 +72,13 @@ def test_the_depth_histogram_tells_two_apart(state, objects_of):
     state = state._replace(model=target)
     assert found(state, objects, fg) == pytest.approx(flat)
     assert found(state, objects, fg, depth_signature=True) == pytest.approx(slanted)
+
+
+def test_full_rectangles_are_human_where_nothing_is_too_full(objects_of):
+    """A fill of 1 at most excludes nobody, though areas of rectangles exceed it by rounding; less does."""
+    sizes = np.random.default_rng(0).uniform((0.4, 1.0), (0.6, 2.0), (200, 2))
+    objects = objects_of([[0.0, 0.0, 3.0, width, height] for width, height in sizes])
+    objects.area[:] = np.nextafter(sizes.prod(axis=1), np.inf)
+    assert (objects.area / sizes.prod(axis=1) > 1).any()
+    assert len(find_people(objects, replace(P, max_fill=1.0))) == len(sizes)
+    assert len(find_people(objects, replace(P, max_fill=0.99))) == 0

@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 from tricue import FlowDepthTracker, Frame, Status, Track
 from tricue.scenes import WalkScene
+from tricue.track.flow_depth.cues import CueMap, Cues
+from tricue.track.flow_depth.verify import estimate
 
 Params = FlowDepthTracker.Params
 
@@ -84,6 +86,22 @@ def test_the_papers_form_runs(name, walk_on):
     assert tracks[0].status is Status.TRACKED
     if name not in WITHOUT_EFFECT:
         assert tracks != walk_on()
+
+
+def test_the_papers_peak_is_the_highest_from_the_start(overtaken: WalkScene):
+    """Section 4.2: the velocity is the highest peak of the histogram, also before a mean velocity is known:
+    where 55 % of the window move by 2.6 cells, it isn't that of the others, who stand still.
+    """
+    tracker = FlowDepthTracker(dataclasses.replace(PAPER, cues=("flow",)))
+    tracker.init(overtaken.frames[0], overtaken.boxes[0])
+    state = tracker._state
+    assert not state.has_mean_velocity
+    x0, _, x1, _ = state.temporal_window
+    values = np.zeros((120, 160), np.float32)
+    values[:, round(x0 + 0.45 * (x1 - x0)) :] = 2.6
+    u, v = CueMap(values, np.ones_like(values)), CueMap(np.zeros_like(values), np.ones_like(values))
+    model = estimate(tracker._k, state, Cues((0, 0, 160, 120), (u, v), None), tracker.params)
+    assert model.peaks == pytest.approx((2.6, 0.0), abs=0.1)
 
 
 @pytest.mark.parametrize("depth", [False, True])

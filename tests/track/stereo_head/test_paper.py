@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tricue import StereoHeadTracker
+from tricue import Box, Frame, Intrinsics, Status, StereoHeadTracker, StereoRig
 from tricue import kernels as kernel_sets
 from tricue.track.stereo_head.disparity import limits_around, measure_disparity
 from tricue.track.stereo_head.prepared_pair import PreparedPair
@@ -125,3 +125,25 @@ def test_follows_a_head_in_steady_light(heads, follow):
     scene = heads(0, 31, light=0.0)
     tracks = follow(StereoHeadTracker(PAPER, rig=scene.rig), scene.frames, scene.boxes[0])
     assert min(track.box.iou(box) for track, box in zip(tracks, scene.boxes, strict=True)) > 0.5
+
+
+@pytest.mark.parametrize("params", [PAPER, Params(prefilter=False)], ids=["printed", "without a prefilter"])
+def test_wide_pairs_are_followed(params, heads, follow):
+    """Where cells are so large that the matching window of the prefilter would be too wide for gray levels,
+    a head is followed all the same.
+    """
+    scene, times = heads(0, 31, light=0.0), 8
+    camera = scene.rig.intrinsics
+    height, width = scene.frames[0].color.shape[:2]
+    focal, center = (times * camera.fx, times * camera.fy), (times * camera.cx, times * camera.cy)
+    wide = Intrinsics(*focal, *center, width=times * width, height=times * height)
+    tracker = StereoHeadTracker(params, rig=StereoRig(wide, scene.rig.baseline))
+
+    def larger(image: np.ndarray) -> np.ndarray:
+        return np.kron(image, np.ones((times, times, 1), np.uint8))
+
+    pairs = [Frame(larger(each.color), right=larger(each.right)) for each in scene.frames[:3]]
+    boxes = [Box(*(times * side for side in box)) for box in scene.boxes[:3]]
+    tracks = follow(tracker, pairs, boxes[0])
+    assert {track.status for track in tracks} == {Status.TRACKED}
+    assert min(track.box.iou(box) for track, box in zip(tracks, boxes, strict=True)) > 0.5

@@ -191,10 +191,12 @@ def draw(figure: Any, runs: Sequence[NoiseRun], _scenes: Mapping[str, StereoScen
             _paper_polynomial(axes, runs, index)
             axes.set(xlabel=f"{'XYZ'[index]}, m", title=f"{quantity.name}, {quantity.unit}", yscale="log")
         else:
-            axes.set(xlabel="Z, m", title=f"{quantity.name}, {quantity.unit}", ylim=(0, None))
+            axes.set(xlabel="Z, m", title=f"{quantity.name}, {quantity.unit}")
     for axes, width in zip(rows[2, :3], bin_deviations(StereoHeadParams.paper()), strict=True):
         axes.axhline(width, color="0.5", linewidth=1, linestyle="--", label="a bin's width / √12")
         axes.legend(frameon=False, fontsize=7)
+    for axes in places[3:]:
+        axes.set_ylim(0, None)  # last, so that all of its lines are inside
     places[0].legend(frameon=False, fontsize=7)
     explained = {
         0: "Error of the position, root mean square\nover 60 frames of a head at rest, aside\nof the axis. "

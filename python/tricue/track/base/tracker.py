@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """The base class of the package's trackers: construction, copying and pickling."""
 
+import difflib
+import inspect
 from abc import ABC, abstractmethod
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any, ClassVar, Generic, TypeVar
 
 import numpy as np
@@ -19,6 +21,7 @@ from tricue.track.base.traits import Traits
 P = TypeVar("P", bound=Params)
 S = TypeVar("S")
 Scalar = TypeVar("Scalar", bound=np.generic)
+CAMERA_KEYWORDS = ("intrinsics", "rig")
 
 
 class TrackerBase(ABC, Generic[P, S]):
@@ -36,6 +39,7 @@ class TrackerBase(ABC, Generic[P, S]):
     def __init__(
         self, params: P | None, seed: int, kernels: kernel_sets.Name, values: dict[str, Any]
     ) -> None:
+        self._check_names(values)
         self.params: P = validation.parameters(self.Params, params, values)
         self.seed = validation.seed(seed)
         self.kernels = kernels
@@ -55,6 +59,30 @@ class TrackerBase(ABC, Generic[P, S]):
             track = replace(track, pose=pose)
         self._state = state
         return track
+
+    @classmethod
+    def _check_names(cls, values: dict[str, Any]) -> None:
+        """TypeError for a keyword that is neither the constructor's nor a parameter, now or formerly."""
+        parameters = fields(cls.Params)
+        known = {name for f in parameters for name in (f.name, f.metadata.get("was"))}
+        for name in values:
+            if name not in known:
+                hint = cls._hint(name, [f.name for f in parameters])
+                raise TypeError(f"{name}: unknown parameter of {cls.Params.__name__}; {hint}")
+
+    @classmethod
+    def _hint(cls, name: str, parameters: list[str]) -> str:
+        """What to give in the place of an unknown keyword."""
+        if name in CAMERA_KEYWORDS:
+            taken = " or ".join(f"{each}=" for each in CAMERA_KEYWORDS if each in cls.traits.camera)
+            return f"{cls.__name__} takes {taken or 'no camera'}"
+        signature = inspect.signature(cls).parameters.values()
+        own = [each.name for each in signature if each.kind is inspect.Parameter.KEYWORD_ONLY]
+        near = difflib.get_close_matches(name, own + parameters, n=3)
+        if near:
+            return f"did you mean {' or '.join(near)}?"
+        table = f"{cls.__name__}.Params.describe()"
+        return f"expected one of {', '.join(own)}, or a parameter, which {table} lists"
 
     @abstractmethod
     def _track(self, state: S) -> Track:

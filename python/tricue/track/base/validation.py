@@ -147,7 +147,10 @@ def check_depth_size(depth: NDArray[np.float32], size: tuple[int, ...]) -> None:
     """UnregisteredDepthError for depth of another size than color, (height, width)."""
     if depth.shape == size:
         return
-    register = "tricue.camera.registration.Registration brings it there by both cameras' intrinsics"
+    register = (
+        "tricue.camera.registration.Registration brings it there by both cameras' intrinsics, Reprojection "
+        "by where they stand to each other as well"
+    )
     resize = (
         f"cv2.resize(depth, {size[::-1]}, interpolation=cv2.INTER_NEAREST) does where the views are the same"
     )

@@ -244,19 +244,20 @@ class ColorParticleParams(Params):
             A = I: the mean stays where the particle is (``drift=0``), though the text calls that a model of
             constant velocity. K grows with the velocity, taken as the last step, unsmoothed
             (``velocity_rate=1``). Print gives no numbers for K: 5 % of the target at rest and one step more
-            in motion (``velocity_noise=1``). Both axes of the ellipse walk by 2 % a frame, each by itself
-            (``size_noise=0``, ``aspect_noise=0.02``), without a way back to a mean size; ``size_range`` only
-            keeps them positive. "Maximum sample propagation area is the 40-pixel proximity": 40 px along
-            each axis, whatever the target's size.
+            in motion (``velocity_noise=1``), on top of half a pixel (``MIN_PIXEL_NOISE``). Both axes of the
+            ellipse walk by 2 % a frame, each by itself (``size_noise=0``, ``aspect_noise=0.02``), without a
+            way back to a mean size; ``size_range`` only keeps them positive. "Maximum sample propagation area
+            is the 40-pixel proximity": 40 px along each axis, whatever the target's size.
         Proposal, (3)-(16)
-            The moments (11)-(16) are those of the skin pixels of the whole image. (14)-(16) lack the
-            division by the count, without which they are no covariance; it is taken. Print gives no share of
-            the particles: half come from this Gaussian, half from the transition. (3) takes the most
-            frequent color; as 8-bit colors hardly repeat, it is that of 32 levels a channel, in the middle
-            third of the box. The threshold on (10) comes from a ROC curve that isn't printed: our default
+            The moments (11)-(16) are those of the skin pixels of the whole image. (14)-(16) lack the division
+            by the count, without which they are no covariance; it is taken, and 1 px² is added to both
+            variances (``MIN_PIXEL_VARIANCE``), so that skin in one row has one, too. Print gives no share of
+            the particles: half come from this Gaussian, half from the transition. (3) takes the most frequent
+            color; as 8-bit colors hardly repeat, it is that of 32 levels a channel, in the middle third of
+            the box. The threshold on (10) comes from a ROC curve that isn't printed: our default
             (``tricue reproduce sabeti-roc``). (10) can't exceed the largest channel of the reference color,
-            as eta - delta <= c0 in each channel; so a dark skin needs a lower threshold. Less skin
-            than a twentieth of the target gives no Gaussian.
+            as eta - delta <= c0 in each channel; so a dark skin needs a lower threshold. Less skin than a
+            twentieth of the target gives no Gaussian.
         Likelihood, (17)-(29)
             1 - d (18), linear, of all pixels in the ellipse (a grid of 64x48 over its box), without a color
             term. N of (19) isn't printed: 16. The ranks of the sections are divided by their sum and (29)

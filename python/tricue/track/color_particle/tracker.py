@@ -2,7 +2,7 @@
 """The color particle tracker of Sabeti, Parvizi and Wu (2008), section III."""
 
 import math
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,7 +59,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
     """
 
     Params = ColorParticleParams
-    traits = Traits(
+    traits: ClassVar[Traits] = Traits(
         channels=(Channels.of("color"),),
         detects="face",
         random=True,

@@ -29,7 +29,8 @@ def find_people(objects: Objects, p: DepthParticleParams) -> NDArray[np.intp]:
     aspect, filled = height / width, objects.area / (width * height)
     tall = (height >= p.human_height[0]) & (height <= p.human_height[1])
     upright = (aspect >= p.aspect[0]) & ((aspect <= p.aspect[1]) | ~objects.whole[:, 0])
-    slender, cut = filled <= p.max_fill, objects.cut.any(axis=1)
+    # A full rectangle's area may exceed width times height by rounding: 1 admits all.
+    slender, cut = (filled <= p.max_fill) | (p.max_fill == 1), objects.cut.any(axis=1)
     return np.concatenate([np.flatnonzero(tall & upright & each) for each in (slender, ~slender & cut)])
 
 

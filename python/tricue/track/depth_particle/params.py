@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
 OURS = "our experiment: benchmarks/README.md"
 SR_3000_NEAR, SR_3000_FAR = 0.3, 7.5  # meters, section V
+ANY_SPEED = 1e9  # m/s, which no target has
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,7 +46,7 @@ class DepthParticleParams(SegmentationParams):
         source=OURS,
         above=0,
         high=1,
-        doc="by a human candidate; furniture fills more",
+        doc="by a human candidate; furniture fills more; 1: whatever it fills",
         was="fill",
     )
     human_filter: bool = parameter(
@@ -61,7 +62,10 @@ class DepthParticleParams(SegmentationParams):
         doc="objects are told apart by their depth histograms, too",
     )
     complete: bool = parameter(
-        True, unit="-", source=OURS, doc="join the pieces of a body, and complete it where it is cut"
+        True,
+        unit="-",
+        source=OURS,
+        doc="join the pieces of a body, complete it where it is cut, and give its centroid as the position",
     )
     human_height: tuple[float, float] = parameter(
         (0.9, 2.2), unit="m", source="section IV.A; " + OURS, above=0, doc="of a human candidate"
@@ -213,8 +217,9 @@ class DepthParticleParams(SegmentationParams):
         - Which candidate is the target: by place and extent along the image's axes and in depth, by its
           horizontal and vertical distribution, and by the depth histogram of its rectangle, (38). No measure
           of likeness is printed: it is the cost of :mod:`tricue.track.depth_particle.matching`.
-        - State: "a scalable rectangle"; ours is in meters, with a depth. Particles, (39): A = I, and K grows
-          with the speed; K's numbers, and the share drawn from the segmented object, aren't printed.
+        - State: "a scalable rectangle"; ours is in meters, with a depth. The location is the expected value,
+          the rectangle's center. Particles, (39): A = I, and K grows with the speed, that of the last step
+          (``velocity_rate``); K's numbers, and the share drawn from the segmented object, aren't printed.
         - Likelihood (37), (38): 1 - d of the depths' histograms, 256 levels over the camera's range, of 64 x
           64 places in a rectangle in place of its every pixel. Printed are counts, with which d would
           exceed 1: they are divided by their sum, and d by its maximum, the square root of 2.
@@ -244,6 +249,8 @@ class DepthParticleParams(SegmentationParams):
             size_prior=0.0,
             leave_out_others=False,
             motion="constant",
+            max_speed=ANY_SPEED,
+            velocity_rate=1.0,
             min_visible_share=0.0,
             likelihood_drop=0.5,
             coast=False,

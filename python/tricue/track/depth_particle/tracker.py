@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The depth particle tracker of Sabeti, Parvizi and Wu (2008), section IV."""
 
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,7 +73,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
 
     Params = DepthParticleParams
 
-    traits = Traits(
+    traits: ClassVar[Traits] = Traits(
         channels=(Channels.of("depth"),),
         camera=frozenset({"intrinsics"}),
         detects="person",
@@ -314,8 +314,10 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         covariance = state.particles.covariance[:3, :3] + MIN_POSITION_VARIANCE
         if state.position_spread is not None:
             covariance += np.diag(state.position_spread**2)
-        right, down = state.signature.centroid_offset.tolist()
-        position = np.array((x + right, y + down, depth))
+        if self.params.complete:
+            right, down = state.signature.centroid_offset.tolist()
+            x, y = x + right, y + down
+        position = np.array((x, y, depth))
         return Track(box, state.score, status, position, covariance, depth)
 
 

@@ -394,9 +394,15 @@ class FlowDepthParams(Params):
           where it is ambiguous, is left out.
         - (7) reaches one or two pixels: the right image is shifted by the last disparity. A depth camera's
           disparities all have the weight 1 in place of (9).
+        - (7) divides by the squared slope, which may be 0: 0.01 is added to it, so that the last disparity
+          stays where there is hardly any contrast.
+        - The velocity without flow, ``cues=("disparity",)``: it takes 0.3 of each step by which the target
+          pixels' center is off it.
         - The first disparity: the one that most of the box has by block matching, or by the depth image.
         - Histograms (section 4.2) are centered on the last peak.
-        - P(F) in (11) is constant: that of even densities, which makes the posterior a probability.
+        - P(F) in (11) is constant, and has no number. Here P(obj|F) is P(F|obj) P(obj) over itself plus even
+          densities: a probability, and a threshold on it is one on P(F|obj) P(obj), as with a constant.
+          A pixel needs a reading of every cue.
         - Votes and negative votes (section 4.4) add up over all frames in which a block has one state. A mean
           disparity needs a fifth of the block's cells; without it a block isn't nearer.
         - Too few target pixels and no occluded block (section 4.5): the target is missed, moves on at its

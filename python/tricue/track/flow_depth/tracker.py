@@ -4,7 +4,7 @@ Bayes' rule.
 """
 
 import math
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,7 +56,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
 
     Params = FlowDepthParams
 
-    traits = Traits(
+    traits: ClassVar[Traits] = Traits(
         channels=(
             Channels.of("color", "right"),
             Channels.of("color", "depth"),

@@ -119,7 +119,8 @@ def estimate(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) 
     scale, disparity_scale = state.reduced.scale, state.reduced.disparity_scale(p)
     expected = []
     if cues.flow is not None:
-        deviation = p.flow_change if state.has_mean_velocity else p.flow_half_range
+        known = state.has_mean_velocity
+        deviation = p.flow_change if known else max(p.flow_change, p.flow_half_range)
         expected += [
             ExpectedPeak(each, deviation * scale, p.flow_half_range * scale) for each in state.velocity
         ]

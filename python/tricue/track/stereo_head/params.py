@@ -269,6 +269,8 @@ class StereoHeadParams(Params):
         - Color space: neither bins nor the ends of the axes are printed: the defaults.
         - Model: "a bimodal histogram containing skin and hair data samples" is that of all pixels of the
           first frame's ellipse, which has both. ``head_colors`` holds one of given samples instead.
+        - (1), (2): print counts pixels. Histograms are divided by their sum here, as ellipses have different
+          sizes; the intersection is a share of 1.
         - (2): a isn't printed: 0.1. Nor is the gate's threshold on (1): 0.5.
         - Search region, 16x4 pixels: the center moves up to 8 pixels to each side and 2 up and down.
         - (3) sums over the ellipse, which would give one disparity to all its pixels and leave (5) nothing to

@@ -18,7 +18,9 @@ Limits = tuple[int, int]  # lowest and highest disparity, both included
 Disparities = NDArray[np.float32]
 
 DARKEST = 1.0  # level of a channel for which the light is still compensated
-MAX_MATCHING_WINDOW = 31  # pixels, side of the window
+# Pixels, sides of the matching window up to which its costs fit 16 bits: gray levels differ by up to 255,
+# the prefilter's slopes by no more than 31 each.
+MAX_WINDOW_GRAY, MAX_WINDOW_PREFILTERED = 15, 31
 NO_LEFT_RIGHT_CHECK = -1  # the tolerance by which sad_disparity doesn't compare left with right
 
 
@@ -80,4 +82,5 @@ class PreparedPair(NamedTuple):
 
     def pixel_window(self, p: StereoHeadParams) -> int:
         """The side of the window by which pixels are matched."""
-        return min(p.window + 2 * (self.step - 1), MAX_MATCHING_WINDOW)
+        widest = MAX_WINDOW_PREFILTERED if p.prefilter else MAX_WINDOW_GRAY
+        return min(p.window + 2 * (self.step - 1), widest)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The stereo head tracker of Moreno, Tarrida, Andrade-Cetto and Sanfeliu (2002)."""
 
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,7 +52,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
     """
 
     Params = StereoHeadParams
-    traits = Traits(
+    traits: ClassVar[Traits] = Traits(
         channels=(Channels.of("color", "right"),),
         camera=frozenset({"rig"}),
         detects="head",
