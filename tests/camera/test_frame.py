@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
 import dataclasses
 import pickle
+import re
 import warnings
 from typing import Any
 
+import cv2
 import numpy as np
 import pytest
 from hypothesis import given
@@ -132,6 +134,18 @@ def test_a_wrong_unit_warns(meters: float, scale: float | None, message: str) ->
     assert caught[0].filename == __file__
 
 
+@pytest.mark.parametrize(("dtype", "scale"), [(np.uint16, 5000), (np.float64, 5000), (np.float32, None)])
+def test_a_unit_that_removes_all_depth_warns(dtype: Any, scale: float | None) -> None:
+    """It proves that units per meter in the place of meters per unit are warned of where no depth is left."""
+    depth = np.linspace(2000, 8000, 24 * 32).reshape(24, 32).astype(dtype) * (1 if scale else 5000)
+    depth[::2] = 0
+    with pytest.warns(UserWarning, match=r"^depth: all values are .*meters per unit, 0.001 for") as caught:
+        frame = Frame(depth=depth, depth_scale=scale and 1000)
+    assert frame.depth is not None
+    assert np.isnan(frame.depth).all()
+    assert caught[0].filename == __file__
+
+
 @pytest.mark.parametrize("meters", [0.05, 0.4, 8.0, 49.9])
 def test_usual_depths_do_not_warn(meters: float) -> None:
     """It proves that no warning comes from a hand before the camera to a street's end, a few odd pixels, or
@@ -178,7 +192,11 @@ BAD = [
     ({"right": PICTURE}, ValueError, "frame: expected color or depth, got right alone"),
     ({"color": "image.png"}, TypeError, "color: expected a NumPy array, uint8, got str"),
     ({"color": PICTURE.tolist()}, TypeError, "color: expected a NumPy array, uint8, got list"),
-    ({"color": FLOATS}, TypeError, "color: expected uint8 values from 0 to 255, got float64"),
+    (
+        {"color": FLOATS},
+        TypeError,
+        r"color: expected uint8 values from 0 to 255, got float64 \(24, 32, 3\); \(255 \* image\).astype",
+    ),
     ({"color": PICTURE.astype(np.uint16)}, TypeError, "color: expected uint8 .*, got uint16"),
     ({"color": PICTURE > 3}, TypeError, "color: expected uint8 .*, got bool"),
     ({"color": PICTURE.astype(object)}, TypeError, "color: expected uint8 .*, got object"),
@@ -244,7 +262,12 @@ def test_bad_channels_are_refused(channels: dict[str, Any], error: type[Exceptio
     ("value", "error", "message"),
     [
         (None, TypeError, "image: expected a BGR image or a tricue.Frame, got NoneType .*cv2.imread"),
-        ([1, 2], TypeError, "image: expected a BGR image or a tricue.Frame, got list"),
+        ([1, 2], TypeError, "image: expected a BGR image or a tricue.Frame, got list$"),
+        (
+            cv2.UMat(PICTURE),
+            TypeError,
+            r"image: expected a BGR image or a tricue.Frame, got UMat; image.get\(\) makes",
+        ),
         (FLOATS, TypeError, "image.color: expected uint8"),
         (PICTURE[:0], ValueError, "image.color: expected an image with pixels"),
         (METERS, TypeError, r"image.color: .* got float32 .*; depth comes as tricue.Frame\(depth=image\)$"),
@@ -269,11 +292,25 @@ def test_the_largest_number_is_no_depth(dtype: Any) -> None:
     stored = Frame(depth=depth).depth
     assert stored is not None
     assert np.isfinite(stored).sum() == 1
+    depth[2, 3] = depth[0, 0]
+    Frame(depth=depth)
+
+
+def test_a_picture_of_pillow_tells_how_to_convert_it() -> None:
+    """It proves that the message has an expression, and that the expression gives the BGR image."""
+    pillow = pytest.importorskip("PIL.Image")
+    image = pillow.fromarray(np.ascontiguousarray(PICTURE[..., ::-1]))
+    hint = "np.asarray(image.convert('RGB'))[..., ::-1]"
+    for make in (as_frame, Frame):
+        with pytest.raises(TypeError, match=re.escape(f"got Image; {hint} makes a BGR array of it")):
+            make(image)
+    assert np.array_equal(as_frame(eval(hint)).color, PICTURE)
 
 
 def test_a_depth_scale_is_in_meters() -> None:
     """It proves that a scale by which no camera measures is refused by name."""
-    with pytest.raises(ValueError, match="depth_scale: expected at most 1000 meters per unit, got 1e\\+300"):
+    message = r"depth_scale: expected at most 1000 meters per unit, got 1e\+300; it is 0.001 for millimeters"
+    with pytest.raises(ValueError, match=message):
         Frame(depth=np.ones((6, 8), np.uint16), depth_scale=1e300)
 
 

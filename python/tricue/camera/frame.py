@@ -38,7 +38,8 @@ class Frame:
     Color images are not copied where the pixels of a row are contiguous, as in whole arrays and crops. Any
     other layout (mirrored, channels reversed, Fortran order) is copied once. A TypeError or ValueError
     names the channel. Warns (UserWarning) where the median depth is above 50 m, which looks like millimeters,
-    or below 5 cm, and where a timestamp is so late that it looks like milliseconds or less.
+    or below 5 cm, where all depths are beyond a million meters, and where a timestamp is so late that it
+    looks like milliseconds or less.
     """
 
     color: NDArray[np.uint8] | None
@@ -109,8 +110,7 @@ def as_frame(value: FrameLike, name: str = "frame") -> Frame:
     if isinstance(value, Frame):
         return value
     if not isinstance(value, np.ndarray):
-        hint = " (cv2.imread and VideoCapture.read give None for what they can't read)"
-        got = f"{type(value).__name__}{hint if value is None else ''}"
+        got = f"{type(value).__name__}{_conversion(value)}"
         raise TypeError(f"{name}: expected a BGR image or a tricue.Frame, got {got}")
     try:
         return Frame(value)
@@ -120,11 +120,24 @@ def as_frame(value: FrameLike, name: str = "frame") -> Frame:
         raise type(error)(f"{name}.{error}{hint}") from None
 
 
+def _conversion(value: Any) -> str:
+    """What an object that is no array may be, or how it becomes a BGR image; "" where that isn't known."""
+    if value is None:
+        return " (cv2.imread and VideoCapture.read give None for what they can't read)"
+    kind = type(value)
+    if kind.__module__.partition(".")[0] == "PIL":
+        return "; np.asarray(image.convert('RGB'))[..., ::-1] makes a BGR array of it"
+    return "; image.get() makes an array of it" if kind.__name__ == "UMat" else ""
+
+
 def _image(value: Any, name: str) -> NDArray[np.uint8]:
     if not isinstance(value, np.ndarray):
-        raise TypeError(f"{name}: expected a NumPy array, uint8, got {type(value).__name__}")
+        got = f"{type(value).__name__}{_conversion(value)}"
+        raise TypeError(f"{name}: expected a NumPy array, uint8, got {got}")
     if value.dtype != _UINT8:
-        raise TypeError(f"{name}: expected uint8 values from 0 to 255, got {_described(value)}")
+        scaled = value.dtype.kind == "f" and value.ndim == 3
+        hint = "; (255 * image).astype(np.uint8) converts values from 0 to 1" if scaled else ""
+        raise TypeError(f"{name}: expected uint8 values from 0 to 255, got {_described(value)}{hint}")
     image: NDArray[np.uint8] = value[:, :, 0] if value.ndim == 3 and value.shape[2] == 1 else value
     if image.ndim not in (2, 3) or (image.ndim == 3 and image.shape[2] != 3):
         alpha = "; image[:, :, :3] drops the alpha channel" if value.shape[2:] == (4,) else ""
@@ -155,8 +168,9 @@ def _depth(value: Any, scale: float | None) -> NDArray[np.float32]:
         meters: NDArray[np.float32] = _measurements(value, scale).astype(np.float32, order="C")
         if scale is not None:
             meters *= np.float32(_checked_scale(scale))
+    sample = meters[:: max(1, meters.shape[0] // 32), :: max(1, meters.shape[1] // 32)].copy()
     meters[~((meters > 0) & (meters <= MAX_DEPTH))] = np.nan
-    _warn_of_unit(meters, scale)
+    _warn_of_unit(sample, scale)
     return meters
 
 
@@ -164,7 +178,8 @@ def _checked_scale(scale: Any) -> float:
     number = positive(scale, "depth_scale", "meters per unit")
     if number > MAX_DEPTH_SCALE:
         raise ValueError(
-            f"depth_scale: expected at most {MAX_DEPTH_SCALE:g} meters per unit, got {scale!r:.80}"
+            f"depth_scale: expected at most {MAX_DEPTH_SCALE:g} meters per unit, got {scale!r:.80}; "
+            "it is 0.001 for millimeters"
         )
     return number
 
@@ -194,23 +209,36 @@ def _measurements(value: Any, scale: float | None) -> NDArray[Any]:
     return value
 
 
-def _warn_of_unit(meters: NDArray[np.float32], scale: float | None) -> None:
-    rows, columns = (max(1, n // 32) for n in meters.shape)
-    sample = meters[::rows, ::columns]
-    measured = sample[np.isfinite(sample)]
-    median = float(np.median(measured)) if measured.size else MAX_MEDIAN_DEPTH
+def _warn_of_unit(sample: NDArray[np.float32], scale: float | None) -> None:
+    measured = sample[(sample > 0) & (sample <= MAX_DEPTH)]
+    message = _unit_problem(measured, scale) if measured.size else _loss(sample)
+    if message:
+        warnings.warn(f"depth: {message}", UserWarning, stacklevel=4)  # names the line that made the frame
+
+
+def _unit_problem(measured: NDArray[np.float32], scale: float | None) -> str:
+    """What is wrong with depths' unit, "" where nothing was noticed."""
+    median = float(np.median(measured))
     if MIN_MEDIAN_DEPTH <= median <= MAX_MEDIAN_DEPTH:
-        return
+        return ""
     if scale is not None:
         why = f"a wrong depth_scale, {scale:g} meters per unit"
     elif median > MAX_MEDIAN_DEPTH:
         why = "millimeters; pass depth_scale=0.001"
     else:
         why = "another unit than meters; pass depth_scale, the meters per unit"
-    message = (
-        f"depth: its median is {median:.{4 if median > MAX_MEDIAN_DEPTH else 2}g} m, which looks like {why}"
+    return f"its median is {median:.{4 if median > MAX_MEDIAN_DEPTH else 2}g} m, which looks like {why}"
+
+
+def _loss(sample: NDArray[np.float32]) -> str:
+    """What removed all depths, "" where nothing was measured, for which drivers write one large number."""
+    far = sample[(sample > MAX_DEPTH) & np.isfinite(sample)]
+    if not far.size or far.min() == far.max():
+        return ""
+    return (
+        f"all values are beyond {MAX_DEPTH:g} m and count as not measured; depth_scale is the meters per "
+        "unit, 0.001 for millimeters"
     )
-    warnings.warn(message, UserWarning, stacklevel=4)  # names the line that made the frame
 
 
 def _seconds(timestamp: Any) -> float:

@@ -4,7 +4,7 @@
 import math
 import warnings
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,6 +36,19 @@ class Intrinsics:
     width: int
     height: int
     pose: Pose | None = None
+
+    if TYPE_CHECKING:  # the field holds a Pose, and a matrix can be given
+
+        def __init__(
+            self,
+            fx: float,
+            fy: float,
+            cx: float,
+            cy: float,
+            width: int,
+            height: int,
+            pose: Pose | ArrayLike | None = None,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         names = ("fx", "fy", "cx", "cy", "width", "height")
