@@ -40,6 +40,10 @@ void refuse(const char* name, const std::string& expected, double got) {
     refuse(name, expected, std::string(text));
 }
 
+void require_positive(double value, const char* name) {
+    if (!(value > 0.0 && std::isfinite(value))) refuse(name, "a finite number above 0", value);
+}
+
 void require_not_negative(double value, const char* name) {
     if (!(value >= 0.0 && std::isfinite(value))) refuse(name, "a finite number, not negative", value);
 }
@@ -51,6 +55,10 @@ void require_share(double share) {
 void require_count(int count, int least, int most, const char* name) {
     if (count < least || count > most)
         refuse(name, std::to_string(least) + " to " + std::to_string(most), count);
+}
+
+void require_rows(Eigen::Index rows, Eigen::Index count, const char* name) {
+    if (rows != count) refuse(name, std::to_string(count) + " rows", std::to_string(rows));
 }
 
 void require_size(VectorRef values, Eigen::Index size, const char* name) {

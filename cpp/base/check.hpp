@@ -12,8 +12,10 @@ constexpr int kMaxImageSide = 16384;  ///< of an image that a kernel makes, pixe
 
 /// Each throws std::invalid_argument that names the argument, what was expected and what was given.
 void require_share(double share);
+void require_positive(double value, const char* name);      ///< and finite
 void require_not_negative(double value, const char* name);  ///< and finite
 void require_count(int count, int least, int most, const char* name);
+void require_rows(Eigen::Index rows, Eigen::Index count, const char* name);
 void require_size(VectorRef values, Eigen::Index size, const char* name);
 void require_shape(StatesRef values, Eigen::Index rows, Eigen::Index cols, const char* name);
 void require_same_shape(const PlaneView& values, const PlaneView& other, const char* name);

@@ -13,10 +13,6 @@ namespace {
 using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using Matrix3Ref = Eigen::Map<const Matrix3>;
 
-void require_positive(double value, const char* name) {
-    if (!(value > 0.0 && std::isfinite(value))) refuse(name, "a finite number above 0", value);
-}
-
 void require_variances(StatesRef variances, Eigen::Index count) {
     if (variances.cols() == 3) {
         require_shape(variances, 1, 3, "variances");

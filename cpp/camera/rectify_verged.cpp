@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "base/check.hpp"
@@ -13,13 +14,16 @@ namespace tricue {
 namespace {
 
 constexpr int kSubpixels = 2048;  // positions are rounded to 1 / kSubpixels of a pixel
+constexpr int kMaxSide = std::numeric_limits<int>::max() / kSubpixels;
 constexpr double kPi = 3.14159265358979323846;
 
 void require_arguments(const ImageView& right, const VergedCamera& camera, double shift) {
     if (right.rows < 1 || right.cols < 1) refuse("right", "at least one pixel", "none");
+    if (std::max(right.rows, right.cols) > kMaxSide)
+        refuse("right", "at most " + std::to_string(kMaxSide) + " rows and columns",
+               shape_text(right.rows, right.cols));
     if (!(std::abs(camera.angle) < kPi / 2)) refuse("angle", "radians between -pi/2 and pi/2", camera.angle);
-    if (!(camera.focal > 0.0 && std::isfinite(camera.focal)))
-        refuse("focal", "a finite number above 0", camera.focal);
+    require_positive(camera.focal, "focal");
     if (!std::isfinite(camera.cx)) refuse("center", "finite numbers", camera.cx);
     if (!std::isfinite(camera.cy)) refuse("center", "finite numbers", camera.cy);
     if (!std::isfinite(shift)) refuse("shift", "a finite number", shift);

@@ -29,14 +29,6 @@ void blend_product(const float* __restrict label, const float* __restrict re, co
     }
 }
 
-const float* as_floats(const std::complex<float>* numbers) {
-    return reinterpret_cast<const float*>(numbers);
-}
-
-float* as_floats(std::complex<float>* numbers) {
-    return reinterpret_cast<float*>(numbers);
-}
-
 /// Blends the numerator A, and sums the new part of the denominator B. Two channels are transformed together.
 void add_channels(const FloatStack& cells, ComplexesRef label, const ComplexStack& numerator, float rate,
                   CorrelationFilter& filter) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 
 #include "base/check.hpp"
@@ -122,10 +121,8 @@ void require_arguments(const WeightedRectangles& before, const StackView<double>
     }
     require_size(refinement.scale, kNumbers, "scale");
     require_finite(refinement.scale, "scale");
-    if (!(refinement.least > 0.0 && std::isfinite(refinement.least)))
-        refuse("least", "a finite number above 0", refinement.least);
-    if (!(likelihood.middle >= 0.0 && std::isfinite(likelihood.middle)))
-        refuse("middle", "a finite number, not negative", likelihood.middle);
+    require_positive(refinement.least, "least");
+    require_not_negative(likelihood.middle, "middle");
     if (!std::isfinite(likelihood.sharpness)) refuse("sharpness", "a finite number", likelihood.sharpness);
     if (!std::isfinite(likelihood.contrast)) refuse("contrast", "a finite number", likelihood.contrast);
 }

@@ -2,7 +2,6 @@
 #include "fuse/learn_size_filter.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "base/check.hpp"
@@ -47,7 +46,7 @@ SizeFilter learn_size_filter(const ImageView& patch, PlacesRef places, FloatsRef
                              const FilterParts& learned, const FilterParts& first, double rate,
                              double first_weight, double ridge) {
     require_share_of_first(first_weight);
-    if (!(ridge > 0.0 && std::isfinite(ridge))) refuse("ridge", "a finite number above 0", ridge);
+    require_positive(ridge, "ridge");
     const PixelBytes picked = pick_pixels(patch, places);
     const int picked_cols = static_cast<int>(places.cols());
     const Floats numbers = hog_color_cells(

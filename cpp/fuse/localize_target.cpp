@@ -111,7 +111,7 @@ void require_arguments(const ImageView& patch, const PlaneView& other, const Tar
                std::to_string(other.rows) + ", " + std::to_string(other.cols));
     for (const auto& [name, number] :
          {std::pair{"width", search.width}, {"height", search.height}, {"inner", search.inner}})
-        if (!(number > 0.0 && std::isfinite(number))) refuse(name, "a finite number above 0", number);
+        require_positive(number, name);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include "fuse/regularized_filter.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "base/check.hpp"
@@ -115,14 +114,6 @@ void write_pairs(Spectrum spectrum, std::size_t n, float* pairs) {
     }
 }
 
-const float* as_floats(const std::complex<float>* numbers) {
-    return reinterpret_cast<const float*>(numbers);
-}
-
-float* as_floats(std::complex<float>* numbers) {
-    return reinterpret_cast<float*>(numbers);
-}
-
 /// Goes through the channels three times, two of them at a time, so that most of what it needs is in the caches.
 class Learner {
 public:
@@ -211,9 +202,8 @@ Complexes regularized_filter(const FloatStack& cells, FloatsRef mask, ComplexesR
     require_plane("mask", mask.rows(), mask.cols(), cells.rows, cells.cols);
     require_plane("label", label.rows(), label.cols(), cells.rows, cells.cols / 2 + 1);
     require_filter("previous", previous, cells);
-    if (!(temporal_weight >= 0.0 && std::isfinite(temporal_weight)))
-        refuse("temporal_weight", "a finite number, not negative", temporal_weight);
-    if (!(penalty > 0.0 && std::isfinite(penalty))) refuse("penalty", "a finite number above 0", penalty);
+    require_not_negative(temporal_weight, "temporal_weight");
+    require_positive(penalty, "penalty");
     const double size = static_cast<double>(cells.rows) * cells.cols;
     Learner learner(cells, mask, previous);
     return learner.learn(as_floats(label.data()), temporal_weight * size, penalty * size);

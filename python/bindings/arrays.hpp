@@ -59,13 +59,13 @@ const Scalar* contiguous(const py::array& array, const char* name) {
     return static_cast<const Scalar*>(array.data());
 }
 
-/// Beyond it float32 has no halves of pixels, and offsets of pixels don't fit into 32 bits.
-constexpr py::ssize_t kMaxImageSide = 1 << 20;
+/// Beyond it float32 doesn't hold whole numbers, and kernels read elsewhere.
+constexpr py::ssize_t kMaxInputSide = 1 << 24;
 
 /// Rows (axis 0) or columns (axis 1) of an image.
 inline int image_side(const py::array& array, int axis, const char* name) {
-    if (array.shape(axis) > kMaxImageSide)
-        throw py::value_error(std::string(name) + ": expected at most " + std::to_string(kMaxImageSide) +
+    if (array.shape(axis) > kMaxInputSide)
+        throw py::value_error(std::string(name) + ": expected at most " + std::to_string(kMaxInputSide) +
                               " rows and columns, got " + describe(array));
     return static_cast<int>(array.shape(axis));
 }

@@ -192,10 +192,12 @@ def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> Non
 
 
 def test_native_refuses_other_images() -> None:
-    """Floats, other channels and pixels that aren't packed are named, never converted."""
+    """Floats, other channels, too many columns and pixels that aren't packed are named, never converted."""
     with pytest.raises(TypeError, match="right: expected a uint8 gray image"):
         _core.rectify_verged(np.zeros((9, 9), np.float32), 0.1, 10.0)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="right: expected a uint8 BGR image"):
         _core.rectify_verged(np.zeros((9, 9, 4), np.uint8), 0.1, 10.0)
+    with pytest.raises(ValueError, match="right: expected at most 1048575 rows and columns"):
+        _core.rectify_verged(np.zeros((1, 2**20), np.uint8), 0.1, 10.0)
     with pytest.raises(ValueError, match="right: expected packed pixels"):
         _core.rectify_verged(np.zeros((9, 9), np.uint8)[:, ::2], 0.1, 10.0)

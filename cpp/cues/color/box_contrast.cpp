@@ -45,9 +45,8 @@ void require_arguments(const PlaneView& plane, const FramedBox& box, double arou
     if (plane.rows < 2 || plane.cols < 2 || plane.rows % 2 != 0 || plane.cols % 2 != 0)
         refuse("plane", "even sides of at least 2",
                "(" + std::to_string(plane.rows) + ", " + std::to_string(plane.cols) + ")");
-    if (!(box.width > 0.0 && std::isfinite(box.width))) refuse("width", "a finite number above 0", box.width);
-    if (!(box.height > 0.0 && std::isfinite(box.height)))
-        refuse("height", "a finite number above 0", box.height);
+    require_positive(box.width, "width");
+    require_positive(box.height, "height");
     if (!(box.outer > 1.0 && std::isfinite(box.outer))) refuse("outer", "a finite number above 1", box.outer);
     if (!std::isfinite(around)) refuse("around", "a finite number", around);
 }

@@ -111,7 +111,7 @@ void require_arguments(const ImageView& patch, const PlaneView& other, const Lea
         refuse("other", "the patch's rows and columns",
                std::to_string(other.rows) + ", " + std::to_string(other.cols));
     for (const auto& [name, number] : {std::pair{"width", pixels.width}, {"height", pixels.height}})
-        if (!(number >= 0.0 && std::isfinite(number))) refuse(name, "a finite number, not negative", number);
+        require_not_negative(number, name);
     if (!(pixels.outer >= 1.0 && std::isfinite(pixels.outer)))
         refuse("outer", "a finite number, at least 1", pixels.outer);
     for (const auto& [name, number] :

@@ -30,8 +30,7 @@ void keep_row(const float* __restrict depth, const float* __restrict across, int
 }
 
 void require_space(const Space& space) {
-    if (!(space.near >= 0.0 && std::isfinite(space.near)))
-        refuse("near", "a finite number, not negative", space.near);
+    require_not_negative(space.near, "near");
     if (!(space.far > space.near && std::isfinite(space.far)))
         refuse("far", "a finite number above near", space.far);
     if (!std::isfinite(space.clear)) refuse("clear", "a finite number", space.clear);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cues/depth/cut_sides.hpp"
 
-#include <cmath>
-
 #include "base/check.hpp"
 #include "base/depth_pixels.hpp"
 
@@ -38,10 +36,8 @@ void require_arguments(StatesRef table, VectorRef camera, const Cut& cut) {
     require_object_table(table);
     require_camera(camera);
     if (cut.border < 0) refuse("border", "no negative number", cut.border);
-    if (!(cut.beside >= 0.0 && std::isfinite(cut.beside)))
-        refuse("beside", "a finite number, not negative", cut.beside);
-    if (!(cut.nearer >= 0.0 && std::isfinite(cut.nearer)))
-        refuse("nearer", "a finite number, not negative", cut.nearer);
+    require_not_negative(cut.beside, "beside");
+    require_not_negative(cut.nearer, "nearer");
     if (!(cut.share >= 0.0 && cut.share <= 1.0)) refuse("share", "a number in [0, 1]", cut.share);
 }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
-#include <string>
 #include <vector>
 
 #include "base/check.hpp"
@@ -256,8 +255,7 @@ void require_arguments(const ImageView& labels, const DepthView& depth, const Si
                        int min_area) {
     if (labels.rows != depth.rows || labels.cols != depth.cols)
         refuse("labels", "shape " + shape_text(depth.rows, depth.cols), shape_text(labels.rows, labels.cols));
-    if (!(signature.near >= 0.0 && std::isfinite(signature.near)))
-        refuse("near", "a finite number, not negative", signature.near);
+    require_not_negative(signature.near, "near");
     if (!(signature.far > signature.near && std::isfinite(signature.far)))
         refuse("far", "a finite number above near", signature.far);
     require_count(signature.levels, 0, kMaxSignature, "levels");

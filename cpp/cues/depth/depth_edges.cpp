@@ -3,35 +3,21 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <vector>
 
 #include "base/check.hpp"
 #include "base/overlapping_blocks.hpp"
 #include "base/simd.hpp"
+#include "cues/depth/detail/depth_rows.hpp"
 
 namespace tricue {
 namespace {
-
-constexpr float kUnmeasured = std::numeric_limits<float>::infinity();
-
-inline float smaller(float a, float b) {
-    return a < b ? a : b;
-}
 
 /// A row with one more float at either end, infinite where nothing was measured.
 TRICUE_MULTIVERSION
 void pad_row(const float* __restrict depth, int n, float* __restrict padded) {
     for_overlapping_blocks(
         n, [=](std::ptrdiff_t x) { padded[x + 1] = has_depth(depth[x]) ? depth[x] : kUnmeasured; });
-}
-
-/// The nearest of each pixel and its neighbors left and right.
-TRICUE_MULTIVERSION
-void nearest_in_row(const float* __restrict padded, int n, float* __restrict nearest) {
-    for_overlapping_blocks(
-        n, [=](std::ptrdiff_t x) { nearest[x] = smaller(smaller(padded[x], padded[x + 1]), padded[x + 2]); });
 }
 
 TRICUE_MULTIVERSION

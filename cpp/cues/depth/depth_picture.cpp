@@ -24,7 +24,7 @@ void find_levels(const float* __restrict depth, int n, float z, float low, float
 
 Labels depth_picture(const DepthView& depth, double z, double reach) {
     if (!std::isfinite(z)) refuse("z", "a finite number", z);
-    if (!(reach > 0.0 && std::isfinite(reach))) refuse("reach", "a finite number above 0", reach);
+    require_positive(reach, "reach");
     Labels levels(depth.rows, depth.cols);
     for (int y = 0; y < depth.rows; ++y)
         find_levels(depth.row(y), depth.cols, static_cast<float>(z), static_cast<float>(z - reach),

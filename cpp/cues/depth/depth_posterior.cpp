@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cues/depth/depth_posterior.hpp"
 
-#include <cmath>
 #include <cstring>
 
 #include "base/check.hpp"
@@ -59,16 +58,11 @@ void write_posterior(const float* __restrict depths, const float* __restrict inv
     }
 }
 
-void require_positive(double number, const char* name) {
-    if (!(number > 0.0 && std::isfinite(number))) refuse(name, "a finite number above 0", number);
-}
-
 void require_arguments(const SampleGrid& grid, const ExpectedDepth& target) {
     require_grid(grid);
     require_positive(target.expected, "expected");
     require_positive(target.sigma, "sigma");
-    if (!(target.near_margin >= 0.0 && std::isfinite(target.near_margin)))
-        refuse("near_margin", "a finite number, not negative", target.near_margin);
+    require_not_negative(target.near_margin, "near_margin");
 }
 
 }  // namespace

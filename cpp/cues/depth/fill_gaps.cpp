@@ -2,7 +2,6 @@
 #include "cues/depth/fill_gaps.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "base/depth_pixels.hpp"
 #include "base/overlapping_blocks.hpp"
 #include "base/simd.hpp"
+#include "cues/depth/detail/depth_rows.hpp"
 
 namespace tricue {
 namespace {
@@ -70,10 +70,6 @@ Floats copy_measured(const DepthView& depth) {
         copy_row(depth.row(y), depth.cols, std::numeric_limits<float>::quiet_NaN(),
                  copy.data() + std::ptrdiff_t{y} * depth.cols);
     return copy;
-}
-
-inline float smaller(float a, float b) {
-    return a < b ? a : b;
 }
 
 /// Unrolled by hand: compilers don't vectorize a loop over the neighbors inside the one over the pixels.

@@ -4,6 +4,7 @@
 #include "base/check.hpp"
 #include "base/depth_pixels.hpp"
 #include "base/simd.hpp"
+#include "cues/depth/detail/depth_rows.hpp"
 #include "cues/depth/plane_support.hpp"
 
 namespace tricue {
@@ -11,14 +12,6 @@ namespace {
 
 DepthView view_of(const Floats& image) {
     return {image.data(), static_cast<int>(image.rows()), static_cast<int>(image.cols()), image.cols()};
-}
-
-TRICUE_MULTIVERSION
-void thin_row(const float* __restrict from, std::ptrdiff_t n, std::ptrdiff_t step, float* __restrict to) {
-    if (step == 2)
-        for (std::ptrdiff_t x = 0; x < n; ++x) to[x] = from[2 * x];
-    else
-        for (std::ptrdiff_t x = 0; x < n; ++x) to[x] = from[x * step];
 }
 
 /// A step may be as large as an int: sums and products of it don't fit one.

@@ -184,8 +184,7 @@ std::optional<Plane> fit_plane(const Points& points, const Slab& slab, const Lev
 Vector floor_plane(const DepthView& depth, VectorRef camera, TriplesRef triples, double tolerance,
                    const Level& level) {
     const Rays lens = find_rays(camera, depth);
-    if (!(tolerance > 0.0 && std::isfinite(tolerance)))
-        refuse("tolerance", "a finite number above 0", tolerance);
+    require_positive(tolerance, "tolerance");
     require_level(level);
     require_indices(triples, depth);
     const Points points = measured_points(depth, lens);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "base/check.hpp"
@@ -68,9 +67,9 @@ void require_arguments(const ObjectFeatures& objects, VectorRef others, const Ex
     require_size(expected.signature, 2 * objects.columns.cols() + 2, "signature");
     for (const auto& [value, name] :
          {std::pair{costs.x, "x"}, std::pair{costs.y, "y"}, std::pair{costs.z, "z"}})
-        if (!(value > 0.0 && std::isfinite(value))) refuse(name, "a finite number above 0", value);
+        require_positive(value, name);
     for (const auto& [value, name] : {std::pair{costs.share, "share"}, std::pair{costs.base, "base"}})
-        if (!(value >= 0.0 && std::isfinite(value))) refuse(name, "a finite number, not negative", value);
+        require_not_negative(value, name);
     if (!(costs.share + costs.base > 0.0)) refuse("base", "a number above 0 where share is 0", costs.base);
     for (const auto& [value, name] : {std::pair{costs.center, "center"}, std::pair{costs.larger, "larger"},
                                       std::pair{costs.signature, "signature_cost"}})

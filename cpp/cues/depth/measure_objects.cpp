@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "base/check.hpp"
@@ -71,10 +70,6 @@ void require_finite_shares(FloatsRef shares, const char* name) {
         if (!std::isfinite(shares.data()[i])) refuse(name, "finite numbers", double{shares.data()[i]});
 }
 
-void require_rows(Index rows, Index count, const char* name) {
-    if (rows != count) refuse(name, std::to_string(count) + " rows", std::to_string(rows));
-}
-
 void require_arguments(const ObjectTable& objects, const Ground& ground) {
     const Index count = objects.table.rows();
     require_object_table(objects.table);
@@ -86,7 +81,7 @@ void require_arguments(const ObjectTable& objects, const Ground& ground) {
     require_size(ground.plane, 4, "plane");
     require_finite(ground.plane, "plane");
     for (const auto& [value, name] : {std::pair{ground.feet, "feet"}, std::pair{ground.legs, "legs"}})
-        if (!(value >= 0.0 && std::isfinite(value))) refuse(name, "a finite number, not negative", value);
+        require_not_negative(value, name);
 }
 
 }  // namespace

@@ -160,8 +160,7 @@ void require_arguments(StatesRef boxes, int samples, const DepthGate& gate) {
             if (!(size > 0.0)) refuse("boxes", "widths and heights above 0", size);
     if (samples < 1 || samples > kMaxSamples) refuse("samples", "1 to 1024", samples);
     if (std::isinf(gate.expected)) refuse("expected", "a finite number or NaN", gate.expected);
-    if (!(gate.max_offset > 0.0 && std::isfinite(gate.max_offset)))
-        refuse("max_offset", "a finite number above 0", gate.max_offset);
+    require_positive(gate.max_offset, "max_offset");
     if (!(gate.min_share >= 0.0 && gate.min_share <= 1.0)) refuse("min_share", "0 to 1", gate.min_share);
 }
 

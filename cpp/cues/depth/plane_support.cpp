@@ -7,6 +7,7 @@
 #include "base/check.hpp"
 #include "base/depth_pixels.hpp"
 #include "base/simd.hpp"
+#include "cues/depth/detail/depth_rows.hpp"
 
 namespace tricue {
 namespace {
@@ -33,24 +34,13 @@ Count count_row(const float* __restrict depth, const float* __restrict across, i
     return {measured, within, below};
 }
 
-/// Every step-th of a row.
-TRICUE_MULTIVERSION
-void thin_row(const float* __restrict from, std::size_t n, std::ptrdiff_t step, float* __restrict to) {
-    const auto count = static_cast<std::ptrdiff_t>(n);
-    if (step == 2)
-        for (std::ptrdiff_t i = 0; i < count; ++i) to[i] = from[2 * i];
-    else
-        for (std::ptrdiff_t i = 0; i < count; ++i) to[i] = from[i * step];
-}
-
 }  // namespace
 
 Vector plane_support(const DepthView& depth, VectorRef camera, VectorRef plane, double tolerance, int step) {
     const Rays lens = find_rays(camera, depth);
     require_size(plane, 4, "plane");
     require_finite(plane, "plane");
-    if (!(tolerance > 0.0 && std::isfinite(tolerance)))
-        refuse("tolerance", "a finite number above 0", tolerance);
+    require_positive(tolerance, "tolerance");
     if (step < 1) refuse("step", "at least 1", step);
 
     const Eigen::Array4f p = plane.cast<float>();
@@ -60,7 +50,7 @@ Vector plane_support(const DepthView& depth, VectorRef camera, VectorRef plane, 
     row.resize(across.size());
     Count all;
     for (int v = 0; v < depth.rows; v += step) {
-        thin_row(depth.row(v), row.size(), step, row.data());
+        thin_row(depth.row(v), static_cast<std::ptrdiff_t>(row.size()), step, row.data());
         const Count count = count_row(row.data(), across.data(), static_cast<int>(row.size()),
                                       p[1] * lens.y[static_cast<std::size_t>(v)] + p[2], p[3], band);
         all.measured += count.measured;

@@ -20,7 +20,7 @@ void replace_own(const float* __restrict before, int n, float z, float reach, fl
 
 void require_target(double z, double reach) {
     if (!std::isfinite(z)) refuse("z", "a finite number", z);
-    if (!(reach >= 0.0 && std::isfinite(reach))) refuse("reach", "a finite number, not negative", reach);
+    require_not_negative(reach, "reach");
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include "cues/depth/depth_components.hpp"
 #include "cues/depth/depth_density.hpp"
 #include "cues/depth/depth_edges.hpp"
+#include "cues/depth/detail/depth_rows.hpp"
 #include "cues/depth/detail/searched_distances.hpp"
 #include "cues/depth/ground_distance.hpp"
 #include "cues/depth/measure_objects.hpp"
@@ -26,11 +26,6 @@ namespace {
 
 constexpr int kBins = 16;                 ///< of an object's distributions
 constexpr Eigen::Index kMaxMinima = 254;  // labels have 8 bits
-constexpr float kUnmeasured = std::numeric_limits<float>::infinity();
-
-inline float smaller(float a, float b) {
-    return a < b ? a : b;
-}
 
 /// The distances of a row; and with one more float at either end, infinite where nothing was measured. Returns whether anything was.
 TRICUE_MULTIVERSION
@@ -56,13 +51,6 @@ bool read_depth_row(const float* __restrict depth, int n, float* __restrict dist
         any |= has_depth(depth[u]);
     });
     return any != 0;
-}
-
-/// The nearest of each pixel and its neighbors left and right.
-TRICUE_MULTIVERSION
-void nearest_in_row(const float* __restrict padded, int n, float* __restrict nearest) {
-    for_overlapping_blocks(
-        n, [=](std::ptrdiff_t x) { nearest[x] = smaller(smaller(padded[x], padded[x + 1]), padded[x + 2]); });
 }
 
 /// Measured pixels that are no edge.

@@ -105,9 +105,6 @@ bool is_mostly_on_plane(const Floats& depths, const Labels& on_plane, const Part
 
 void require_arguments(const SupportedTarget& target, StatesRef draws, double tolerance, int side) {
     require_count(side, 2, kMaxGridSide, "side");
-    const auto require_positive = [](double number, const char* name) {
-        if (!(number > 0.0 && std::isfinite(number))) refuse(name, "a finite number above 0", number);
-    };
     require_positive(target.width, "width");
     require_positive(target.height, "height");
     require_positive(target.z, "z");

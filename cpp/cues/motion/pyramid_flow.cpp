@@ -81,8 +81,8 @@ TRICUE_INLINE void add_steps_by(const StepRow& row, float damping, int n, float*
 
 TRICUE_MULTIVERSION
 void add_steps(const StepRow& row, float damping, int n, float* us, float* vs) {
-    if (row.side == kUsualSide)
-        add_steps_by<kUsualSide>(row, damping, n, us, vs);
+    if (row.side == kDefaultFlowSide)
+        add_steps_by<kDefaultFlowSide>(row, damping, n, us, vs);
     else
         add_steps_by<0>(row, damping, n, us, vs);
 }
@@ -127,8 +127,8 @@ TRICUE_INLINE void finish_row_by(const StepRow& row, float damping, const Limits
 
 TRICUE_MULTIVERSION
 void finish_row(const StepRow& row, float damping, const Limits& limits, int n, const FlowRow& out) {
-    if (row.side == kUsualSide)
-        finish_row_by<kUsualSide>(row, damping, limits, n, out);
+    if (row.side == kDefaultFlowSide)
+        finish_row_by<kDefaultFlowSide>(row, damping, limits, n, out);
     else
         finish_row_by<0>(row, damping, limits, n, out);
 }

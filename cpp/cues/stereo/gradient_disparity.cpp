@@ -74,8 +74,8 @@ TRICUE_INLINE void refine_by(const WindowColumns& row, const float* __restrict o
 /// Adds the step of each pixel to its offset, at a coarse level.
 TRICUE_MULTIVERSION
 void refine(const WindowColumns& columns, const float* offset, int n, float* next) {
-    if (columns.side == kUsualSide)
-        refine_by<kUsualSide>(columns, offset, n, next);
+    if (columns.side == kDefaultDisparitySide)
+        refine_by<kDefaultDisparitySide>(columns, offset, n, next);
     else
         refine_by<0>(columns, offset, n, next);
 }
@@ -131,8 +131,8 @@ TRICUE_INLINE void finalize_by(const WindowColumns& row, const WarpedRow& known,
 TRICUE_MULTIVERSION
 void finalize(const WindowColumns& columns, const WarpedRow& known, const Limits& limits, int n,
               const ResultRow& out) {
-    if (columns.side == kUsualSide)
-        finalize_by<kUsualSide>(columns, known, limits, n, out);
+    if (columns.side == kDefaultDisparitySide)
+        finalize_by<kDefaultDisparitySide>(columns, known, limits, n, out);
     else
         finalize_by<0>(columns, known, limits, n, out);
 }

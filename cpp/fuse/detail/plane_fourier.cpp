@@ -72,14 +72,6 @@ void combine_spectra(const float* __restrict one_re, const float* __restrict one
     }
 }
 
-const float* as_floats(const Complex* numbers) {
-    return reinterpret_cast<const float*>(numbers);
-}
-
-float* as_floats(Complex* numbers) {
-    return reinterpret_cast<float*>(numbers);
-}
-
 }  // namespace
 
 bool PlaneFourier::is_fast() const {

@@ -10,6 +10,15 @@
 
 namespace tricue {
 
+/// Real and imaginary parts in turn.
+inline const float* as_floats(const std::complex<float>* numbers) {
+    return reinterpret_cast<const float*>(numbers);
+}
+
+inline float* as_floats(std::complex<float>* numbers) {
+    return reinterpret_cast<float*>(numbers);
+}
+
 /// Two-dimensional spectra of two real planes (rows, cols): of the size of trackers' windows by fast_transform, other small ones by
 /// SmallFourier, others by one complex transform, OpenCV's, with one plane as the real part and the other as the imaginary part, whose
 /// spectra symmetry separates again. Spectra have `half` = cols / 2 + 1 columns, as numpy.fft.rfft2's. In float32; nothing here starts

@@ -129,6 +129,6 @@ def test_images_of_many_bytes_are_refused() -> None:
 
 def test_images_of_many_rows_are_refused() -> None:
     """So many rows aren't an image, and float32 can't tell them apart."""
-    rows = np.broadcast_to(np.zeros((1, 2, 3), np.uint8), (2**20 + 1, 2, 3))
-    with pytest.raises(ValueError, match=r"^image: expected at most 1048576 rows and columns, got"):
+    rows = np.broadcast_to(np.zeros((1, 2, 3), np.uint8), (2**24 + 1, 2, 3))
+    with pytest.raises(ValueError, match=r"^image: expected at most 16777216 rows and columns, got"):
         _core.sample_ellipses(rows, ONE, CENTER)

@@ -21,10 +21,6 @@ std::pair<double, double> extend(double middle, double extent, bool cut_before, 
     return {cut_before ? middle - half : middle + half, size};
 }
 
-void require_rows(Eigen::Index rows, Eigen::Index count, const char* name) {
-    if (rows != count) refuse(name, std::to_string(count) + " rows", std::to_string(rows));
-}
-
 }  // namespace
 
 RectangleState rectangle_of(const ObjectFeatures& objects, Eigen::Index index) {

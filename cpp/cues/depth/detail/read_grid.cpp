@@ -24,7 +24,7 @@ Floats read_grid(const DepthView& depth, const SampleGrid& grid) {
 void require_grid(const SampleGrid& grid) {
     if (!std::isfinite(grid.x)) refuse("x0", "a finite number", grid.x);
     if (!std::isfinite(grid.y)) refuse("y0", "a finite number", grid.y);
-    if (!(grid.step > 0.0 && std::isfinite(grid.step))) refuse("step", "a finite number above 0", grid.step);
+    require_positive(grid.step, "step");
     require_count(grid.rows, 1, kMaxGridSide, "rows");
     require_count(grid.columns, 1, kMaxGridSide, "columns");
 }

@@ -74,7 +74,7 @@ RelativeHistogram::RelativeHistogram(Eigen::Index levels, double reach, std::siz
       level_(whole_blocks(samples)),
       table_(whole_blocks(static_cast<std::size_t>(levels) + 1)),
       counts_(kLanes * table_) {
-    if (!(reach > 0.0 && std::isfinite(reach))) refuse("reach", "a finite number above 0", reach);
+    require_positive(reach, "reach");
 }
 
 void RelativeHistogram::read(const float* depths, double z) {
@@ -164,7 +164,7 @@ void require_model(VectorRef model) {
 }
 
 void require_nearer(double nearer) {
-    if (!(nearer >= 0.0 && std::isfinite(nearer))) refuse("nearer", "a finite number, not negative", nearer);
+    require_not_negative(nearer, "nearer");
 }
 
 }  // namespace tricue

@@ -45,10 +45,10 @@ TRICUE_INLINE void average_batch_down(const WindowColumns* windows, int n) {
 
 TRICUE_MULTIVERSION
 void average_columns(const WindowColumns* rows, int count, int side, int n) {
-    if (side == kUsualSide && count == kRowBatch)
-        average_batch_down<kUsualSide>(rows, n);
-    else if (side == kUsualSide)
-        average_down_by<kUsualSide>(rows, count, side, n);
+    if (side == kDefaultFlowSide && count == kRowBatch)
+        average_batch_down<kDefaultFlowSide>(rows, n);
+    else if (side == kDefaultFlowSide)
+        average_down_by<kDefaultFlowSide>(rows, count, side, n);
     else
         average_down_by<0>(rows, count, side, n);
 }

@@ -59,6 +59,6 @@ TRICUE_INLINE void average_across(const NormalEquations& columns, int side, int 
 }
 
 /// The side of the flow and depth tracker's windows, for which means are compiled on their own.
-constexpr int kUsualSide = 5;
+constexpr int kDefaultFlowSide = 5;
 
 }  // namespace tricue

@@ -109,10 +109,10 @@ TRICUE_INLINE void sum_batch_down(const SummedRows* sums, int n) {
 
 TRICUE_MULTIVERSION
 void sum_down(const SummedRows* sums, int count, int side, int n) {
-    if (side == kUsualSide && count == kRowBatch)
-        sum_batch_down<kUsualSide>(sums, n);
-    else if (side == kUsualSide)
-        sum_down_by<kUsualSide>(sums, count, side, n);
+    if (side == kDefaultDisparitySide && count == kRowBatch)
+        sum_batch_down<kDefaultDisparitySide>(sums, n);
+    else if (side == kDefaultDisparitySide)
+        sum_down_by<kDefaultDisparitySide>(sums, count, side, n);
     else
         sum_down_by<0>(sums, count, side, n);
 }

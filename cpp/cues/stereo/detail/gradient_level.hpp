@@ -29,7 +29,7 @@ struct WindowMeans {
 };
 
 /// The side of the flow and depth tracker's windows, for which means are compiled on their own.
-constexpr int kUsualSide = 5;
+constexpr int kDefaultDisparitySide = 5;
 
 /// The mean of one of the terms in the block of windows from x on. Each sum adds the columns in their order, so it has the same bits
 /// wherever the window is, which running sums wouldn't have.

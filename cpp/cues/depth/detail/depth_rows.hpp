@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <limits>
+
+namespace tricue {
+
+constexpr float kUnmeasured = std::numeric_limits<float>::infinity();  ///< where the nearest is looked for
+
+inline float smaller(float a, float b) {
+    return a < b ? a : b;
+}
+
+/// The nearest of each of n pixels and its neighbors left and right; the row has one more float at either end.
+void nearest_in_row(const float* padded, int n, float* nearest);
+
+/// Every step-th of a row, n of them.
+void thin_row(const float* from, std::ptrdiff_t n, std::ptrdiff_t step, float* to);
+
+}  // namespace tricue
