@@ -94,7 +94,8 @@ fuzz: $(VENV)/dev
 
 # The tests of native kernels on the installed build, which runs the highest level of x86-64 that the processor has, and on builds for each
 # level (simd.hpp): all must return the same bits. The installed one is copied, as Hypothesis takes constants from packages in this folder.
-HASHED := $(BIN)/python -m pytest -q -p kernel_hashes --hypothesis-seed=0 --benchmark-disable tests/camera tests/cues tests/fuse
+HASHED := $(BIN)/python -m pytest -q -p kernel_hashes --hypothesis-profile=brief --hypothesis-seed=0 --benchmark-disable \
+    tests/camera tests/cues tests/fuse
 INSTALLED = $$($(BIN)/python -c 'import tricue; print(tricue.__path__[0])')
 levels: $(VENV)/dev
 	rm -rf $(LEVELS)

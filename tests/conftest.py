@@ -26,8 +26,9 @@ from tricue.track.base.traits import Channels, Traits
 
 ROOT = Path(__file__).parents[1]
 
-# Sanitizers and busy machines are slow, and no reason to fail.
+# Sanitizers and busy machines are slow, and no reason to fail. "brief" is for the same tests on other builds.
 hypothesis.settings.register_profile("patient", hypothesis.settings.default, deadline=None)
+hypothesis.settings.register_profile("brief", hypothesis.settings.default, deadline=None, max_examples=20)
 hypothesis.settings.load_profile("patient")
 
 

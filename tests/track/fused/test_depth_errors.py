@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from tricue import Box, Frame, FusedTracker, Intrinsics, Status, StereoRig
 from tricue.scenes import crossing, walker
 from tricue.track.fused import position_filter
+from tricue.track.fused import tracker as fused
 
 ROOMS = [("held", 0), ("held", 1), ("table", 0), ("table", 1)]
 FRAMES = 45
@@ -59,7 +60,7 @@ def test_lateral_errors_are_within_the_covariance(kind, request):
 
 def test_the_filter_alone_does_not_know_where_in_a_person_it_is(people, monkeypatch):
     """By the filter's own covariance a third of the errors down the image are beyond two deviations."""
-    monkeypatch.setattr(FusedTracker, "_lateral_variances", lambda *_: (0.0, 0.0))
+    monkeypatch.setattr(fused, "lateral_variances", lambda *_: (0.0, 0.0))
     assert np.mean(lateral_deviations(people)[:, 1] <= 2) < 0.67
 
 
@@ -129,8 +130,9 @@ def test_a_guessed_rig_gives_no_depth(drawn, shoot):
 
 
 @pytest.mark.parametrize("width_of_view", [45, 90])
-def test_a_guessed_camera_is_in_the_covariance(rooms, width_of_view):
+def test_a_guessed_camera_is_in_the_covariance(rooms, width_of_view, monkeypatch):
     """What the default camera is off by shows to the right and down, and not in the depth."""
+    monkeypatch.setattr(fused, "lateral_variances", lambda *_: (0.0, 0.0))
     scene = rooms[2]
     camera = Intrinsics.from_fov(scene.intrinsics.width, scene.intrinsics.height, width_of_view)
     known, guessed = (
@@ -138,7 +140,7 @@ def test_a_guessed_camera_is_in_the_covariance(rooms, width_of_view):
         for cameras in ({"intrinsics": camera}, {})
     )
     off = guessed.position - known.position
-    assert abs(off[0]) > np.sqrt(known.covariance[0, 0])
+    assert abs(off[0]) > 5 * np.sqrt(known.covariance[0, 0])
     assert np.all(np.abs(off) <= 2 * np.sqrt(np.diag(guessed.covariance)))
     assert guessed.covariance[2, 2] == pytest.approx(known.covariance[2, 2], rel=0.1)
     assert np.linalg.eigvalsh(guessed.covariance).min() > 0

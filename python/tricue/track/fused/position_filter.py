@@ -8,6 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tricue.camera.box import Box
+from tricue.camera.rig import Intrinsics
 from tricue.kernels import Kernels
 from tricue.track.base.params import Params, parameter
 from tricue.track.fused.arrays import Floats
@@ -23,6 +25,7 @@ MAX_POSITION_SIGMA = 3.0  # meters, in the expected depth
 MAX_INNOVATION = 2.0  # standard deviations; a larger one widens the state
 POSITION_MATRIX = np.eye(3, 6)  # from a state to the position that is measured
 SHARED_DEPTH_ERROR = 0.6  # of the depth spread, standard deviation; fitted: docs/fused-figures.md
+SHARED_LATERAL_ERROR = 0.05  # of the side of a track's box, standard deviation; fitted: docs/fused-figures.md
 MISSED_MEAN_FACTORS = np.array([1, 1, 1, 0.8, 0.8, 0.8])
 
 
@@ -150,3 +153,14 @@ def back_project(
     intrinsics = _intrinsics(camera.fx, camera.fy, camera.cx, camera.cy)
     points, covariances = k.back_project(place, variances, intrinsics, 1.0)
     return points[0], covariances[0].reshape(3, 3)
+
+
+def lateral_variances(target: Target, box: Box, z: float, camera: Intrinsics) -> tuple[float, float]:
+    """m² to the right and down, of a position at depth z: errors that don't average out.
+
+    Where in the target its position is stays the same in many frames. The position is the middle of the
+    target's own box, that of a track's box may be another; the target's own middle may be either.
+    """
+    variance, (x, y) = SHARED_LATERAL_ERROR**2 * box.width * box.height, box.center
+    right = (variance + (x - target.x) ** 2) * (z / camera.fx) ** 2
+    return right, (variance + (y - target.y) ** 2) * (z / camera.fy) ** 2

@@ -26,6 +26,7 @@ from tricue.track.fused.measure import Match
 from tricue.track.fused.memory import limit_log_odds
 from tricue.track.fused.models import AppearanceModels
 from tricue.track.fused.params import FusedParams
+from tricue.track.fused.position_filter import lateral_variances
 from tricue.track.fused.proposals import LostTarget
 from tricue.track.fused.redetect import redetect
 from tricue.track.fused.search import search_local
@@ -34,9 +35,6 @@ from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.verify import verify
 
-# Of the side of a track's box, standard deviation to the right and down: where in the target its position is
-# stays the same in many frames and doesn't average out. Fitted: docs/fused-figures.md
-LATERAL_ERROR = 0.05
 # Standard deviations, as shares of guessed meters:
 GUESSED_CAMERA_ERROR = 0.4  # to the right and down; cameras 40 and 90 degrees wide are off by 0.4 and 0.7
 GUESSED_RIG_ERROR = 0.7  # of all; pairs 5 and 25 cm apart are off by 0.6 and 1.1
@@ -197,8 +195,9 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         if state.position is None or state.depth is None:
             return None, None, None
         position = state.position.position
+        camera = rig_and_camera(self.rig, self.intrinsics, state.shape)[1]
         covariance = state.position.error_covariance(state.depth.depth_spread)
-        right, down = self._lateral_variances(state, box, float(position[2]))
+        right, down = lateral_variances(state.target, box, float(position[2]), camera)
         covariance[0, 0] += right
         covariance[1, 1] += down
         if not state.is_metric:
@@ -208,17 +207,6 @@ class FusedTracker(TrackerBase[FusedParams, State]):
             error = GUESSED_CAMERA_ERROR * position * (1, 1, 0)
             covariance = covariance + np.outer(error, error)
         return position, covariance, float(position[2])
-
-    def _lateral_variances(self, state: State, box: Box, z: float) -> tuple[float, float]:
-        """m², of a target at depth z, to the right and down.
-
-        The position is the middle of the target's own box, that of a track's box may be another; the target's
-        own middle may be either.
-        """
-        camera = rig_and_camera(self.rig, self.intrinsics, state.shape)[1]
-        variance, (x, y) = LATERAL_ERROR**2 * box.width * box.height, box.center
-        right = (variance + (x - state.target.x) ** 2) * (z / camera.fx) ** 2
-        return right, (variance + (y - state.target.y) ** 2) * (z / camera.fy) ** 2
 
 
 def _target_model(state: State, appearance: AppearanceModels, p: FusedParams) -> TargetModel:
