@@ -334,6 +334,23 @@ def test_ros_camera_info_is_read(tmp_path: Path, change: Callable[[str], str]) -
     assert rectified == Intrinsics(480, 481, 318.75, 239, 640, 480)
 
 
+def test_a_rig_is_read_from_ros_right_camera(tmp_path: Path) -> None:
+    """It proves that the right camera's projection gives camera and baseline, and that the left one's is told
+    to have none.
+    """
+    path = tmp_path / "right.yaml"
+    path.write_text(CAMERA_INFO.replace("318.75, 0,", "318.75, -57.6,"))
+    rig = StereoRig.from_opencv(path)
+    assert rig.intrinsics == Intrinsics(480, 481, 318.75, 239, 640, 480)
+    assert rig.baseline == pytest.approx(0.12)
+    path.write_text(CAMERA_INFO)
+    with pytest.raises(ValueError, match=r"right\.yaml: a left camera's camera_info has no baseline"):
+        StereoRig.from_opencv(path)
+    path.write_text(CAMERA_INFO.replace("318.75, 0,", "318.75, 57.6,"))
+    with pytest.raises(ValueError, match="the right camera is left of the left one"):
+        StereoRig.from_opencv(path)
+
+
 def test_ros_distortion_is_told(tmp_path: Path) -> None:
     """It proves that the lens of a camera_info is warned of, but not for rectified images."""
     path = tmp_path / "c.yaml"

@@ -77,15 +77,19 @@ def read_opencv_camera(
 
 
 def read_opencv_rig(path: PathLike, *, unit: float = 1.0, size: Size | None = None) -> RigParameters:
-    """The rectified rig in a file of ``cv2.FileStorage`` with P1 and P2 of ``cv2.stereoRectify``.
+    """The rectified rig in a file of ``cv2.FileStorage`` with P1 and P2 of ``cv2.stereoRectify``, or in the
+    right camera's camera_info of ROS, YAML, whose projection_matrix has the baseline.
 
     unit: meters per unit of the calibration board, 0.001 where its squares were given in millimeters.
     """
     with OpenCVFile(path) as file:
         left, right = file.matrix("P1"), file.matrix("P2")
+        if left is None and right is None:
+            left, right = _ros_projections(file.matrix("projection_matrix"), path)
         if left is None or right is None:
             raise ValueError(
-                f"{path}: expected P1 and P2 of a rectified rig, as cv2.stereoRectify gives them"
+                f"{path}: expected P1 and P2 of a rectified rig, as cv2.stereoRectify gives them, or ROS's "
+                "camera_info of the right camera"
             )
         own = image_size(file.size(), size, path)
         return rig_of_projections(left, right, positive(unit, "unit", "meters"), own, path)
@@ -208,6 +212,19 @@ def _camera_of_matrix(matrix: Matrix, size: Size | None, path: PathLike) -> Pinh
         raise ValueError(f"{path}: the file doesn't hold the image's size; pass size=(width, height)")
     fx, fy, cx, cy = map(float, (matrix[0, 0], matrix[1, 1], matrix[0, 2], matrix[1, 2]))
     return _name_file(path, lambda: PinholeParameters(*pinhole(fx, fy, cx, cy, *size)))
+
+
+def _ros_projections(right: Matrix | None, path: PathLike) -> tuple[Matrix, Matrix] | tuple[None, None]:
+    """The projections (3, 4) of both cameras, from that of ROS's right one; None without one."""
+    if right is None or right.shape != (3, 4):
+        return None, None
+    if not right[:, 3].any():
+        raise ValueError(
+            f"{path}: a left camera's camera_info has no baseline; expected the right camera's, as right.yaml"
+        )
+    left = right.copy()
+    left[:, 3] = 0
+    return left, right
 
 
 def _is_distorted(file: OpenCVFile, key: str) -> bool:

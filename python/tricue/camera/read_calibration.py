@@ -42,7 +42,8 @@ def read_registration(path: Path, depth: Size, color: Size) -> Registration | No
 
 
 def read_rig(path: Path, size: Size, unit: float | None = None) -> StereoRig:
-    """The rectified rig in a file by OpenCV (YAML, XML, JSON) with P1 and P2, by KITTI (.txt), or in TOML.
+    """The rectified rig in a file by OpenCV (YAML, XML, JSON) with P1 and P2, of ROS's right camera (YAML),
+    by KITTI (.txt), or in TOML.
 
     size: width and height of the images, pixels. unit: meters per unit of the board of OpenCV's calibration,
     1 by default. ValueError or OSError names the file, as :func:`read_intrinsics` does; ValueError also for a

@@ -57,6 +57,7 @@ class State:
 
     def replace(self, **changes: Any) -> "State":
         """The state with some attributes changed; a named tuple of so many takes four times as long."""
+        assert changes.keys() <= vars(self).keys(), f"expected fields of a State, got {', '.join(changes)}"
         changed = object.__new__(State)
         vars(changed).update(vars(self))
         vars(changed).update(changes)
