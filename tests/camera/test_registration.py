@@ -197,6 +197,15 @@ def test_reprojection_without_motion_is_the_image_itself() -> None:
         Reprojection(camera, camera, Extrinsics())(depth[:, :-1])
 
 
+@pytest.mark.parametrize("scale", [8, 24])
+def test_a_much_finer_color_image_has_no_gaps(scale: int) -> None:
+    """Every color pixel that looks at a wall has its depth, however few pixels the depth camera has."""
+    coarse = Intrinsics.from_fov(32, 24, 60.0)
+    fine = Intrinsics.from_fov(32 * scale, 24 * scale, 60.0)
+    found = Reprojection(coarse, fine, Extrinsics())(np.full((24, 32), 2.0, np.float32))
+    np.testing.assert_allclose(found, 2.0, rtol=1e-6)
+
+
 def test_what_is_near_hides_what_is_behind() -> None:
     """It proves that the nearer surface is taken where both fall on one pixel."""
     camera = Intrinsics(40, 40, 15.5, 11.5, 32, 24)

@@ -171,6 +171,25 @@ def test_limits_hold():
     assert speeds[-1] == pytest.approx(0)
 
 
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize("moving", [False, True])
+def test_a_head_outside_of_its_angles_is_brought_back(side, moving):
+    """Its angle is what its speed reaches, which grows within the limits of acceleration and speed."""
+    head = PanTilt(CAMERA, pan_limits=(-1.0, 1.0), max_acceleration=3.0)
+    if moving:
+        for _ in range(5):  # at some speed
+            head.command(track_at(0.3 * side, 0), 0.0, 0.0)
+    angle, speed = 1.5 * side, 0.0
+    for _ in range(60):
+        command = head.command(track_at(0.3 * side, 0), angle, 0.0)
+        assert command.pan == pytest.approx(angle + STEP * command.pan_speed)
+        if abs(angle) > 1.0:
+            assert command.pan_speed * side < 0
+            assert abs(command.pan_speed) <= abs(speed) + 3.0 * STEP + 1e-9
+        angle, speed = command.pan, command.pan_speed
+    assert angle == pytest.approx(side)
+
+
 def test_without_encoders_commands_count_as_done():
     """Without the head's angles, they are those that were last commanded."""
     head = PanTilt(CAMERA, gain=1.0)

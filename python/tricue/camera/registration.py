@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Registration: color images in the depth camera's pixels, and depth images in the color camera's."""
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -13,7 +14,8 @@ from tricue.camera.rig import Intrinsics
 
 _OUTSIDE_IMAGE = -2.0  # a pixel coordinate that is in no image
 _FAR_OUTSIDE = 1 << 20  # pixels
-_MAX_COVERED = 16  # color pixels that one depth pixel covers in a row or a column
+_MAX_COVERED = 16  # color pixels that one depth pixel covers in a row or a column, at least
+_NEARER = 2.0  # times as near to the color camera as to the depth camera: what is nearer may have gaps
 
 
 class Extrinsics(NamedTuple):
@@ -160,7 +162,9 @@ class Reprojection:
         height, width = self.color.height, self.color.width
         nearest = np.full(height * width, np.inf, np.float32)
         (left, across), (top, down) = columns, rows
-        across, down = (np.minimum(count, _MAX_COVERED) for count in (across, down))
+        finer = max(self.color.fx / self.depth.fx, self.color.fy / self.depth.fy)
+        most = max(_MAX_COVERED, math.ceil(_NEARER * finer))
+        across, down = (np.minimum(count, most) for count in (across, down))
         for dy in range(int(down.max(initial=0))):
             for dx in range(int(across.max(initial=0))):
                 x, y = left + dx, top + dy

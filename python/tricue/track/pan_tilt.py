@@ -164,12 +164,19 @@ class PanTilt:
         return np.asarray(velocity + min(self.gain, 1 / interval) * outside)
 
     def _limited(self, speeds: np.ndarray, angles: np.ndarray, interval: float) -> PanTiltCommand:
-        """The command for these speeds, within the limits of speed and of angles."""
+        """The command for these speeds, within the limits of speed and of angles.
+
+        A head that is outside of its angles is brought back, as fast as the limits of acceleration and speed
+        allow.
+        """
         low, high = np.transpose(self.limits)
         before, change = np.array(self._last[:2]), self.max_acceleration * interval
         smooth = np.clip(speeds, before - change, before + change).clip(-self.max_speed, self.max_speed)
-        reached = np.clip(angles + smooth * interval, low, high)
-        allowed = np.clip((reached - angles) / interval, -self.max_speed, self.max_speed)
+        within = (np.clip(angles + smooth * interval, low, high) - angles) / interval
+        slowest = np.where(angles > high, np.minimum(before, 0) - change, -np.inf)
+        fastest = np.where(angles < low, np.maximum(before, 0) + change, np.inf)
+        allowed = np.clip(within, slowest, fastest).clip(-self.max_speed, self.max_speed)
+        reached = angles + allowed * interval
         self._last = PanTiltCommand(*allowed.tolist(), *reached.tolist())
         return self._last
 

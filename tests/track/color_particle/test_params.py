@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
 """The parameters of the color particle tracker: that they come back from a file, and extremes."""
 
+import math
 from pathlib import Path
 
 import numpy as np
 import pytest
 from tricue import ColorParticleTracker, FusedTracker
+from tricue.track.color_particle.appearance import probability
 
 Params = ColorParticleTracker.Params
 
@@ -36,7 +38,8 @@ def test_a_file_brings_them_back(params, tmp_path: Path):
         {"grid_reach": 4, "ring": (1, 8)},
         {"max_step": 0, "max_step_sizes": 0},
         {"position_noise": 0, "velocity_noise": 0, "size_noise": 0, "aspect_noise": 0},
-        {"size_range": (1e-9, 1e9), "size_noise": 2.0},
+        {"size_range": (1e-9, 1e6), "size_noise": 2.0},
+        {"size_range": (1e6, 1e6)},
         {"skin_share": 0.99, "skin_threshold": -1},
         {"sharpness": 1e9, "color_weight": 1e9},
         {"sharpness": 1e-9, "color_weight": 0, "likelihood": "linear"},
@@ -62,3 +65,9 @@ def test_frames_until_lost_are_deprecated(tracker):
     """A whole number is taken for frames, as in version 0.1.0, with a warning that tells the seconds."""
     with pytest.warns(DeprecationWarning, match=r"^lost_after: .*give seconds: 0.3 instead of 9"):
         assert tracker(lost_after=9).params.lost_after == pytest.approx(0.3)
+
+
+@pytest.mark.parametrize(("log_likelihood", "score"), [(-1e9, 0.0), (1e9, 1.0), (-math.inf, 0.0)])
+def test_what_is_hardly_likely_has_a_probability(log_likelihood, score):
+    """A sharp likelihood gives log-likelihoods whose exponential is no number."""
+    assert probability(log_likelihood, lead=0.0) == pytest.approx(score, abs=1e-12)

@@ -9,6 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from tricue import Box, Frame, FusedTracker, Intrinsics, Status, StereoRig
 from tricue.scenes import crossing, walker
+from tricue.track.base.position_limit import MAX_SIGMA
 from tricue.track.fused import position_filter
 from tricue.track.fused import tracker as fused
 
@@ -157,3 +158,18 @@ def test_a_guessed_rig_is_in_the_covariance(drawn, shoot, baseline):
     off = guessed.position - known.position
     assert abs(off[2]) > 5 * np.sqrt(known.covariance[2, 2])
     assert np.all(np.abs(off) <= 2 * np.sqrt(np.diag(guessed.covariance)))
+
+
+def test_five_minutes_without_depth_leave_a_position(drawn, shoot):
+    """Color alone follows on, TRACKED, a frame a second; the position is unknown by 100 m, not by more."""
+    frames = shoot("plain", "rgbd")
+    tracker = FusedTracker(intrinsics=drawn("plain").intrinsics)
+    tracker.init(frames[0], drawn("plain").boxes[0])
+    for second in range(1, 301):
+        track = tracker.update(Frame(frames[0].color, timestamp=float(second)))
+    assert track.status is Status.TRACKED
+    deviations = np.sqrt(np.diag(track.covariance))
+    assert 0.9 * MAX_SIGMA < deviations.max() < 1.2 * MAX_SIGMA
+    back = tracker.update(Frame(frames[0].color, depth=frames[0].depth, timestamp=301.0))
+    assert np.sqrt(np.diag(back.covariance)).max() < 0.5
+    np.testing.assert_allclose(back.position, drawn("plain").positions[0], atol=0.1)

@@ -29,6 +29,7 @@ OBSERVATION_MODELS: dict[str, type[Any]] = {
 MIN_LINEAR_LIKELIHOOD = 1e-12  # in its logarithm
 LOG_ODDS, PER_NAT, PER_NAT_OF_LEAD = -0.11, 0.0275, 0.0945  # fitted on the 30 recorded color sequences
 MAX_LEAD = 60.0  # nats: more says no more
+MAX_LOG_ODDS = 50.0  # beyond it a probability doesn't change
 STEP_BESIDE = 1.5  # semi-axes: windows beside the target share a seventh of their union with it
 BESIDE = np.tile(np.eye(4), (4, 1, 1))
 BESIDE[range(4), [2, 2, 3, 3], [0, 0, 1, 1]] = [-STEP_BESIDE, STEP_BESIDE, -STEP_BESIDE, STEP_BESIDE]
@@ -138,4 +139,5 @@ def probability(log_likelihood: float, lead: float) -> float:
     """That a window shows the target, by logistic regression on its log-likelihood under the first frame's
     appearance and on the mean of its lead, both of color ranks and contrast, nats.
     """
-    return 1 / (1 + math.exp(-(LOG_ODDS + PER_NAT * log_likelihood + PER_NAT_OF_LEAD * lead)))
+    log_odds = LOG_ODDS + PER_NAT * log_likelihood + PER_NAT_OF_LEAD * lead
+    return 1 / (1 + math.exp(-min(max(log_odds, -MAX_LOG_ODDS), MAX_LOG_ODDS)))

@@ -142,7 +142,7 @@ class ColorParticleParams(Params):
         was="size_memory",
     )
     size_range: tuple[float, float] = parameter(
-        (0.3, 4.0), unit="of the first size", source=OURS, above=0, doc="smallest and largest size"
+        (0.3, 4.0), unit="of the first size", source=OURS, above=0, high=1e6, doc="smallest and largest size"
     )
 
     resample_below: float = parameter(

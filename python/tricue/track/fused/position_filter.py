@@ -12,6 +12,7 @@ from tricue.camera.box import Box
 from tricue.camera.rig import Intrinsics
 from tricue.kernels import Kernels
 from tricue.track.base.params import Params, parameter
+from tricue.track.base.position_limit import limit_covariance
 from tricue.track.fused.arrays import Floats
 from tricue.track.fused.depth_sources import ExpectedDepth
 from tricue.track.fused.experts.depth import DEPTH_SAMPLES, DepthMeasurement
@@ -22,6 +23,7 @@ from tricue.track.fused.target_observation import TargetObservation
 LATERAL_NOISE = 0.02  # of the target's side, standard deviation of its center
 MIN_POSITION_Z = 0.05  # meters in front of the camera
 MAX_POSITION_SIGMA = 3.0  # meters, in the expected depth
+MOVING = np.arange(6)  # all of a state: its position and velocity
 MAX_INNOVATION = 2.0  # standard deviations; a larger one widens the state
 POSITION_MATRIX = np.eye(3, 6)  # from a state to the position that is measured
 SHARED_DEPTH_ERROR = 0.6  # of the depth spread, standard deviation; fitted: docs/fused-figures.md
@@ -34,10 +36,16 @@ class PositionParams(Params):
     """Of the position in meters."""
 
     acceleration_noise: float = parameter(
-        4.0, unit="m/s²", source=OURS, above=0, doc="standard deviation", was="agility"
+        4.0, unit="m/s²", source=OURS, above=0, high=1e6, doc="standard deviation", was="agility"
     )
     max_speed: float = parameter(
-        2.0, unit="m/s", source=OURS, above=0, doc="of a target that is measured first", was="fastest"
+        2.0,
+        unit="m/s",
+        source=OURS,
+        above=0,
+        high=1e6,
+        doc="of a target that is measured first",
+        was="fastest",
     )
 
 
@@ -98,7 +106,7 @@ class PositionFilter(NamedTuple):
         return PositionFilter(self.mean * MISSED_MEAN_FACTORS, self.covariance)
 
     def predict(self, k: Kernels, seconds: float, p: PositionParams) -> "PositionFilter":
-        """The state after some seconds of white acceleration.
+        """The state after some seconds of white acceleration, the position known to MAX_SIGMA.
 
         Bar-Shalom, Li and Kirubarajan 2001, section 6.3.2.
         """
@@ -106,7 +114,7 @@ class PositionFilter(NamedTuple):
         mean, covariance = k.kalman_predict(self.mean, self.covariance, *dynamics)
         if mean[2] < MIN_POSITION_Z:
             mean[2], mean[5] = MIN_POSITION_Z, 0.0
-        return PositionFilter(mean, covariance)
+        return PositionFilter(mean, limit_covariance(covariance, MOVING))
 
     def distance(self, point: Floats, noise: Floats) -> float:
         """Standard deviations to a measured point (3,) with covariance ``noise`` (3, 3)."""

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
+from tricue.track.base.position_limit import limit_covariance
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.stereo_geometry import Point
 
@@ -16,6 +17,7 @@ Floats = NDArray[np.float64]
 
 MEASUREMENT_SIZE = 7  # (7): X, Y, Z, three colors, the intersection; in a state the velocity comes after
 INTERSECTION_DRIFT = 1.0  # standard deviation, section 4.1: unity
+MOVING = np.array([0, 1, 2, 7, 8, 9])  # the position and, where a state has one, the velocity
 COASTING_FACTOR = 0.9  # of the velocity, for each frame without a measurement
 
 
@@ -56,12 +58,14 @@ def initialize(measured: Floats, noise: Floats, p: StereoHeadParams) -> HeadFilt
 
 
 def predict(k: Kernels, state: HeadFilter, seconds: float, p: StereoHeadParams) -> HeadFilter:
-    """The prediction (6), or, with ``motion="velocity"``, by the velocity. Z stays between near and far."""
+    """The prediction (6), or, with ``motion="velocity"``, by the velocity. Z stays between near and far, and
+    the position is known to MAX_SIGMA.
+    """
     limit = p.max_speed if p.motion == "constant" else p.acceleration_noise
     dynamics = _dynamics(len(state.mean), seconds, limit, p.color_drift)
     mean, covariance = k.kalman_predict(state.mean, state.covariance, *dynamics)
     mean[2] = min(max(mean.item(2), p.near), p.far)
-    return HeadFilter(mean, covariance)
+    return HeadFilter(mean, limit_covariance(covariance, MOVING[: len(mean) - MEASUREMENT_SIZE + 3]))
 
 
 def mahalanobis_distance(predicted: HeadFilter, measured: Point, noise: Floats) -> float:

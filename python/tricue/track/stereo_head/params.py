@@ -161,13 +161,20 @@ class StereoHeadParams(Params):
         "velocity", unit="-", source="constant: (6); " + OURS, doc="constant velocity or constant position"
     )
     acceleration_noise: float = parameter(
-        6.0, unit="m/s²", source=OURS, above=0, doc="standard deviation of the acceleration", was="agility"
+        6.0,
+        unit="m/s²",
+        source=OURS,
+        above=0,
+        high=1e6,
+        doc="standard deviation of the acceleration",
+        was="agility",
     )
     max_speed: float = parameter(
         1.0,
         unit="m/s",
         source="a walk indoors; " + OURS,
         above=0,
+        high=1e6,
         doc="of a head: its first velocity, its motion when constant, and where it is re-detected",
         was="fastest",
     )
@@ -175,10 +182,10 @@ class StereoHeadParams(Params):
         "propagated", unit="-", source="polynomial: (9); " + OURS, doc="of a measured position", was="noise"
     )
     disparity_noise: float = parameter(
-        0.25, unit="pixels", source="1: figure 2; " + OURS, above=0, doc="standard deviation"
+        0.25, unit="pixels", source="1: figure 2; " + OURS, above=0, high=1e6, doc="standard deviation"
     )
     place_noise: float = parameter(
-        0.7, unit="cells", source=OURS, above=0, doc="standard deviation of the ellipse's center"
+        0.7, unit="cells", source=OURS, above=0, high=1e6, doc="standard deviation of the ellipse's center"
     )
     color_noise: tuple[float, float, float] = parameter(
         (4.0, 4.0, 4.0),

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: MIT
+"""How unknown a position may be: a filter that only predicts would grow its covariance without end."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[Any]
+
+MAX_SIGMA = 100.0  # meters, standard deviation of a position: beyond it nothing is known of it
+
+
+def limit_covariance(covariance: Floats, moving: NDArray[np.intp]) -> Floats:
+    """The covariance (n, n) of a state that begins with a position in meters, which is known to MAX_SIGMA.
+
+    moving: the position's and its velocity's places in the state. All of these shrink in the same proportion,
+    so that it stays a covariance.
+    """
+    largest = max(covariance.item(0, 0), covariance.item(1, 1), covariance.item(2, 2))
+    if largest <= MAX_SIGMA**2:
+        return covariance
+    scale = np.ones(len(covariance))
+    scale[moving] = MAX_SIGMA / largest**0.5
+    limited: Floats = covariance * np.outer(scale, scale)
+    return limited
