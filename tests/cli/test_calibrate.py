@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """``tricue calibrate``: what it writes is what trackers read, and bad input is named and leaves no file."""
 
+import os
+import threading
 from pathlib import Path
 
 import cv2
@@ -116,7 +118,10 @@ def test_stereo_noise_is_that_of_a_head_at_rest(still, tmp_path, capsys):
     box = ",".join(map(str, still.boxes[0]))
     place = [str(folder), "--box", box, "--calibration", str(folder / "rig.toml"), "--distance", "1.2"]
     assert main(["calibrate", "stereo-noise", *place, "--params", str(out), "--output", str(out)]) == 0
-    assert "a head measured in 23 of 23 stereo pairs" in capsys.readouterr().out
+    assert (
+        "a head measured in 23 of 23 stereo pairs after the first, which gives the model"
+        in capsys.readouterr().out
+    )
     p = HeadParams.from_toml(out)
     assert p.lost_after == 0.7
     assert all(0.1 <= value < 4 for value in (*p.color_noise, *p.color_drift))
@@ -177,7 +182,10 @@ def test_a_recording_without_a_head_is_named(still, tmp_path, capsys):
         if int(path.stem) > 5:
             path.unlink()
     line = failing(["stereo-noise", str(folder), *box, *calibrated, *ending], capsys)
-    assert "pair: frames: expected a head at rest, measured in 10 stereo pairs or more" in line
+    assert (
+        "pair: frames: expected a head at rest, measured in 10 or more stereo pairs after the first" in line
+    )
+    assert line.endswith("got 5 of 5")
     for path in folder.glob("*/*.png"):
         cv2.imwrite(str(path), np.zeros((120, 160, 3), np.uint8))
     line = failing(["stereo-noise", str(folder), *box, *calibrated, *ending], capsys)
@@ -220,6 +228,64 @@ def test_a_stereo_pair_is_never_overwritten(still, tmp_path, capsys):
         line = failing(["stereo-noise", *places, "--output", str(output)], capsys)
         assert f"{output}: expected a file to write to that isn't read" in line
     assert cv2.imread(str(folder / "right" / "0003.png")) is not None
+
+
+@pytest.mark.filterwarnings("default")  # they are to be printed
+def test_a_pair_without_a_rig_is_told_of_options_that_there_are(still, tmp_path, capsys):
+    """The advice doesn't name an option that only ``tricue track`` has."""
+    folder = write_pair(still, tmp_path / "pair")
+    (folder / "rig.toml").unlink()
+    box = ",".join(map(str, still.boxes[0]))
+    main(["calibrate", "stereo-noise", str(folder), "--box", box, "--output", str(tmp_path / "o.toml")])
+    error = capsys.readouterr().err
+    assert error.count("give --calibration FILE") == 1
+    assert "--assume-fov" not in error
+
+
+def test_links_and_other_files_stay(tmp_path, capsys):
+    """A link stays one, nothing else beside the output is touched, and its mode is that of any new file."""
+    skin = write_masks(tmp_path / "skin", SKIN)
+    (tmp_path / "o.toml.part").write_text("another's")
+    (tmp_path / "link.toml").symlink_to("o.toml")
+    (tmp_path / "new").touch()
+    for _ in range(2):
+        assert main(["calibrate", "skin-threshold", str(skin), f"--output={tmp_path / 'link.toml'}"]) == 0
+    assert sorted(path.name for path in tmp_path.glob("o*")) == ["o.toml", "o.toml.part"]
+    assert (tmp_path / "link.toml").is_symlink()
+    assert (tmp_path / "o.toml.part").read_text() == "another's"
+    assert (tmp_path / "o.toml").stat().st_mode == (tmp_path / "new").stat().st_mode
+    assert "skin_threshold = " in (tmp_path / "o.toml").read_text()
+    assert not list(tmp_path.glob(".tricue-*"))
+
+
+def test_a_pipe_is_written_into(tmp_path):
+    """Its reader gets the parameters, and it stays a pipe."""
+    skin, pipe, found = write_masks(tmp_path / "skin", SKIN), tmp_path / "pipe", list[str]()
+    os.mkfifo(pipe)
+    reader = threading.Thread(target=lambda: found.append(pipe.read_text()), daemon=True)
+    reader.start()
+    assert main(["calibrate", "skin-threshold", str(skin), "--output", str(pipe)]) == 0
+    reader.join(10)
+    assert pipe.is_fifo()
+    assert found[0].startswith("skin_threshold = ")
+
+
+@pytest.mark.parametrize(("name", "error"), [("skin", "Is a directory"), ("file/o.toml", "Not a directory")])
+def test_what_cannot_be_written_is_told_before_the_measurement(name, error, tmp_path, capsys, monkeypatch):
+    """A folder, and a place below a file, are one line of error, and nothing is read for them."""
+    skin, out = write_masks(tmp_path / "skin", SKIN), tmp_path / name
+    (tmp_path / "file").touch()
+    monkeypatch.setattr("tricue.papers.roc.skin_roc", lambda *_: pytest.fail("it was measured"))
+    line = failing(["skin-threshold", str(skin), "--output", str(out)], capsys)
+    assert line == f"tricue calibrate: {out}: {error}"
+
+
+def test_all_false_positives_give_a_threshold_that_the_tracker_takes(tmp_path):
+    """The lowest threshold of a curve is below the range of the parameter."""
+    skin, out = write_masks(tmp_path / "skin", SKIN), tmp_path / "o.toml"
+    words = ["skin-threshold", str(skin), "--false-positives", "1", "--output", str(out)]
+    assert main(["calibrate", *words]) == 0
+    assert ColorParams.from_toml(out).skin_threshold == -1
 
 
 def test_a_broken_parameter_file_is_named(tmp_path, capsys):

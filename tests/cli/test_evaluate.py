@@ -330,6 +330,51 @@ def test_what_does_not_run_is_told_below_the_table(dataset, tmp_path, capsys):
     assert f"theirs={tmp_path / 'results'}" in page
 
 
+def test_a_tracker_that_starts_nowhere_is_told_once_and_the_exit_code_is_1(dataset, own, capfd):
+    """One line for all sequences, with the error's type, if it was asked for; the others have their rows."""
+    (own / "own_tracker.py").write_text(
+        "class Mine:\n"
+        "    def __init__(self): raise RuntimeError('no gpu')\n"
+        "    def init(self, frame, box): pass\n"
+        "    def update(self, frame): pass\n"
+    )
+    words = ["evaluate", str(dataset), "--trackers", "still-box,own_tracker.py:Mine", "--no-restarts"]
+    assert main(words) == 1
+    captured = capfd.readouterr()
+    assert (
+        "failed: own_tracker.py:Mine on 4 of 4 sequences: RuntimeError: no gpu" in captured.err.splitlines()
+    )
+    assert (captured.out + captured.err).count("no gpu") == 1
+    assert "| still-box " in captured.out
+
+
+def test_results_that_fit_nothing_make_the_exit_code_1(dataset, tmp_path, capsys):
+    """The folder is named, and the line that tells how it was read ends without a comma."""
+    (tmp_path / "results").mkdir()
+    (tmp_path / "results" / "other.txt").write_text("1,2,3,4\n" * 40)
+    arguments = ["evaluate", str(dataset), "--trackers", "still-box", "--no-restarts"]
+    arguments += ["--results", f"theirs={tmp_path / 'results'}", "--output", str(tmp_path / "out")]
+    assert main(arguments) == 1
+    captured = capsys.readouterr()
+    assert "theirs: results in otb form, 0 of 4 sequences" in captured.out.splitlines()
+    assert "failed: theirs: no result that fits any of 4 sequences" in captured.err.splitlines()
+
+
+def test_sequences_that_have_too_few_frames(tmp_path, capsys):
+    """One frame: named once, with its folder. Fewer than true boxes: told below the table."""
+    write_sequence(tmp_path / "data" / "good", 5)
+    write_sequence(tmp_path / "data" / "single", 1)
+    write_sequence(tmp_path / "data" / "short", 5)
+    (tmp_path / "data" / "short" / "img" / "00005.jpg").unlink()
+    arguments = ["evaluate", str(tmp_path / "data"), "--trackers", "still-box,meanShift"]
+    assert main([*arguments, "--output", str(tmp_path / "out")]) == 1
+    captured = capsys.readouterr()
+    failed = [line for line in captured.err.splitlines() if line.startswith("failed")]
+    place = tmp_path / "data" / "single"
+    assert failed == [f"failed: single: {place}: expected a frame after the first true box, got 1 frame"]
+    assert "short: 1 row of true boxes more than there are frames" in captured.out.splitlines()
+
+
 @pytest.mark.parametrize(
     ("text", "names"),
     [

@@ -138,7 +138,19 @@ def test_a_found_calibration_of_another_size_is_left_out(
     assert re.search(
         r"left out the calibration .*intrinsics.toml: .* 80x60 pixels, got one for 640x480", printed
     )
-    assert f"{path}: not written, no track has a position in meters" in printed
+    assert f"{path}: not written, no track has a position in meters\n" in printed
+
+
+def test_the_plot_of_an_earlier_run_is_not_taken_for_this_one(
+    recording: Path, nearest_tracker: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that it is removed where there are no positions, and that this is said."""
+    pytest.importorskip("matplotlib")
+    path = tmp_path / "o.png"
+    path.write_bytes(b"earlier")
+    assert main(["track", str(recording), *MM, "--tracker", nearest_tracker, "--plot", str(path)]) == 0
+    assert "no track has a position in meters; removed that of an earlier run" in capsys.readouterr().out
+    assert not path.exists()
     assert not path.exists()
 
 

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from tricue.cli.program import main
 from tricue.cli.starts import in_options
-from tricue.draw.video import OverlayWriter
+from tricue.draw.video import OverlayWriter, count_frames
 
 BOX = "20,16,16,16"
 
@@ -87,6 +87,17 @@ def test_a_target_that_is_never_found_touches_nothing(
     assert "started in none of 2 frames" in error_of(capsys, *words, *out(tmp_path))
     assert (tmp_path / "o.csv").read_text() == "before"
     assert not list(tmp_path.glob("o.[!c]*"))
+
+
+def test_a_wide_low_image_has_a_video(tmp_path: Path, drift_tracker: str) -> None:
+    """It proves that the overlay isn't enlarged beyond what its encoder takes."""
+    pytest.importorskip("av")
+    (tmp_path / "in").mkdir()
+    for number in range(3):
+        cv2.imwrite(str(tmp_path / "in" / f"{number}.png"), np.full((20, 2000, 3), 99, np.uint8))
+    words = ["--tracker", drift_tracker, "--box", "20,2,16,16", "--output", str(tmp_path / "o.mp4")]
+    assert main(["track", str(tmp_path / "in"), *words]) == 0
+    assert count_frames(tmp_path / "o.mp4") == 3
 
 
 def test_times_of_a_variable_rate(tmp_path: Path, drift_tracker: str) -> None:

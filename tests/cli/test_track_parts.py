@@ -11,6 +11,7 @@ import pytest
 import tricue.app
 from tricue import Box
 from tricue.cli.program import main
+from tricue.draw.video import OverlayWriter
 
 from tests.cli.test_track_several import images, rows
 
@@ -52,9 +53,14 @@ def test_a_box_of_a_later_frame(images: Path, tmp_path: Path, capsys: pytest.Cap
 def test_a_box_of_a_frame_that_never_comes(
     images: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """It proves that the other targets are tracked, whole, and that the exit code tells of this one."""
+    """It proves that in a video, whose length isn't known before, the other targets are tracked, whole, and
+    that the exit code tells of this one.
+    """
+    with OverlayWriter(tmp_path / "v.avi", 10.0) as writer:
+        for path in sorted(images.iterdir()):
+            writer.write(cv2.imread(str(path)))  # type: ignore[arg-type]
     words = ["--box", FIRST, "--box", f"8:{OTHER}", "--csv", str(tmp_path / "o.csv")]
-    code, printed, error = run(capsys, str(images), *words)
+    code, printed, error = run(capsys, str(writer.path), *words)
     assert (code, error) == (2, "tricue track: --box 8:...: expected a frame from 0 to 7\n")
     assert any(line.startswith("wrote") for line in printed)
     assert [row["frame"] for row in rows(tmp_path / "o.csv")] == [str(number) for number in range(8)]

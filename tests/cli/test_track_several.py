@@ -98,7 +98,15 @@ def test_parameters_are_for_all(images: Path, tmp_path: Path) -> None:
     [
         (["--plot", "o.png"], "tricue track: --plot: expected one --box, got 3"),
         (["--workers", "0"], "tricue track: argument --workers: expected a whole number above 0, got '0'"),
-        (["--box", "900,900,10,10"], "tricue track: box: expected a part inside the image"),
+        (
+            ["--box", "5:900,900,10,10"],
+            "tricue track: --box 5:900,900,10,10: expected a part inside the image of 160x120 pixels",
+        ),
+        (["--box", "5:9,9,1,10"], "tricue track: --box 5:9,9,1,10: expected at least 2 pixels of width"),
+        (
+            ["--box", "8:9,9,10,10", "--csv", "o.csv"],
+            "tricue track: --box 8:...: expected a frame from 0 to 7",
+        ),
         (["--mot", "o.txt", "--coco", "o.txt"], "o.txt: expected a file for each output, got this one twice"),
     ],
 )
@@ -120,3 +128,23 @@ def test_errors_are_one_line(
         code = stop.code  # type: ignore[assignment]
     assert code == 2
     assert error in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+class Picky:
+    """A third party's, which doesn't start on a narrow box."""
+
+    def init(self, image: object, box: tuple[float, ...]) -> None:
+        if box[2] < 20:
+            raise ValueError("too narrow")
+        self.box = box
+
+    def update(self, image: object) -> object:
+        return self.box
+
+
+def test_a_start_that_fails_names_its_frame_and_box(images: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that what no check can know before is told by the frame and the box."""
+    words = ["--tracker", f"{__name__}:Picky", "--box", "20,20,24,32", "--box", "3:90,60,12,32"]
+    assert main(["track", str(images), *words]) == 2
+    assert "frame 3, --box 90,60,12,32: " in capsys.readouterr().err

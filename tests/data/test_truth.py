@@ -105,6 +105,12 @@ def test_absent_targets_of_other_data_sets(tmp_path: Path, files: dict[str, str]
     ("name", "text", "message"),
     [
         (VOT_TRUTH, "1,2,3,4\n1,2,inf,4\n", "line 2: expected four numbers"),
+        (
+            VOT_TRUTH,
+            "1,2,3,4\n1,2,-3,4\n",
+            "line 2: expected a width and height of 0 or more, got '1,2,-3,4'",
+        ),
+        (OTB_TRUTH, "1,2,3,-4\n", "line 1: expected a width and height of 0 or more, got '1,2,3,-4'"),
         ("absent.tag", "0\n2\n", "line 2: expected 0, or 1 for an absent target, got '2'"),
         ("absent.tag", "0\n\n1\n", "line 2: expected 0, or 1"),
         ("out_of_view.txt", "0,1,,0\n", "line 1: expected 0, or 1 for an absent target, got ''"),
@@ -120,6 +126,22 @@ def test_bad_files_beside_the_boxes_are_named(tmp_path: Path, name: str, text: s
     (tmp_path / name).write_text(text)
     with pytest.raises(ValueError, match=f"{name}, {message}"):
         find_truth(tmp_path)
+
+
+@pytest.mark.parametrize("name", ["absence.label", "full_occlusion.txt", "out_of_view.txt"])
+@pytest.mark.parametrize("count", [3, 5])
+def test_tags_of_other_data_sets_are_as_many_as_boxes(tmp_path: Path, name: str, count: int) -> None:
+    """It proves that tags that can't be those of the boxes are an error that names their file, and that the
+    first box alone, as in test sets, goes with tags of all frames.
+    """
+    (tmp_path / VOT_TRUTH).write_text("1,2,3,4\n" * 4)
+    (tmp_path / name).write_text("0\n" * count)
+    with pytest.raises(ValueError, match=f"{name}: expected 4 numbers, one for each true box, got {count}"):
+        find_truth(tmp_path)
+    (tmp_path / VOT_TRUTH).write_text("1,2,3,4\n")
+    truth = find_truth(tmp_path)
+    assert truth is not None
+    assert len(truth.absent) == count
 
 
 def test_otb_targets(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from tricue import Box, Status, Track
 from tricue.draw.canvas import STATUS_COLORS
 from tricue.draw.depth_pictures import depth_picture, depth_range
 from tricue.draw.overlays import depth_overlay, overlay
+from tricue.draw.targets import targets_overlay
 
 BLACK = np.zeros((480, 640, 3), np.uint8)
 
@@ -43,6 +44,16 @@ def test_small_images_are_enlarged() -> None:
         picture = overlay(image, track(Box(50, 75, 15, 20)))
         assert picture.shape == (480, 640, 3)
         assert tuple(picture[300, 230]) == STATUS_COLORS[Status.TRACKED]
+
+
+@pytest.mark.parametrize(("shape", "scale"), [((20, 2000), 2), ((20, 5000), 1), ((20, 100), 24)])
+def test_wide_images_stay_narrow_enough_for_a_video(shape: tuple[int, int], scale: int) -> None:
+    """It proves that an image of few rows isn't enlarged beyond the columns that encoders take."""
+    image, box = np.zeros((*shape, 3), np.uint8), Box(20, 2, 16, 16)
+    large = scale * shape[0], scale * shape[1], 3
+    assert overlay(image, track(box)).shape == large
+    assert depth_overlay(np.ones(shape, np.float32), track(box)).shape == large
+    assert targets_overlay(image, {1: track(box)}).shape == large
 
 
 def test_particles_are_dots() -> None:

@@ -54,6 +54,13 @@ def test_the_inset_stands_apart(
         assert start <= found.min() <= found.max() < stop
 
 
+def test_a_low_picture_has_room_for_a_small_inset() -> None:
+    """It proves that an inset stays inside a picture that is lower than the inset's caption."""
+    wall = np.random.default_rng(0).integers(0, 256, (10, 5000 + DISPARITY, 3), np.uint8)
+    low = Frame(wall[:, :-DISPARITY], right=wall[:, DISPARITY:])
+    assert stereo_overlay(low, track(Box(200, 1, 8, 8)), RIG).shape == (10, 5000, 3)
+
+
 @pytest.mark.parametrize(
     ("box", "place"),
     [

@@ -129,6 +129,16 @@ def test_a_full_disk_names_the_file(tmp_path: Path) -> None:
         _write_noise(encoder, 100)
 
 
+def test_what_the_encoder_refuses_names_the_file(tmp_path: Path) -> None:
+    """It proves that an error of the library behind PyAV is an OSError, too, here of a picture too wide."""
+    pytest.importorskip("av")
+    encoder = PyAVEncoder(tmp_path / "o.mp4", 5.0, (20_000, 20))
+    with pytest.raises(OSError, match=r"o\.mp4: expected a video that the encoder can write, got: "):
+        encoder.write(np.zeros((20, 20_000, 3), np.uint8))
+    with pytest.raises(OSError, match=r"o\.mp4: "):
+        encoder.close()
+
+
 TIMES = [5.0, 5.04, 5.08, 6.5, 6.54, 9.0]
 """Of a recording that pauses twice, seconds."""
 

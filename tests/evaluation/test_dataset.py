@@ -255,6 +255,67 @@ def test_runs_start_where_the_truth_starts(tmp_path):
     assert np.isnan(row.true_negative)
 
 
+LAYOUTS = {"otb": ("img", "groundtruth_rect.txt", 4), "vot": ("color", "groundtruth.txt", 8)}
+LAYOUTS |= {"lasot": ("img", "groundtruth.txt", 8), "got10k": (".", "groundtruth.txt", 8)}
+
+
+def write_numbered(folder, layout, numbers, boxes):
+    """A sequence of a benchmark with images of these numbers, and so many true boxes."""
+    place, truth, digits = LAYOUTS[layout]
+    (folder / place).mkdir(parents=True)
+    for number in numbers:
+        cv2.imwrite(str(folder / place / f"{number:0{digits}d}.png"), color(number))
+    (folder / truth).write_text(BOX * boxes)
+    if layout == "vot":
+        (folder / "sequence").write_text("channels.color=color/%08d.png\nfps=10\n")
+    return Entry(folder.name, folder).open()
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_a_missing_image_is_named(tmp_path, layout):
+    """Later true boxes would be those of other images."""
+    place, _, digits = LAYOUTS[layout]
+    opened = write_numbered(tmp_path / "walk", layout, [1, 2, 4, 5, 6], 6)
+    missing = (
+        rf"{tmp_path / 'walk' / place}: expected images 0*1 to 0*6, .* 6 true boxes, got .* {3:0{digits}d}$"
+    )
+    with pytest.raises(ValueError, match=missing):
+        opened.check()
+
+
+@pytest.mark.parametrize(
+    ("numbers", "boxes"),
+    [
+        ([1, 2, 3, 4], 4),
+        ([1, 3, 5, 7], 4),
+        ([1, 2, 4, 5], 4),
+        ([1, 2, 3, 4], 6),
+        ([5, 6, 7], 2),
+        ([1, 2, 4], 2),
+    ],
+)
+def test_images_that_no_true_box_needs_are_not_missing(tmp_path, numbers, boxes):
+    """Every other image with its box, other gaps without a row, and boxes that end before or after."""
+    write_numbered(tmp_path / "walk", "otb", numbers, boxes).check()
+
+
+def test_a_missing_image_of_those_that_otbs_boxes_are_for(tmp_path):
+    """Football1's boxes are for 74 of 81 images; without the last of all nothing is shifted."""
+    numbers = [number for number in range(1, 82) if number != 9]
+    with pytest.raises(ValueError, match=r"expected images 0001 to 0074, .* 74 true boxes, got .* 0009$"):
+        write_numbered(tmp_path / "Football1", "otb", numbers, 74).check()
+    write_numbered(tmp_path / "a" / "Football1", "otb", [*range(1, 80), 81], 74).check()
+
+
+def test_a_start_without_a_frame_after_it_is_refused(tmp_path):
+    """Where the first true box is that of the last image, no tracker can run."""
+    opened = write_numbered(tmp_path / "walk", "vot", [1, 2, 3], 3)
+    opened.check()
+    (tmp_path / "walk" / "groundtruth.txt").write_text("nan,nan,nan,nan\n" * 2 + BOX)
+    with pytest.raises(ValueError, match=r"walk: expected a frame after the first true box, got 3 frames"):
+        Entry("walk", tmp_path / "walk").open().check()
+
+
 def test_absent_frames_make_rates(tmp_path):
     """A box that never moves says TRACKED where the target is gone: no true negative."""
     folder = write_rgbd(tmp_path / "walk")

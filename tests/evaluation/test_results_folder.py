@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Folders of others' results, written here as the toolkits write them."""
 
+import shutil
+from dataclasses import astuple
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +11,7 @@ from tricue.evaluation.dataset import Entry, find_entries
 from tricue.evaluation.evaluate import Options, evaluate
 from tricue.evaluation.markdown import markdown
 from tricue.evaluation.results_folder import ResultError, results_spec, sequence_names
+from tricue.evaluation.rows import make_row, score_run
 from tricue.track.base.track import Status
 
 FRAMES = 20
@@ -188,6 +191,38 @@ def test_results_are_compared_as_if_they_had_been_run(tmp_path, folders, patrol)
     shown = markdown(evaluation)
     line = next(line for line in shown.splitlines() if line.startswith("| theirs"))
     assert [cell.strip() for cell in line.split("|")[-3:]] == ["-", "-", ""]
+
+
+@pytest.mark.parametrize("form", ["otb", "vot"])
+def test_as_many_lines_as_rows_of_the_truth(tmp_path, there, found, form):
+    """It proves that results end with the true boxes where the folder has more images, as OTB's Football1:
+    the frames after them have no box, which counts for nothing and isn't told.
+    """
+    place = tmp_path / "there"
+    shutil.copytree(there.entry.place, place)
+    truth = next(path for path in place.glob("groundtruth*"))
+    truth.write_text("".join(truth.read_text().splitlines(keepends=True)[:15]))
+    opened = Entry("there", place).open()
+    assert (opened.source.length, len(opened.boxes)) == (20, 15)
+    rows = []
+    for count in (15, 20):
+        folder = tmp_path / str(count)
+        if form == "otb":
+            write(folder / "there.txt", found[:count] + [1, 1, 0, 0])
+        else:
+            path = folder / "unsupervised" / "there" / "there_001.txt"
+            write_lines(path, lines(found[:count]))
+            write_lines(path.with_name("there_001_confidence.value"), ["", *["0.5"] * (count - 1)])
+            write_lines(path.with_name("there_001_time.value"), ["0.1"] * count)
+        (record,), *_ = results_spec(f"theirs={folder}").read(opened)
+        assert record.error == ""
+        assert np.isnan(record.run.boxes[count:]).all()
+        assert record.run.seconds.size == (count - 1 if form == "vot" else 0)
+        rows.append(make_row(opened, "theirs", 0, score_run(record, opened)))
+    np.testing.assert_equal(astuple(rows[0]), astuple(rows[1]))
+    write(tmp_path / "16" / "there.txt", found[:16])
+    with pytest.raises(ResultError, match="has 16 lines, the sequence 20 frames and 15 rows of true boxes"):
+        results_spec(f"theirs={tmp_path / '16'}").read(opened)
 
 
 def test_what_is_no_box_is_told(tmp_path, there, found):

@@ -3,6 +3,7 @@ import math
 
 import numpy as np
 import pytest
+from tricue.evaluation.markdown import telling
 from tricue.evaluation.significance import compare
 
 SEQUENCES = [f"s{index}" for index in range(20)]
@@ -58,6 +59,28 @@ def test_few_recordings_tell_nothing():
     assert math.isnan(found.pair("good", "bad").adjusted)
     assert not found.means["good"].known
     assert found.means["good"].mean == pytest.approx(np.mean(list(made(0.9, 1).values())))
+
+
+def test_many_pairs_of_few_recordings_have_no_leader():
+    """Of six recordings the least p is 1/32: two trackers can be told apart, three have three pairs, of which
+    none can differ by Holm's method, however large the difference; so none is among the best.
+    """
+    six = {name: name for name in SEQUENCES[:6]}
+    values = {
+        name: {each: made(mean, 1)[each] for each in six}
+        for name, mean in (("a", 0.9), ("b", 0.5), ("c", 0.1))
+    }
+    two = compare({name: values[name] for name in "ab"}, six)
+    assert two.separable
+    assert two.leaders() == {"a"}
+    three = compare(values, six)
+    assert three.telling
+    assert not three.separable
+    assert not three.leaders()
+    assert telling(three).endswith(
+        "None is marked: of so few recordings no p of 3 pairs can be under 0.05 by Holm."
+    )
+    assert not compare({"a": values["a"]}, six).separable
 
 
 def test_trackers_are_compared_where_both_ran():

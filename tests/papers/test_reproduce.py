@@ -133,6 +133,20 @@ def test_bad_arguments_are_named(arguments, words, tmp_path):
     assert not (tmp_path / "new").exists()
 
 
+@pytest.mark.parametrize("name", [".", "sabeti-fig2.csv/x"])
+def test_an_output_that_can_not_be_written_is_told_first(name, tmp_path):
+    """A file in the place of the folder, and a folder in that of the table, come before the work."""
+    (tmp_path / "out" / name).mkdir(parents=True)
+    output = tmp_path / "out"
+    if name == ".":
+        output = tmp_path / "file"
+        output.touch()
+    calls = []
+    with pytest.raises(OSError, match=r"sabeti-fig2\.(png|csv)"):
+        reproduce.run("sabeti-fig2", 1, output, progress=lambda *n: calls.append(n), models=STILL)
+    assert not calls
+
+
 def test_missing_matplotlib_names_the_extra(monkeypatch, tmp_path):
     """Without matplotlib the error comes before the work and says how to install it."""
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)

@@ -135,7 +135,7 @@ def draw_targets(
     trails: those to be drawn, by the targets' ids.
     """
     image = picture(frame)
-    scale = choose_scale(image.shape[0])
+    scale = choose_scale(*image.shape[:2])
     canvas = enlarge(image, scale, cv2.INTER_CUBIC)
     for target, _ in tracks:
         if trails and target.id in trails:

@@ -99,8 +99,9 @@ def as_box(value: BoxLike, name: str = "box") -> Box:
         expected = "at most a million pixels" if all(map(math.isfinite, box)) else "finite numbers"
         raise BoxError(f"{name}: expected {expected}, got {tuple(box)}")
     if not (box.width > 0 and box.height > 0):
-        drag = "; a box dragged up or left has its corners swapped" if min(box.width, box.height) < 0 else ""
-        raise BoxError(f"{name}: expected width and height above 0, got {tuple(box)}{drag}")
+        dragged = name == "box" and min(box.width, box.height) < 0  # by a person, not by a tracker
+        hint = "; a box dragged up or left has its corners swapped" if dragged else ""
+        raise BoxError(f"{name}: expected width and height above 0, got {tuple(box)}{hint}")
     return box
 
 

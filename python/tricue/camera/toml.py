@@ -19,7 +19,7 @@ def read(path: str | os.PathLike[str]) -> dict[str, Any]:
     except ImportError:
         raise ImportError("TOML on Python 3.10 needs an extra: pip install 'tricue[toml]'") from None
     try:
-        return dict(parser.loads(Path(path).read_text(encoding="utf-8")))
+        return dict(parser.loads(Path(path).read_text(encoding="utf-8-sig")))
     except RecursionError:
         raise ValueError(f"{path}: expected a TOML file, its values are nested too deeply") from None
     except ValueError as error:  # both bad TOML and bad UTF-8

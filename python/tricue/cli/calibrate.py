@@ -2,7 +2,10 @@
 """``tricue calibrate WHAT``: parameters of the trackers, measured on the user's own images."""
 
 import argparse
-from collections.abc import Iterator, Mapping
+import os
+import shutil
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain, tee
 from pathlib import Path
 from typing import Any
@@ -15,6 +18,7 @@ from tricue.data.color_samples import read_color_samples
 from tricue.data.input_files import input_files
 from tricue.data.open_source import open_source
 from tricue.data.skin_masks import find_masked_images, is_mask_folder
+from tricue.draw.writable import check_writable
 from tricue.track.base.params import Params
 from tricue.track.base.registry import tracker_class
 
@@ -64,7 +68,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     noise.add_argument("--calibration", type=Path, metavar="FILE", help="of the stereo pair")
     noise.add_argument("--rectify", action="store_true", help="rectify raw pairs by OpenCV's --calibration")
     noise.add_argument("--unit", type=float, metavar="M", help="meters per unit of its board")
-    noise.set_defaults(measure=_stereo_noise, tracker="stereo-head", fov=None, assume_fov=None)
+    noise.set_defaults(measure=_stereo_noise, tracker="stereo-head", fov=None)
     for kind in (skin, head, noise):
         kind.add_argument(
             "--params", type=Path, metavar="FILE", help="parameters to measure with and to keep, TOML"
@@ -84,10 +88,10 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _skin_threshold(options: argparse.Namespace, _params: Any) -> dict[str, Any]:
-    from tricue.papers.roc import skin_roc
+    from tricue.papers.roc import LOWEST_SKIN_THRESHOLD, skin_roc
 
     pairs = find_masked_images(options.place)
-    check_not_read([options.output], chain.from_iterable(pairs))
+    _check_output(options.output, chain.from_iterable(pairs))
     images, masks = tee(pair.read() for pair in pairs)
     try:
         curve = skin_roc((image for image, _ in images), (mask for _, mask in masks))
@@ -95,10 +99,10 @@ def _skin_threshold(options: argparse.Namespace, _params: Any) -> dict[str, Any]
         if str(error).startswith("masks:"):
             raise ValueError(f"{options.place}: {error}; no mask marks skin, or all do") from None
         raise
-    threshold, _ = curve.at_false_positive_rate(options.false_positives)
+    threshold, _ = curve.at_false_positive_rate(options.false_positives, LOWEST_SKIN_THRESHOLD)
     print(f"{options.place}: {len(pairs)} images, area under the ROC curve {curve.area:.3f}")
     for rate in sorted({*RATES, options.false_positives}):
-        at, found = curve.at_false_positive_rate(rate)
+        at, found = curve.at_false_positive_rate(rate, LOWEST_SKIN_THRESHOLD)
         print(f"  false positives {rate:5.1%}: threshold {at:6.3f}, {found:.1%} of the skin")
     return {"skin_threshold": round(threshold, 4)}
 
@@ -106,7 +110,7 @@ def _skin_threshold(options: argparse.Namespace, _params: Any) -> dict[str, Any]
 def _head_colors(options: argparse.Namespace, params: Any) -> dict[str, Any]:
     from tricue.track.stereo_head.color_samples import head_colors
 
-    check_not_read([options.output], chain(_sample_files(options.skin), _sample_files(options.hair)))
+    _check_output(options.output, chain(_sample_files(options.skin), _sample_files(options.hair)))
     weight = params.hair if options.hair_weight is None else options.hair_weight
     skin, hair = read_color_samples(options.skin), read_color_samples(options.hair)
     colors = head_colors(skin, hair, weight, params)
@@ -127,7 +131,7 @@ def _stereo_noise(options: argparse.Namespace, params: Any) -> dict[str, Any]:
     source = open_source(options.input, right=options.right)
     places = [Path(place) for place in (options.input, options.right) if place]
     given = [*places, options.calibration] if options.calibration else places
-    check_not_read([options.output], chain(given, input_files(source, *places)))
+    _check_output(options.output, chain(given, input_files(source, *places)))
     found = find_calibration(options, source)
     head = options.box or source.first_box
     if head is None:
@@ -139,7 +143,8 @@ def _stereo_noise(options: argparse.Namespace, params: Any) -> dict[str, Any]:
     except ValueError as error:
         raise ValueError(f"{source.name}: {error}") from None
     measured = static.noise
-    print(f"{source.name}: a head measured in {len(static.colors)} of {static.frames} stereo pairs")
+    pairs = f"{static.frames} stereo pairs after the first, which gives the model"
+    print(f"{source.name}: a head measured in {len(static.colors)} of {pairs}")
     if options.distance is not None:
         assert found.rig
         measured["disparity_noise"] = static.disparity_noise(found.rig, options.distance)
@@ -158,14 +163,42 @@ def _rounded(value: Any) -> Any:
     return float(f"{value:.4g}")
 
 
+def _check_output(path: Path, read: Iterable[Path]) -> None:
+    """ValueError for an output that is among the files that are read, OSError for one that can't be written.
+
+    Both before anything is measured.
+    """
+    check_not_read([path], read)
+    check_writable(path)
+
+
 def _write(path: Path, kind: type[Params], values: Mapping[str, Any], measured: Mapping[str, Any]) -> None:
-    """Write the parameters, once they are known to be good: a whole file or none."""
+    """Write the parameters, once they are known to be good: a whole file or none.
+
+    A link stays one. A pipe, a device, and a file in a folder that takes no other is written into.
+    """
     kind(**values)
     text = toml.dumps(values, dict.fromkeys(measured, "measured: tricue calibrate"))
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f"{path.name}.part")
     try:
-        part.write_text(text, encoding="utf-8")
+        if path.exists() and not (path.is_file() and os.access(path.resolve().parent, os.W_OK)):
+            path.write_text(text, encoding="utf-8")
+        else:
+            _replace(path.resolve(), text)
+    except OSError as error:  # it may name the temporary file, or none
+        raise OSError(error.errno, error.strerror, str(path)) from None
+
+
+def _replace(path: Path, text: str) -> None:
+    """Write a regular file beside the one that is there, which it then replaces."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    number, name = tempfile.mkstemp(prefix=".tricue-", dir=path.parent)
+    part = Path(name)
+    try:
+        with os.fdopen(number, "w", encoding="utf-8") as file:
+            file.write(text)
+        if not path.exists():
+            path.touch()  # which gets the mode of any new file
+        shutil.copymode(path, part)
         part.replace(path)
     finally:
         part.unlink(missing_ok=True)

@@ -65,7 +65,7 @@ def find_calibration(options: Namespace, source: Source) -> Calibration:
     of distortion that isn't taken out.
     """
     cameras = traits(options.tracker).camera
-    if options.assume_fov:
+    if getattr(options, "assume_fov", None):  # not every command has it
         return _assume(options, source, cameras)
     if "rig" in cameras and ("right" in source.channels or "intrinsics" not in cameras):
         return _find_stereo(options, source)
@@ -81,7 +81,7 @@ def find_calibration(options: Namespace, source: Source) -> Calibration:
         return Calibration(_intrinsics_from_angles(source, options.fov))
     if options.calibration:
         return _read_file(options.calibration, source, cameras)
-    return _find_intrinsics(source, cameras)
+    return _find_intrinsics(source, cameras, _advice("--calibration FILE or --fov H,V", options))
 
 
 def _find_stereo(options: Namespace, source: Source) -> Calibration:
@@ -101,11 +101,14 @@ def _find_stereo(options: Namespace, source: Source) -> Calibration:
         return Calibration(rig=rectification.rig, rectify=rectification)
     if options.calibration:
         return Calibration(rig=read_rig(options.calibration, source.size, options.unit))
-    return _find_rig(source)
+    return _find_rig(source, _advice(STEREO_FILE, options))
 
 
-def _find_rig(source: Source) -> Calibration:
-    """The rig of the file beside the images. Nobody asked for it, so an unusable file is no error."""
+def _find_rig(source: Source, give: str) -> Calibration:
+    """The rig of the file beside the images. Nobody asked for it, so an unusable file is no error.
+
+    give: how the user can give one.
+    """
     reason = "the pair's calibration isn't known"
     if source.calibration is not None:
         try:
@@ -117,9 +120,13 @@ def _find_rig(source: Source) -> Calibration:
     elif isinstance(source.camera, StereoRig):
         return Calibration(rig=source.camera, note=OWN_CALIBRATION)
     if "right" in source.channels:  # else the missing right images are reported first
-        give = f"give {STEREO_FILE}, or {ASSUME}"
         warnings.warn(f"{reason}; tracks will have no position in meters; {give}", stacklevel=2)
     return Calibration()
+
+
+def _advice(ways: str, options: Namespace) -> str:
+    """How to give a camera, by these options or by assuming one where the command can."""
+    return f"give {ways}, or {ASSUME}" if "assume_fov" in options else f"give {ways}"
 
 
 def _assume(options: Namespace, source: Source, cameras: Collection[str]) -> Calibration:
@@ -151,8 +158,11 @@ def _read_file(path: Path, source: Source, cameras: Collection[str]) -> Calibrat
     return Calibration(read_intrinsics(path, source.size, "depth" if "depth" in streams else "color"))
 
 
-def _find_intrinsics(source: Source, cameras: Collection[str]) -> Calibration:
-    """The camera of the file beside the images. Nobody asked for it, so an unusable file is no error."""
+def _find_intrinsics(source: Source, cameras: Collection[str], give: str) -> Calibration:
+    """The camera of the file beside the images. Nobody asked for it, so an unusable file is no error.
+
+    give: how the user can give one.
+    """
     reason = "the depth camera's intrinsics aren't known"
     if source.calibration is not None:
         try:
@@ -167,5 +177,4 @@ def _find_intrinsics(source: Source, cameras: Collection[str]) -> Calibration:
         return Calibration(own.intrinsics if isinstance(own, StereoRig) else own, OWN_CALIBRATION)
     if "depth" not in source.channels:
         return Calibration(note="" if source.calibration is None else reason)
-    give = f"give --calibration FILE or --fov H,V, or {ASSUME}"
     return Calibration(note=f"{reason}; tracks have no position in meters; {give}")

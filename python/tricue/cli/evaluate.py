@@ -150,7 +150,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the command: progress on stderr, the table on stdout. The exit code is 1 if a sequence couldn't be
-    read.
+    read, or if a tracker or a folder of results that was asked for has nothing on any sequence.
     """
     svg.require()  # now, not after hours
     if options.raw is not None:
@@ -231,23 +231,70 @@ def _report(evaluation: Evaluation, folder: Path, options: argparse.Namespace) -
     if options.figures:
         written += write_figures(evaluation, folder / FIGURES, options.figures)
     print(markdown(evaluation))
-    for each in evaluation.results:
-        if each.row.trouble:
-            print(f"{each.row.tracker} on {each.row.sequence}, seed {each.row.seed}: {each.row.trouble}")
-    for line in [*_left_out(evaluation), *evaluation.notes]:
+    for line in [*_troubles(evaluation), *_left_out(evaluation), *evaluation.notes]:
         print(line)
-    for name, error in evaluation.failed.items():
-        print(f"failed: {name}: {error}", file=sys.stderr)
+    errors = _errors(evaluation)
+    for error in errors:
+        print(f"failed: {error}", file=sys.stderr)
     for path in written:
         print(f"wrote {path}")
-    return FAILED if evaluation.failed else 0
+    return FAILED if errors else 0
+
+
+def _errors(evaluation: Evaluation) -> list[str]:
+    """What makes the exit code 1: sequences that can't be read, and what was asked for and has nothing."""
+    asked, total = _asked(evaluation), len(evaluation.opened)
+    return [
+        *(f"{name}: {error}" for name, error in evaluation.failed.items()),
+        *(line for name in evaluation.unstarted if name in asked for line in _unstarted(evaluation, name)),
+        *(f"{name}: no result that fits any of {total} sequences" for name in _without_results(evaluation)),
+    ]
+
+
+def _troubles(evaluation: Evaluation) -> list[str]:
+    """The errors of trackers. One that started nowhere has a line a reason; it isn't a failure if it is one
+    of all: stereo-head, for one, doesn't start on what is too near.
+    """
+    asked, unstarted = _asked(evaluation), evaluation.unstarted
+    rows = [each.row for each in evaluation.results if each.row.trouble]
+    return [
+        *(
+            f"{r.tracker} on {r.sequence}, seed {r.seed}: {r.trouble}"
+            for r in rows
+            if r.tracker not in unstarted
+        ),
+        *(line for name in unstarted if name not in asked for line in _unstarted(evaluation, name)),
+    ]
+
+
+def _unstarted(evaluation: Evaluation, tracker: str) -> list[str]:
+    """The lines of a tracker that started on no sequence."""
+    reasons = evaluation.unstarted[tracker]
+    total = len({name for names in reasons.values() for name in names})
+    noun = "sequence" if total == 1 else "sequences"
+    return [f"{tracker} on {len(names)} of {total} {noun}: {why}" for why, names in reasons.items()]
+
+
+def _without_results(evaluation: Evaluation) -> list[str]:
+    """The folders of results, by name, of which nothing could be compared."""
+    there = {each.row.tracker for each in evaluation.results}
+    return [name for name in _result_names(evaluation.options) if name not in there]
+
+
+def _result_names(options: Options) -> list[str]:
+    return [text.partition("=")[0].strip() for text in options.results]
+
+
+def _asked(evaluation: Evaluation) -> set[str]:
+    """What was asked for by its name: trackers, unless there are all, and results."""
+    options = evaluation.options
+    asked = {each.name for each in evaluation.trackers} if options.trackers else set()
+    return asked | {*_result_names(options)}
 
 
 def _left_out(evaluation: Evaluation) -> list[str]:
     """What didn't run of what was asked for by its name, and why."""
-    options = evaluation.options
-    asked = {each.name for each in evaluation.trackers} if options.trackers else set()
-    asked |= {text.partition("=")[0].strip() for text in options.results}
+    asked = _asked(evaluation)
     sequences: dict[tuple[str, str], list[str]] = {}
     for (tracker, sequence), why in evaluation.left_out.items():
         if tracker in asked:

@@ -41,7 +41,6 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--seed", type=int, default=0, help="of the random numbers, default %(default)s")
     add_topics(command)
     add_source_options(command)
-    command.set_defaults(assume_fov=None)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -214,7 +214,7 @@ class VideoOutput:
         for target, track in step.targets.items():
             trail = self._trails.setdefault(target, Trail(seconds))
             trail.add(self._seconds(step), track)
-            trail.draw(picture, choose_scale(image.shape[0]), target_color(target))
+            trail.draw(picture, choose_scale(*image.shape[:2]), target_color(target))
 
     def _picture(self, step: Step, note: str) -> Image:
         color, depth = step.frame.color, step.frame.depth

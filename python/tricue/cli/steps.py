@@ -84,7 +84,8 @@ def steps_of_targets(
             tracks = targets.update(frame)
         if starting:
             for box in starting:
-                targets.add(frame, box)
+                with _naming_frame(index, box):
+                    targets.add(frame, box)
             tracks = targets.tracks
         seconds = perf_counter() - before
         for track in tracks.values():
@@ -96,12 +97,13 @@ def steps_of_targets(
 
 
 @contextmanager
-def _naming_frame(number: int) -> Iterator[None]:
-    """Put a frame's number before what an error says: it may be one of thousands."""
+def _naming_frame(number: int, box: Box | None = None) -> Iterator[None]:
+    """Put a frame's number before what an error says: it may be one of thousands. box: which starts there."""
     try:
         yield
     except ValueError as error:
-        raise ValueError(f"frame {number}: {error}") from error
+        where = "" if box is None else f", --box {','.join(f'{value:g}' for value in box)}"
+        raise ValueError(f"frame {number}{where}: {error}") from error
 
 
 def _started(tracker: Tracker, frame: Frame, box: Box | None, clock: RunClock) -> Track | None:

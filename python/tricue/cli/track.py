@@ -74,7 +74,8 @@ def _with_start_hint(found: Iterator[Step], run: TrackRun, clock: RunClock) -> I
         yield from found
     except ValueError as error:
         if clock.decoded == 1 and not any(clock.statuses.values()):
-            hint = start_hint(error, run.source, run.tracker)
+            errors = [each for each in (error, error.__cause__) if isinstance(each, ValueError)]
+            hint = next(filter(None, (start_hint(each, run.source, run.tracker) for each in errors)), "")
             raise ValueError(f"{in_options(str(error))}{hint}") from None
         raise
 

@@ -21,8 +21,10 @@ from tricue.data.input_files import input_files
 from tricue.data.open_source import Source, open_source
 from tricue.draw.video import check_name, written_path
 from tricue.draw.writable import check_writable
+from tricue.errors import BoxError
 from tricue.track.base.settings import make_tracker, read_settings
 from tricue.track.base.track import Tracker
+from tricue.track.base.validation import check_box_in
 from tricue.track.multi.tracker import MultiTracker
 
 
@@ -98,6 +100,7 @@ def prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
     run = TrackRun(source, tracker, known, start, rig, first=first, end=None if end is None else end + 1)
     run = run._replace(assumed=found.assumed)
     if several:
+        _check_boxes(boxes, source)
         run = run._replace(targets=_targets(options, found.keywords), boxes=boxes)
     return run, [*source.notes, *filter(None, [found.note, _time_note(source)])]
 
@@ -154,6 +157,20 @@ def _numbered(options: argparse.Namespace) -> list[tuple[int, Box]]:
         if not options.start <= frame <= last:
             raise ValueError(f"--box {frame}:...: expected a frame from --start to --end")
     return found
+
+
+def _check_boxes(boxes: Sequence[tuple[int, Box]], source: Source) -> None:
+    """ValueError that names a box on which no tracker could start, before hours with the others."""
+    first = min(frame for frame, _ in boxes)
+    width, height = map(max, zip(*(stream.size for stream in source.channels.values()), strict=True))
+    for frame, box in boxes:
+        if source.length is not None and first < source.length <= frame:
+            raise ValueError(f"--box {frame}:...: expected a frame from {first} to {source.length - 1}")
+        try:
+            check_box_in(box, (height, width))
+        except BoxError as error:
+            reason = str(error).removeprefix("box: ")
+            raise ValueError(f"--box {frame}:{','.join(f'{value:g}' for value in box)}: {reason}") from None
 
 
 def _targets(options: argparse.Namespace, camera: Mapping[str, Any]) -> MultiTracker:

@@ -67,11 +67,18 @@ def require_all_started(run: TrackRun, clock: RunClock) -> None:
 
 
 def plot(path: Path, run: TrackRun, tracks: Mapping[int, Track]) -> str:
-    """Write the path seen from above; a note about the result."""
+    """Write the path seen from above; a note about the result.
+
+    Where there is none, an earlier run's picture is removed, which would be taken for this one's.
+    """
     from tricue.draw.paths import save_path
 
     if all(track.position is None for track in tracks.values()):
-        return f"{path}: not written, no track has a position in meters"
+        earlier = path.is_file()
+        if earlier:
+            path.unlink()
+        removed = "; removed that of an earlier run" if earlier else ""
+        return f"{path}: not written, no track has a position in meters{removed}"
     save_path(path, tracks.values(), run.intrinsics)
     return f"wrote {path}{', in assumed meters' if run.assumed else ''}"
 

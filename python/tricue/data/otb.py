@@ -23,14 +23,22 @@ def has_otb_truth(folder: Path) -> bool:
     return (folder / OTB_TRUTH).is_file() or bool(otb_targets(folder))
 
 
+def find_range(folder: Path, boxes: int) -> tuple[int, int]:
+    """The numbers of the first and the last image that so many true boxes of the sequence are for; an empty
+    range where no other images than those with boxes are known.
+    """
+    first, last = FRAME_RANGES.get(folder.resolve().name.lower(), (0, -1))
+    return (first, last) if boxes == last - first + 1 else (0, -1)
+
+
 def cut_to_range(folder: Path, color: Stream, boxes: int) -> Images | None:
     """The images that the true boxes are for, where a sequence has more images than boxes; else None.
 
     boxes: how many true boxes there are. Images that already begin where the range does need no cut, for
     boxes and images then correspond by index.
     """
-    first, last = FRAME_RANGES.get(folder.resolve().name.lower(), (0, -1))
-    if not (isinstance(color, Images) and boxes == last - first + 1 < len(color.paths)):
+    first, last = find_range(folder, boxes)
+    if first > last or not (isinstance(color, Images) and boxes < len(color.paths)):
         return None
     names = [path.stem for path in color.paths]
     if not all(name.isdecimal() for name in names):

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 OTB_TRUTH, VOT_TRUTH, PRINCETON_FIRST_BOX = "groundtruth_rect.txt", "groundtruth.txt", "init.txt"
 ABSENT_TAGS = ("absent.tag", "absence.label", "full_occlusion.txt", "out_of_view.txt")
 """Of VOT, GOT-10k and, the last two, LaSOT: a number per frame, 1 where the target can't be seen."""
+_WHOLE_TAGS = ABSENT_TAGS[1:]  # as many as boxes; the VOT toolkit takes those that a shorter file lacks for 0
 MAX_FRAME_NUMBER = 10_000_000  # a day at 100 frames per second; a larger number can't be a frame's
 DEPTHS_FILE = (
     "position_z_mm.txt"  # one line per frame: the target's median depth in millimeters, 0 or NaN if unknown
@@ -53,7 +54,10 @@ def find_truth(folder: Path, target: str | None = None) -> Truth | None:
     ValueError names the file and its line, or the targets that there are.
     """
     path = _truth_path(folder, target)
-    return None if path is None else add_tags_and_depths(read_truth_file(path), folder)
+    if path is None:
+        return None
+    truth = read_truth_file(path)
+    return add_tags_and_depths(truth, folder, len(truth.boxes))
 
 
 def find_princeton_truth(folder: Path) -> Truth | None:
@@ -77,11 +81,18 @@ def truth_files(folder: Path) -> list[Path]:
     return [folder / name for name in names if (folder / name).is_file()]
 
 
-def add_tags_and_depths(truth: Truth, folder: Path) -> Truth:
-    """Add the tags of absent frames and the file of depths, where the folder has them."""
+def add_tags_and_depths(truth: Truth, folder: Path, rows: int = 0) -> Truth:
+    """Add the tags of absent frames and the file of depths, where the folder has them.
+
+    rows: how many boxes a benchmark's file has. LaSOT's and GOT-10k's tags are as many, or ValueError names
+    their file, unless there is the first box alone, as in test sets.
+    """
     for path in (folder / name for name in ABSENT_TAGS):
         if path.is_file():
-            truth = _apply_tag(truth, _read_tag(path))
+            tag = _read_tag(path)
+            if path.name in _WHOLE_TAGS and 1 < rows != len(tag):
+                raise ValueError(f"{path}: expected {rows} numbers, one for each true box, got {len(tag)}")
+            truth = _apply_tag(truth, tag)
     if truth.positions is None and (folder / DEPTHS_FILE).is_file():
         depths = _read_depths(folder / DEPTHS_FILE)
         unknown = np.full(len(depths), np.nan)
@@ -102,7 +113,7 @@ def read_truth_file(path: Path, count: int | None = None) -> Truth:
     anything else.
     """
     numbered = enumerate(read_lines(path), 1)
-    truth = truth_from_rows([read_box(line, f"{path}, line {number}", count) for number, line in numbered])
+    truth = truth_from_rows([_true_box(line, f"{path}, line {number}", count) for number, line in numbered])
     if path.name == OTB_TRUTH or _OTB_TARGET_TRUTH.fullmatch(path.name):
         return truth._replace(boxes=truth.boxes - [1, 1, 0, 0])
     return truth
@@ -150,6 +161,14 @@ def read_box(line: str, place: str, count: int | None = None) -> tuple[float, ..
             xs, ys = numbers[::2], numbers[1::2]
             return min(xs), min(ys), max(xs) - min(xs), max(ys) - min(ys)
     raise ValueError(f"{place}: expected four numbers x, y, width, height, got {line.strip()!r:.60}")
+
+
+def _true_box(line: str, place: str, count: int | None) -> tuple[float, ...]:
+    """As :func:`read_box`; ValueError also for a negative width or height, which may be a corner's place."""
+    box = read_box(line, place, count)
+    if min(box[2:]) < 0:
+        raise ValueError(f"{place}: expected a width and height of 0 or more, got {line.strip()!r:.60}")
+    return box
 
 
 def _apply_tag(truth: Truth, tag: NDArray[np.bool_]) -> Truth:

@@ -21,6 +21,7 @@ STATUS_COLORS: dict[Status, Color] = {  # they differ in lightness too, for red-
 }
 WHITE, BLACK = (255, 255, 255), (0, 0, 0)
 MIN_ROWS = 480  # smaller images are enlarged, so that lines and letters stay fine
+MAX_COLUMNS = 4096  # to which they are, as encoders and players take no picture that is much wider
 MAX_DRAWN_COORDINATE = 30000  # pixels, which OpenCV's integers can hold
 _FONT = cv2.FONT_HERSHEY_SIMPLEX
 
@@ -35,9 +36,9 @@ def to_gray(image: NDArray[Any]) -> Image:
     return np.asarray(image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY), np.uint8)
 
 
-def choose_scale(rows: int) -> int:
-    """The whole number by which an image of so many rows is enlarged before it is drawn on."""
-    return max(1, MIN_ROWS // rows)
+def choose_scale(rows: int, columns: int = 1) -> int:
+    """The whole number by which an image of so many rows and columns is enlarged before it is drawn on."""
+    return max(1, min(MIN_ROWS // rows, MAX_COLUMNS // columns))
 
 
 def enlarge(image: NDArray[Any], scale: int, interpolation: int) -> Image:

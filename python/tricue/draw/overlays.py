@@ -43,7 +43,7 @@ def overlay(
     truth: the true box, drawn thin and white. note: text below the status. ellipse: whether the box's
     inscribed ellipse is drawn, too.
     """
-    scale = choose_scale(image.shape[0])
+    scale = choose_scale(*image.shape[:2])
     canvas = enlarge(image, scale, cv2.INTER_CUBIC)
     color = STATUS_COLORS[track.status]
     if particles is not None:
@@ -74,7 +74,7 @@ def depth_overlay(
     objects: the boxes of the segmented objects, drawn thin and gray. truth: the true box, thin and white.
     note: text below the status. near, far: as in :func:`depth_picture`.
     """
-    scale = choose_scale(depth.shape[0])
+    scale = choose_scale(*depth.shape)
     canvas = enlarge(depth_picture(depth, near, far), scale, cv2.INTER_NEAREST)
     for box in objects:
         draw_box(canvas, box, scale, _OBJECT_COLOR, 1)

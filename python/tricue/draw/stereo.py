@@ -139,6 +139,7 @@ def _paste(canvas: Image, inset: Image, patch: DisparityPatch, target: Box) -> N
     low, right = canvas.shape[0] - height - caption - INSET_MARGIN, canvas.shape[1] - width - INSET_MARGIN
     corners = (right, low), (INSET_MARGIN, low), (right, INSET_MARGIN)
     left, top = min(corners, key=lambda at: target.iou(Box(at[0], at[1], width, height + caption)))
+    left, top = max(min(left, canvas.shape[1] - width), 0), max(min(top, canvas.shape[0] - height), 0)
     canvas[top : top + height, left : left + width] = inset
     cv2.rectangle(canvas, (left - 1, top - 1), (left + width, top + height), WHITE, 1)
     text = f"disparity {patch.expected:.1f} px"

@@ -46,7 +46,7 @@ def targets_overlay(image: NDArray[Any], tracks: Mapping[int, Track], *, note: s
     A small image is enlarged by a whole number. Each box has its target's color and id; one that is occluded
     or lost is drawn thin, and says so. note: text in the upper left corner.
     """
-    scale = choose_scale(image.shape[0])
+    scale = choose_scale(*image.shape[:2])
     canvas = enlarge(image, scale, cv2.INTER_CUBIC)
     for target, track in tracks.items():
         draw_box(canvas, track.box, scale, BLACK, THICKNESS[track.status] + 2)

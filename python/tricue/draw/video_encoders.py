@@ -184,11 +184,14 @@ class OpenCVEncoder:
 
 @contextmanager
 def _naming(path: Path) -> Iterator[None]:
-    """Name the file in an error of PyAV, whose errors are also OSErrors."""
+    """Name the file in an error of PyAV; those of its libraries become OSErrors, which most others are."""
+    av: Any = importlib.import_module("av")
     try:
         yield
     except OSError as error:
         raise OSError(error.errno, error.strerror, str(path)) from None
+    except av.FFmpegError as error:
+        raise OSError(f"{path}: expected a video that the encoder can write, got: {error.strerror}") from None
 
 
 @contextmanager

@@ -80,6 +80,13 @@ def sign_flip_p(differences: ArrayLike, clusters: Sequence[str]) -> float:
     return float((as_far.sum() + drawn) / (len(signs) + drawn))
 
 
+def least_p(size: int) -> float:
+    """The least p-value that :func:`sign_flip_p` can have of so many recordings: that of differences which
+    are all the same, where only equal signs are as far. NaN with fewer than MIN_CLUSTERS.
+    """
+    return sign_flip_p(np.ones(size), [str(each) for each in range(size)]) if size else math.nan
+
+
 def holm(p_values: Sequence[float]) -> list[float]:
     """The p-values adjusted for their number (Holm 1979), in their order; NaN stays and doesn't count."""
     known = sorted((p, index) for index, p in enumerate(p_values) if not math.isnan(p))

@@ -5,6 +5,7 @@ An :class:`Entry` is small: it can be sent to another process or machine, which 
 """
 
 import hashlib
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -21,6 +22,8 @@ from tricue.data.datasets import find_sequences
 from tricue.data.input_files import stream_files
 from tricue.data.layouts import list_targets
 from tricue.data.open_source import Source, open_source
+from tricue.data.otb import find_range
+from tricue.data.streams import Images
 
 FORMAT_RATES = {"KITTI tracking": 10.0}
 """Frames a second of the cameras of formats whose files don't contain them (Geiger et al. 2013)."""
@@ -30,6 +33,8 @@ CLIPPED_FORMATS = ("VOT", "VOT RGB-D", "KITTI tracking")
 """Formats whose boxes end at the image's edge: both the true and the tracked ones are clipped to the image
 before they are compared, as the VOT toolkit does.
 """
+NUMBERED_FORMATS = ("OTB", "VOT", "VOT RGB-D", "images", "stereo pair")
+"""Formats whose images are named by consecutive numbers, as are LaSOT's and GOT-10k's, which are "images"."""
 
 
 @dataclass(frozen=True)
@@ -152,8 +157,17 @@ class OpenedSequence:
         return np.empty((0, 4)) if known is None else known
 
     def check(self) -> None:
-        """ValueError if there is no frame to start in."""
-        _ = self.start
+        """ValueError if there is no frame to start in, or none after it, or if an image is missing among
+        others, so that all true boxes after it would be those of other images.
+        """
+        start, length = self.start, self.source.length
+        if length is not None and length < start + 2:
+            frames = "1 frame" if length == 1 else f"{length} frames"
+            raise ValueError(f"{self.entry.place}: expected a frame after the first true box, got {frames}")
+        if self.source.format in NUMBERED_FORMATS:
+            for stream in self.source.channels.values():
+                if isinstance(stream, Images):
+                    _check_numbers(self.entry.place, stream, len(self.boxes))
 
     @property
     def start(self) -> int:
@@ -248,6 +262,33 @@ def short_names(entries: Sequence[Entry]) -> dict[str, str]:
 def _relative_name(root: Path, place: Path) -> str:
     relative = place.relative_to(root)
     return relative.with_suffix("").as_posix() if relative.parts else place.resolve().stem
+
+
+def _check_numbers(place: Path, images: Images, boxes: int) -> None:
+    """ValueError names the first missing image where there are as many true boxes as there would be images
+    with it. Images at, say, every other number have as many boxes as images.
+    """
+    matches = [re.fullmatch(r"(.*?)(\d+)", path.stem) for path in images.paths]
+    named = [match for match in matches if match]
+    if len(named) < len(matches) or len({match[1] for match in named}) > 1:
+        return
+    numbers = [int(match[2]) for match in named]
+    first, last = min(numbers), max(numbers)
+    if boxes != last - first + 1 and boxes < len(numbers):
+        first, last = find_range(place, boxes)
+    missing = sorted({*range(first, last + 1)} - {*numbers}) if boxes == last - first + 1 else []
+    if missing:
+        low, high, gone = (_image_name(number, named) for number in (first, last, missing[0]))
+        raise ValueError(
+            f"{images.paths[0].parent}: expected images {low} to {high}, one for each of {boxes} true boxes,"
+            f" got none with number {gone}"
+        )
+
+
+def _image_name(number: int, others: Sequence[re.Match[str]]) -> str:
+    """The number as in the names of other images: with their zeros before it, if they have such."""
+    width = min(len(match[2]) for match in others)
+    return f"{number:0{width}d}"
 
 
 def _depth_scale_of(entry: Entry, scale: float | None) -> float | None:

@@ -107,6 +107,20 @@ class Evaluation:
         """What each sequence is of, by name: several targets may be in one recording."""
         return {each.entry.name: str(each.entry.place) for each in self.opened}
 
+    @property
+    def unstarted(self) -> dict[str, dict[str, list[str]]]:
+        """The trackers that started on no sequence, since they couldn't be made or refused to: the sequences
+        by reason, by the tracker's name.
+        """
+        found: dict[str, dict[str, list[str]]] = {}
+        started = {each.row.tracker for each in self.results if not _start_error(each.scored)}
+        for each in self.results:
+            if each.row.tracker not in started:
+                names = found.setdefault(each.row.tracker, {}).setdefault(_start_error(each.scored), [])
+                if each.row.sequence not in names:
+                    names.append(each.row.sequence)
+        return found
+
     def of(self, group: str, tracker: str, protocol: str = ONE_PASS) -> list[RunResult]:
         """The results of one tracker on the sequences of a group, by one protocol."""
         kinds = self.options.orders[protocol]
@@ -268,7 +282,7 @@ class _Plan:
         """The results so far, in the order of the tasks."""
         results = tuple(self._results())
         opened = tuple(self.opened.values())
-        notes = (missing_note(self.options.trackers), *self._results_notes())
+        notes = (missing_note(self.options.trackers), *self._results_notes(), *self._surplus_notes())
         return Evaluation(
             self.options, opened, self.trackers, results, self.left_out, failed, tuple(filter(None, notes))
         )
@@ -278,8 +292,23 @@ class _Plan:
         for spec in self.trackers:
             if isinstance(spec, ResultsSpec):
                 count, total = self._read[spec].total(), len(self.opened)
-                how = "; or ".join(self._read[spec])
-                yield f"{spec.name}: results in {spec.form} form, {count} of {total} sequences, {how}"
+                how = ["; or ".join(self._read[spec])] if count else []
+                yield ", ".join(
+                    [f"{spec.name}: results in {spec.form} form", f"{count} of {total} sequences", *how]
+                )
+
+    def _surplus_notes(self) -> Iterator[str]:
+        """Which sequences have true boxes behind their last frame."""
+        seen: dict[str, int] = {}  # frames of videos, whose length is known from runs alone
+        for task, scored in self.scored.items():
+            if task.kind == ONE_PASS and not isinstance(task.tracker, ResultsSpec):
+                run, _ = scored
+                seen[task.entry.name] = run.start + len(run.scores)
+        for name, opened in self.opened.items():
+            frames = opened.source.length or seen.get(name)
+            if frames is not None and (more := len(opened.boxes) - frames) > 0:
+                rows = "1 row" if more == 1 else f"{more} rows"
+                yield f"{name}: {rows} of true boxes more than there are frames"
 
     def _results(self) -> Iterator[RunResult]:
         for task in self.tasks:
@@ -289,6 +318,12 @@ class _Plan:
                 opened, tracker = self.opened[task.entry.name], task.tracker.name
                 row = make_row(opened, tracker, task.seed, run, restarted, task.kind)
                 yield RunResult(task, run, row, speed)
+
+
+def _start_error(run: ScoredRun) -> str:
+    """Why a tracker didn't start; "" if it did, and perhaps failed later."""
+    first = f"frame {run.start}: "
+    return run.error.removeprefix(first) if run.error.startswith(first) else ""
 
 
 def _try_open(entry: Entry) -> OpenedSequence | OSError | ValueError:

@@ -11,6 +11,7 @@ from tricue.evaluation.attributes.definitions import BY_KEY
 from tricue.evaluation.attributes.results import tracker_lines
 from tricue.evaluation.differences import BETTER, comparison, protocols_of
 from tricue.evaluation.evaluate import Evaluation
+from tricue.evaluation.markdown import unmarked
 from tricue.evaluation.significance import Comparison
 
 _COLUMNS = {
@@ -129,7 +130,8 @@ def _caption(evaluation: Evaluation, group: str) -> str:
 def _told(found: Comparison) -> str:
     if not found.telling:
         return "Too few recordings to tell trackers apart."
-    return rf"[ ]: 95\,\% bootstrap interval over {found.recordings} recordings. {_BOLD}"
+    about = _BOLD if found.separable else unmarked(len(found.pairs)) if found.pairs else ""
+    return rf"[ ]: 95\,\% bootstrap interval over {found.recordings} recordings. {about}".rstrip()
 
 
 def _table(head: Sequence[str], rows: Sequence[Sequence[str]], caption: str, label: str) -> str:

@@ -69,10 +69,20 @@ def telling(found: Comparison) -> str:
             f"Of {count} nothing can be told about others: from {MIN_CLUSTERS} on means have intervals, and"
             " trackers can be told apart."
         )
-    return (
-        f"[ ]: 95 % bootstrap interval over {found.recordings} recordings. *: the best, and what can't be"
-        " distinguished from it (paired sign-flip test, p of 0.05 or more by Holm for all pairs)."
-    )
+    interval = f"[ ]: 95 % bootstrap interval over {found.recordings} recordings."
+    if found.separable:
+        return (
+            f"{interval} *: the best, and what can't be distinguished from it (paired sign-flip test, p of"
+            " 0.05 or more by Holm for all pairs)."
+        )
+    pairs = len(found.pairs)
+    return f"{interval} {unmarked(pairs)}" if pairs else interval
+
+
+def unmarked(pairs: int) -> str:
+    """Why none is marked as among the best, although there are intervals."""
+    count = "1 pair" if pairs == 1 else f"{pairs} pairs"
+    return f"None is marked: of so few recordings no p of {count} can be under 0.05 by Holm."
 
 
 def interval_text(found: Comparison, tracker: str, better: int = 1, digits: int = 2) -> str:

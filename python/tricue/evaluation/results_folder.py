@@ -235,11 +235,14 @@ def _read_run(
     spec: ResultsSpec, opened: OpenedSequence, path: Path, times: Array | None
 ) -> tuple[Record, float]:
     """The run in a file, and the first pixel's coordinate in it."""
-    frames = opened.source.length or len(opened.boxes)
+    frames, rows, start = opened.source.length or len(opened.boxes), len(opened.boxes), opened.start
     lines = read_lines(path)
-    skipped = {frames: 0, frames - opened.start: opened.start}.get(len(lines))
+    # Some have no lines before the first true box, some none after the last row of the truth, as OTB's.
+    fitting = {rows - start: start, rows: 0} if rows < frames else {}
+    skipped = {**fitting, frames - start: start, frames: 0}.get(len(lines))
     if skipped is None:
-        raise ResultError(f"{path.name}: has {len(lines)} lines, the sequence {frames} frames")
+        labeled = f" and {rows} rows of true boxes" if rows < frames else ""
+        raise ResultError(f"{path.name}: has {len(lines)} lines, the sequence {frames} frames{labeled}")
     codes = [_code(line) for line in lines]
     boxes = np.full((frames, 4), np.nan)
     truth = opened.truth(frames)
@@ -252,7 +255,7 @@ def _read_run(
             starts.append(skipped + index)
     first_pixel = _first_pixel(spec, opened, boxes)
     boxes[:, :2] -= first_pixel
-    record = _record(spec, path, boxes, starts or [opened.start], times, skipped)
+    record = _record(spec, path, boxes, starts or [start], times, slice(skipped, skipped + len(lines)))
     return replace(record, error="") if _is_supervised(path) else record, first_pixel
 
 
@@ -284,18 +287,19 @@ def _record(
     boxes: Array,
     starts: Sequence[int],
     times: Array | None,
-    skipped: int,
+    told: slice,
 ) -> Record:
+    """The run of some boxes. told: the frames that the file has lines for."""
     found: NDArray[np.bool_] = np.logical_not(np.isnan(boxes).any(axis=1))
     boxes[~found] = np.nan
-    frames = len(boxes)
+    frames, lines = len(boxes), told.stop - told.start
     scores = np.where(found, 1.0, 0.0)
     if spec.form == VOT:
-        scores = _read_scores(path, scores, skipped)
-        times = times if (own := _read_values(path, "time", frames - skipped)) is None else own
+        scores[told] = _read_scores(path, scores[told])
+        times = times if (own := _read_values(path, "time", lines)) is None else own
     seconds = np.empty(0)
-    if times is not None and len(times) == frames - skipped:
-        updates = times[starts[0] - skipped + 1 :]
+    if times is not None and len(times) == lines:
+        updates = times[starts[0] - told.start + 1 :]
         seconds = updates[np.isfinite(updates) & (updates > 0)]
     run = Run(
         boxes,
@@ -305,17 +309,14 @@ def _record(
         np.full((frames, 3, 3), np.nan),
         seconds,
     )
-    missing = int((~found[starts[0] :]).sum())
+    missing = int((~found[starts[0] : told.stop]).sum())
     return Record(run, tuple(starts), f"{missing} frames without a box" if missing else "")
 
 
-def _read_scores(path: Path, scores: Array, skipped: int) -> Array:
+def _read_scores(path: Path, scores: Array) -> Array:
     """VOT's confidences; where there is none, 1 with a box and 0 without."""
-    told = _read_values(path, "confidence", len(scores) - skipped)
-    if told is None:
-        return scores
-    told = np.concatenate([np.full(skipped, np.nan), told])
-    return np.where(np.isfinite(told), told, scores)
+    told = _read_values(path, "confidence", len(scores))
+    return scores if told is None else np.where(np.isfinite(told), told, scores)
 
 
 def _read_values(path: Path, name: str, frames: int) -> Array | None:

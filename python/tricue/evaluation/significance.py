@@ -15,6 +15,7 @@ from tricue.evaluation.bootstrap import (
     MIN_CLUSTERS,
     Interval,
     holm,
+    least_p,
     mean_interval,
     sign_flip_p,
 )
@@ -54,8 +55,16 @@ class Comparison:
 
     @property
     def telling(self) -> bool:
-        """Whether there are recordings enough to tell trackers apart."""
+        """Whether there are recordings enough for intervals."""
         return self.recordings >= MIN_CLUSTERS
+
+    @property
+    def separable(self) -> bool:
+        """Whether there are recordings enough to tell trackers apart, with all pairs in mind: whether the
+        least p-value that the test has of them is below 1 - LEVEL by Holm's method.
+        """
+        known = [each for each in self.pairs if not math.isnan(each.p)]
+        return any(len(known) * least_p(size) < 1 - LEVEL for size in {each.recordings for each in known})
 
     def pair(self, first: str, second: str) -> Pair | None:
         """The pair in this order; None where they have no sequence in common."""
@@ -71,7 +80,7 @@ class Comparison:
         can be told. better: 1 if higher is better, -1 if lower.
         """
         known = {name: each.mean for name, each in self.means.items() if not math.isnan(each.mean)}
-        if not self.telling or len(known) < 2:
+        if not self.separable or len(known) < 2:
             return frozenset()
         best = max(known, key=lambda name: better * known[name])
         equals = {each for each in known if (pair := self.pair(best, each)) and not pair.different}

@@ -69,7 +69,7 @@ def intervals(evaluation: Evaluation) -> list[Line]:
                 leaders = found.leaders(BETTER[key])
                 for tracker, each in found.means.items():
                     if not math.isnan(each.mean):
-                        best = float(tracker in leaders) if found.telling else math.nan
+                        best = float(tracker in leaders) if found.separable else math.nan
                         about = {"group": group, "protocol": protocol, "tracker": tracker, "number": key}
                         lines.append({**about, **each._asdict(), "among_the_best": best})
     return lines

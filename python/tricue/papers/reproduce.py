@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from tricue.draw import figures
+from tricue.draw.writable import check_writable
 from tricue.papers.experiment import C, Case, Experiment, Maker, Models, Report, S
 from tricue.papers.moreno import experiments as moreno
 from tricue.papers.okada import experiments as okada
@@ -45,8 +46,8 @@ def run(
     Every model runs on every scene from ``seeds`` seeds, on slow scenes from fewer. ``jobs`` scenes run at
     once, and ``progress(done, total)`` is called after each. ``models`` replaces the experiment's. ``data``,
     a folder of images, and ``rate``, a false-positive rate, are for "sabeti-roc" alone
-    (:mod:`tricue.papers.sabeti_color.skin_threshold`). ValueError for an unknown name, ImportError that names
-    the extra where scikit-image or matplotlib is missing.
+    (:mod:`tricue.papers.sabeti_color.skin_threshold`). ValueError for an unknown name, OSError for files that
+    can't be written, ImportError that names the extra where scikit-image or matplotlib is missing.
     """
     if name not in NAMES:
         raise ValueError(f"experiment: expected one of {', '.join(NAMES)}, got {name!r}")
@@ -62,8 +63,10 @@ def run(
             )
     experiment = EXPERIMENTS[name]
     figures.require()
-    curves = list(_all_curves(experiment, models or experiment.models, seeds, jobs, progress))
+    for suffix in (".png", ".csv"):  # now, as the curves take hours
+        check_writable(output / f"{name}{suffix}")
     output.mkdir(parents=True, exist_ok=True)
+    curves = list(_all_curves(experiment, models or experiment.models, seeds, jobs, progress))
     report = Report(experiment.summarize(curves), output / f"{name}.png", output / f"{name}.csv")
     experiment.write_csv(report.table, curves)
     scenes = {scene: make(seed=0) for scene, make in experiment.scenes.items()}

@@ -6,6 +6,7 @@ boundary (10) times 255 lies in [-255, 255]), so two histograms hold the whole c
 images there are.
 """
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -13,6 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue import kernels
+
+LOWEST_SKIN_THRESHOLD = -1.0
+"""That trackers take; a curve's last threshold is below it, so that all pixels are above."""
 
 Image = NDArray[np.uint8]
 Mask = NDArray[np.bool_]
@@ -33,11 +37,15 @@ class Roc:
         """Area under the curve: the chance that a positive scores above a negative, ties counted half."""
         return float(np.sum(np.diff(self.fpr) * (self.tpr[1:] + self.tpr[:-1]) / 2))
 
-    def at_false_positive_rate(self, rate: float) -> tuple[float, float]:
-        """The lowest threshold with at most this false-positive rate, and the true-positive rate there."""
+    def at_false_positive_rate(self, rate: float, lowest: float = -math.inf) -> tuple[float, float]:
+        """The lowest threshold with at most this false-positive rate, and the true-positive rate there.
+
+        lowest: the one that may be given at the least.
+        """
         if not 0.0 <= rate <= 1.0:
             raise ValueError(f"rate: expected a number in [0, 1], got {rate}")
-        last = int(np.searchsorted(self.fpr, rate, side="right")) - 1
+        allowed = int(np.count_nonzero(self.thresholds >= lowest))
+        last = min(int(np.searchsorted(self.fpr, rate, side="right")), allowed) - 1
         return float(self.thresholds[last]), float(self.tpr[last])
 
 

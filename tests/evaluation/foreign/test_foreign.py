@@ -84,7 +84,7 @@ def test_answers_with_scores(there):
         ("Nan", "update returned a box: expected finite numbers, got .*nan"),
         ("Five", r"update returned a box: expected four numbers .*, got \[1, 2, 3, 4, 5\]"),
         ("Table", "update: expected a Track, a box .*, got array"),
-        ("Negative", "update returned a box: expected width and height above 0"),
+        ("Negative", r"update returned a box: expected width and height above 0, got \([^()]*\)$"),
         ("NanScore", "update: expected a finite score, got nan"),
         ("Exits", r"it called sys.exit\('enough'\)"),
         ("ExitsAtOnce", "its process ended with exit code 3; its last words: a last line"),

@@ -321,6 +321,25 @@ def test_a_tracker_that_old_sequences_do_not_serve_is_refused(tmp_path: Path) ->
     assert "flow-depth" not in (tmp_path / "ws" / "trackers.ini").read_text()
 
 
+def test_a_recording_that_cannot_be_written_is_left_out(tmp_path: Path) -> None:
+    """It proves that one damaged image or a single frame costs its own sequence alone, which is noted, and
+    that a workspace without any sequence is an error.
+    """
+    damaged, short = bitmaps(tmp_path / "damaged"), otb(tmp_path / "short")
+    (damaged / "img" / "0002.bmp").write_bytes(b"no image")
+    for path in sorted((short / "img").iterdir())[1:]:
+        path.unlink()
+    report = write_workspace(tmp_path / "ws", ["color-particle"], [damaged, short, otb(tmp_path / "whole")])
+    assert report.sequences == report.added == ["whole"]
+    assert [path.name for path in sorted((tmp_path / "ws" / "sequences").iterdir())] == ["list.txt", "whole"]
+    first, second = report.notes
+    assert first.startswith(f"left out {damaged}: ")
+    assert "0002.bmp" in first
+    assert second.startswith(f"left out {short}: short: expected two frames or more")
+    with pytest.raises(ValueError, match=r"found none; left out .*damaged: .*0002\.bmp"):
+        write_workspace(tmp_path / "other", ["color-particle"], [damaged])
+
+
 @pytest.mark.parametrize("content", [{"notes.txt": "mine"}, {"config.yaml": "stack: vot2022/rgbd\n"}])
 def test_a_folder_with_something_else_is_refused(content: dict[str, str], tmp_path: Path) -> None:
     """It proves that nothing is written into a folder that isn't such a workspace."""

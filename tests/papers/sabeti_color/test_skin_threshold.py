@@ -48,6 +48,21 @@ def test_the_threshold_keeps_the_rate_and_sets_the_tracker(folder, tmp_path):
     assert image.std() > 20
 
 
+def test_any_false_positives_give_a_threshold_that_the_tracker_takes(folder, tmp_path):
+    """The lowest threshold of a curve is below the range of the parameter."""
+    report = reproduce.run("sabeti-roc", output=tmp_path / "out", data=folder, rate=1)
+    assert report.summary.endswith("--set skin_threshold=-1.000")
+
+
+def test_an_output_that_can_not_be_written_is_told_first(folder, tmp_path):
+    """Before the images are read."""
+    (tmp_path / "out").touch()
+    calls = []
+    with pytest.raises(OSError, match="Not a directory"):
+        reproduce.run("sabeti-roc", output=tmp_path / "out", data=folder, progress=lambda *n: calls.append(n))
+    assert not calls
+
+
 def test_nothing_is_written_of_a_folder_with_a_mistake(folder, tmp_path, capsys):
     """An image that can't be read, the last one, is one line of error, and no output folder is made."""
     (folder / "images" / "3.png").write_bytes(b"nothing")

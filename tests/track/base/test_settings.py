@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 import dataclasses
 from pathlib import Path
+from typing import Literal
 
 import pytest
-from tricue.track.base.registry import tracker_class
+from tricue.track.base.registry import names, tracker_class
 from tricue.track.base.settings import PAPER, make_tracker, papers, parse_settings, read_settings
 
 
@@ -37,6 +38,55 @@ def test_other_settings_are_refused(setting: str) -> None:
     """It proves that what isn't name=value is an error that shows it."""
     with pytest.raises(ValueError, match=r"^--set: expected name=value, got "):
         parse_settings([setting])
+
+
+@pytest.mark.parametrize(
+    ("setting", "option"),
+    [
+        ("seed=3", "--seed N"),
+        ("kernels=reference", "--kernels NAME"),
+        ("intrinsics=3", "--calibration FILE"),
+        ("rig=3", "--calibration FILE"),
+    ],
+)
+@pytest.mark.parametrize("base", [None, PAPER])
+def test_what_has_an_option_is_told(setting: str, option: str, base: Literal["paper"] | None) -> None:
+    """It proves that what isn't a parameter is refused with the option that sets it."""
+    name = setting.partition("=")[0]
+    with pytest.raises(TypeError, match=f"^--set {name}: expected a parameter, got what {option} sets$"):
+        make_tracker("flow-depth", base, [setting], 0, "native")
+
+
+@pytest.mark.parametrize("setting", ["seed=3", "kernels=reference"])
+def test_a_third_partys_seed_has_an_option_too(setting: str) -> None:
+    """It proves it of a class whose parameters aren't known."""
+    with pytest.raises(TypeError, match=r"^--set (seed|kernels): expected a parameter, got what --"):
+        make_tracker(f"{__name__}:Still", None, [setting], 0, "native")
+
+
+class Still:
+    """A third party's."""
+
+    def init(self, image: object, box: object) -> None:
+        self.box = box
+
+    def update(self, image: object) -> object:
+        return self.box
+
+
+@pytest.mark.parametrize("name", names())
+def test_unknown_names_are_told_with_the_parameters(name: str) -> None:
+    """It proves that the list has the parameters, and not what has an option of its own."""
+    with pytest.raises(TypeError, match=r"^zzz: unknown parameter of .*; expected one of ") as caught:
+        make_tracker(name, None, ["zzz=3"], 0, "native")
+    listed = str(caught.value).partition("expected one of ")[2].split(", ")
+    assert listed == [f.name for f in dataclasses.fields(tracker_class(name).Params)]
+
+
+def test_a_byte_order_mark_is_no_part_of_a_file(tmp_path: Path) -> None:
+    """It proves that TOML of an editor that begins files with one is read."""
+    (tmp_path / "p.toml").write_text("particles = 50\n", encoding="utf-8-sig")
+    assert read_settings("color-particle", tmp_path / "p.toml", [])["particles"] == 50
 
 
 @pytest.mark.parametrize("name", papers())

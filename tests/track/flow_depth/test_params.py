@@ -134,7 +134,7 @@ EXTREMES: list[dict[str, Any]] = [
     {"bins": 512, "smoothing": 1e-9},
     {"min_prominence": 0.999},
     {"flow_half_range": 0.01, "disparity_half_range": 0.01},
-    {"flow_half_range": 1e6, "disparity_half_range": 1e6},
+    {"flow_half_range": 160, "disparity_half_range": 160},
     {"flow_change": 1e-9, "disparity_change": 1e-9},
     {"flow_change": 1e9, "disparity_change": 1e9},
     {"flow_change": 1e9, "disparity_change": 1e9, "flow_half_range": 100.0, "disparity_half_range": 100.0},
@@ -170,10 +170,22 @@ EXTREMES: list[dict[str, Any]] = [
     {"rate": 1e-9},
     {"rate": 1e9},
     {"place_noise": 1e-6, "disparity_noise": 1e-6, "acceleration_noise": 1e-6},
-    {"place_noise": 1e6, "disparity_noise": 1e6, "acceleration_noise": 1e6},
+    {"place_noise": 160, "disparity_noise": 160, "acceleration_noise": 1e6},
     {"cues": ("flow",), "min_posterior_one_cue": 1e-9},
     {"cues": ("disparity",), "min_posterior_one_cue": 1},
 ]
+
+
+@pytest.mark.parametrize(
+    "name", ["flow_half_range", "disparity_half_range", "place_noise", "disparity_noise"]
+)
+@pytest.mark.parametrize("value", [161, 1e9, 1e300])
+def test_no_length_is_beyond_an_image(name, value):
+    """A range or a noise wider than the whole image is refused by name, before a kernel refuses what comes of
+    it.
+    """
+    with pytest.raises(ValueError, match=rf"^{name}: expected .*at most 160, got"):
+        Params(**{name: value})
 
 
 @pytest.mark.parametrize("extreme", EXTREMES, ids=str)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """That the status is TRACKED, OCCLUDED behind something nearer, and LOST in the end."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from tricue import FlowDepthTracker, Frame, Status, Track
@@ -51,6 +53,61 @@ def test_what_something_hides_is_lost_late(lost_after, overtakings):
     assert (lost + 1) / 15 == pytest.approx(lost_after, abs=1.01 / 15)
     assert statuses == lost * [O] + (60 - lost) * [L]
     assert {track.score for track in tracks} == {0}
+
+
+def blind(frame: Frame, seconds: float) -> Frame:
+    """A black frame of the same channels, so many seconds later, in which nothing is at any depth."""
+    beside = {"right": frame.right * 0} if frame.depth is None else {"depth": frame.depth * np.nan}
+    return Frame(frame.color * 0, timestamp=frame.timestamp + seconds, **beside)
+
+
+@pytest.mark.parametrize("params", [FlowDepthTracker.Params(), FlowDepthTracker.Params.paper()], ids=str)
+@pytest.mark.parametrize("lost_after", [3.0, 1e9])
+@pytest.mark.parametrize("depth", [False, True], ids=["pair", "depth camera"])
+def test_a_missed_target_stays_in_view(depth, lost_after, params, overtakings):
+    """Over 200 black frames the box's center is in the image, and the position in the camera's view, also
+    where the target never becomes LOST; after ``lost_after`` it rests where it was last found.
+    """
+    scene = overtakings(0, 55, depth=depth)
+    params = dataclasses.replace(params, lost_after=lost_after, unoccluded_lost_after=min(lost_after, 1e8))
+    tracker = FlowDepthTracker(params, rig=scene.rig)
+    tracker.init(scene.frames[0], scene.boxes[0])
+    for frame in scene.frames[1:SEEN]:
+        tracker.update(frame)
+    last = tracker.update(blind(frame, 1 / 15)).box
+    tracks = [tracker.update(blind(frame, (i + 2) / 15)) for i in range(199)]
+    height, width = frame.color.shape[:2]
+    for track in tracks:
+        x, y = track.box.center
+        assert -1e-9 <= x <= width + 1e-9
+        assert -1e-9 <= y <= height + 1e-9
+        np.testing.assert_allclose(
+            scene.rig.intrinsics.project(track.position) + 0.5, (x, y), rtol=0, atol=1e-9
+        )
+    rests = [track.box == pytest.approx(last, abs=1e-6) for track in tracks[round(15 * 3.0) + 1 :]]
+    assert all(rests) if lost_after < 100 else not any(rests)
+
+
+@pytest.mark.parametrize("gap", [60, 200])
+@pytest.mark.parametrize("depth", [False, True], ids=["pair", "depth camera"])
+def test_a_lost_target_is_taken_up_where_it_was(depth, gap, overtakings):
+    """A target that walks on where it was last found is TRACKED again within six frames, however long it was
+    away.
+    """
+    scene = overtakings(2, 55, depth=depth)
+    tracker = FlowDepthTracker(rig=scene.rig)
+    tracker.init(scene.frames[0], scene.boxes[0])
+    for frame in scene.frames[1:9]:
+        tracker.update(frame)
+    tracks = [tracker.update(blind(frame, (i + 1) / 15)) for i in range(gap)]
+    assert tracks[-1].status is L
+    for i, again in enumerate(scene.frames[9:15]):
+        beside = {"right": again.right, "depth": again.depth}
+        seconds = frame.timestamp + (gap + 1 + i) / 15
+        track = tracker.update(Frame(again.color, timestamp=seconds, **beside))
+    assert track.status is T
+    assert track.score > 0
+    assert track.box.iou(scene.boxes[14]) > 0.5
 
 
 def test_without_timestamps_the_rate_counts(overtaken: WalkScene):

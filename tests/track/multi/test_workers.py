@@ -73,6 +73,20 @@ def test_workers_share_the_targets(started):
         assert len({process_of(several), os.getpid(), targets._workers[1]._process.pid}) == 3
 
 
+def test_few_targets_take_few_processes(started):
+    """No more than there are targets, also where more are allowed."""
+    with started(FUSED[:2], workers=8) as several:
+        assert [len(each.ids) for each in several._targets._parts] == [1, 1]
+    with started(FUSED[:1], workers=8) as several:
+        assert [len(each.ids) for each in several._targets._parts] == [1]
+
+
+def test_more_workers_than_targets_change_no_track(started, things, alone):
+    """Those that are left out, neither."""
+    with started(FUSED, workers=8) as several:
+        assert [several.update(frame) for frame in things.frames[1:]] == alone(FUSED)
+
+
 def test_closing_ends_them(started, things):
     """``with`` and close end the workers; a target can be added afterwards."""
     with started(FUSED, workers=2) as several:

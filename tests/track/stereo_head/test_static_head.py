@@ -59,6 +59,9 @@ def test_a_recording_that_is_too_short_is_refused():
     scene = static_head(4, 8)
     with pytest.raises(ValueError, match=r"frames: expected a head at rest, .* got 7 of 7"):
         measure_static_head(scene.frames, scene.boxes[0], scene.rig)
+    ten = static_head(4, 10)
+    with pytest.raises(ValueError, match=r"10 or more stereo pairs after the first, .* got 9 of 9"):
+        measure_static_head(ten.frames, ten.boxes[0], ten.rig)
     with pytest.raises(ValueError, match="frames: expected at least 11 stereo pairs, got none"):
         measure_static_head([], scene.boxes[0], scene.rig)
 

@@ -20,6 +20,7 @@ import cv2
 
 from tricue.errors import BoxError, one_line
 from tricue.evaluation.foreign.host import Host
+from tricue.evaluation.toolkits.trax_client import TraxError
 
 PATIENCE = 2.0  # seconds to end in good order
 GRACE = 5.0  # seconds after the time limit until the process ends itself, should nobody end it
@@ -89,6 +90,6 @@ def _answer(host: Host, method: str, *arguments: Any) -> tuple[bool, Any]:
 def _describe(error: BaseException) -> str:
     """An error in one line, with its type where its message doesn't stand for itself."""
     message = one_line(error)
-    speaking = isinstance(error, (BoxError, ImportError, OSError, cv2.error))
-    speaking = speaking or type(error) in (RuntimeError, ValueError)
+    speaking = isinstance(error, (BoxError, ImportError, OSError, TraxError, cv2.error))
+    speaking = speaking or type(error) is ValueError
     return message if speaking or message == type(error).__name__ else f"{type(error).__name__}: {message}"

@@ -29,12 +29,16 @@ CHANNELS = ("color", "depth")
 MAX_HASHED = 1 << 28  # bytes of a file that tells a program's version
 
 
+class TraxError(RuntimeError):
+    """A program that doesn't do what was asked for; the message says all."""
+
+
 class TraxProgram:
     """A program behind the TraX protocol on standard input and output, with the interface of a tracker.
 
     It gets images as files, BMP for color and PNG in millimeters for depth, or in memory if it asks for that
     alone. Its time is from the request to the answer, its reading of the files included. It is started anew
-    at each ``init``. ValueError for a command that can't be run, RuntimeError with the program's reason.
+    at each ``init``. ValueError for a command that can't be run, TraxError with the program's reason.
     """
 
     def __init__(self, command: str) -> None:
@@ -126,7 +130,7 @@ class _Connection:
             self._client = Client(stream=streams, log=lambda _: None)  # without a log it breaks
         except trax.TraxException as error:
             self._end()
-            raise RuntimeError(f"{words[0]} doesn't speak TraX: {error}") from None
+            raise TraxError(f"{words[0]} doesn't speak TraX: {error}") from None
         self.channels = tuple(self._client.channels) or ("color",)
         self.formats = tuple(self._client.image_formats)
 
@@ -151,9 +155,9 @@ class _Connection:
         try:
             states, _ = request()
         except self._error as error:
-            raise RuntimeError(self._reason(error)) from None
+            raise TraxError(self._reason(error)) from None
         if len(states) != 1:
-            raise RuntimeError(f"expected one region from the program, got {len(states)}")
+            raise TraxError(f"expected one region from the program, got {len(states)}")
         return states[0]
 
     def _reason(self, error: Exception) -> str:

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tricue.data.open_source import Source, open_source
+from tricue.errors import one_line
 from tricue.evaluation.toolkits.trax_server import select_channels
 from tricue.evaluation.toolkits.vot_sequences import vot_channels, write_sequence
 from tricue.track.base.registry import tracker_class
@@ -64,7 +65,8 @@ def write_workspace(
     """Write a workspace for ``trackers`` with ``recordings``, or add both to one that was written before.
 
     recordings: what ``open_source`` opens, with true boxes. Those without one in their
-        first frame, and without a channel that one of the trackers needs, are left out with a note.
+        first frame, without a channel that one of the trackers needs, or with a frame that can't be read or
+        written, are left out with a note.
     python: the interpreter that has tricue and vot-trax; the toolkit may be in another environment.
 
     Existing sequences and trackers are kept. ValueError for a folder that
@@ -78,22 +80,33 @@ def write_workspace(
         if reason := _unusable_reason(open_source(folder / SEQUENCES / name), needs):
             raise ValueError(f"{folder}: its sequence {name} {reason}")
     fit = list(_usable_recordings(recordings, needs, report))
-    if not (fit or report.sequences):
-        raise ValueError(
-            "; ".join(["--sequences: expected one that VOT can start on, found none", *report.notes])
-        )
+    if not fit:
+        _require_sequences(report)
     (folder / SEQUENCES).mkdir(parents=True, exist_ok=True)
     for file, text in _FILES.items():
         _write_new(folder / file, text)
     _add_trackers(folder / TRACKERS, {name: _section(name, interpreter) for name in trackers}, report)
-    for name, source in fit:
-        write_sequence(source, folder / SEQUENCES / name)
+    for place, name, source in fit:
+        try:
+            write_sequence(source, folder / SEQUENCES / name)
+        except (OSError, ValueError) as error:
+            report.notes.append(f"left out {place}: {one_line(error)}")
+            continue
         report.added.append(name)
         report.sequences.append(name)
         (folder / SEQUENCES / LIST).write_text(
             "".join(f"{each}\n" for each in report.sequences), encoding="utf-8"
         )
+    _require_sequences(report)
     return report
+
+
+def _require_sequences(report: WorkspaceReport) -> None:
+    """ValueError, with the notes, for a workspace without any sequence."""
+    if not report.sequences:
+        raise ValueError(
+            "; ".join(["--sequences: expected one that VOT can start on, found none", *report.notes])
+        )
 
 
 def check_python(python: str) -> str:
@@ -151,28 +164,26 @@ def _listed_sequences(folder: Path) -> list[str]:
 
 def _usable_recordings(
     recordings: Iterable[Path], needs: dict[str, tuple[str, ...]], report: WorkspaceReport
-) -> Iterator[tuple[str, Source]]:
-    """Names and sources of the recordings that can be added; the report notes the others."""
+) -> Iterator[tuple[Path, str, Source]]:
+    """Places, names and sources of the recordings that can be added; the report notes the others."""
     taken = set(report.sequences)
     for place in recordings:
         try:
             source = open_source(place)
+            reason = _unusable_reason(source, needs)  # which may read the first images
+            hints = [*filter(None, vot_channels(source)[1:]), *_rate_hints(source, needs)]
         except (OSError, ValueError) as error:
-            report.notes.append(f"left out {place}: {error}")
+            report.notes.append(f"left out {place}: {one_line(error)}")
             continue
         name = re.sub(r"[^\w.-]+", "_", source.name)
         if name in taken:
             report.notes.append(f"left out {place}: the workspace has a sequence {name}")
-        elif reason := _unusable_reason(source, needs):
+        elif reason:
             report.notes.append(f"left out {place}: it {reason}")
         else:
             taken.add(name)
-            report.notes += [
-                *source.notes,
-                *filter(None, vot_channels(source)[1:]),
-                *_rate_hints(source, needs),
-            ]
-            yield name, source
+            report.notes += [*source.notes, *hints]
+            yield place, name, source
 
 
 def _unusable_reason(source: Source, needs: dict[str, tuple[str, ...]]) -> str:

@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 
 from tricue import kernels
 from tricue.draw import figures
+from tricue.draw.writable import check_writable
 from tricue.papers import tables
 from tricue.papers.experiment import Report
 from tricue.papers.plots import show_frame
-from tricue.papers.roc import Roc, skin_roc
+from tricue.papers.roc import LOWEST_SKIN_THRESHOLD, Roc, skin_roc
 from tricue.papers.sabeti_color.skin_images import Image, Mask, RenderedSkin, SkinFolder, SkinImages
 from tricue.track.color_particle.params import ColorParticleParams
 
@@ -64,10 +65,15 @@ def run(
     if not 0 <= rate <= 1:
         raise ValueError(f"rate: expected a share, 0 to 1, got {rate}")
     figures.require()
+    for suffix in (".png", ".csv"):  # before the images, which may be many
+        check_writable(output / f"{NAME}{suffix}")
     images: SkinImages = RenderedSkin(count) if data is None else SkinFolder(data)
     with_skin, shared = _shared_color(images, progress)
     curves = {OWN: _curve(images, None), SHARED: _curve(images, shared)}
-    chosen = {name: _Chosen(curve, *curve.at_false_positive_rate(rate)) for name, curve in curves.items()}
+    chosen = {
+        name: _Chosen(curve, *curve.at_false_positive_rate(rate, LOWEST_SKIN_THRESHOLD))
+        for name, curve in curves.items()
+    }
     pictures = list(islice(((image, mask) for image, mask in images if mask.any()), PICTURES))
     report = Report(
         _summarize(chosen, len(images), with_skin, rate), output / f"{NAME}.png", output / f"{NAME}.csv"

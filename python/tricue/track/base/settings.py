@@ -3,17 +3,24 @@
 
 import ast
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
 from tricue.camera import toml
-from tricue.track.base.params import current_names
+from tricue.track.base.params import Params, current_names
 from tricue.track.base.registry import create, names, tracker_class
 from tricue.track.base.track import Tracker
 
 PAPER = "paper"
 """In the place of a TOML file: the parameters as the tracker's paper prints them."""
+OPTIONS = {
+    "seed": "--seed N",
+    "kernels": "--kernels NAME",
+    "intrinsics": "--calibration FILE",
+    "rig": "--calibration FILE",
+}
+"""By which users give what isn't among a tracker's parameters."""
 
 
 def make_tracker(
@@ -32,12 +39,17 @@ def make_tracker(
 
 
 def read_settings(name: str, base: Path | Literal["paper"] | None, settings: Sequence[str]) -> dict[str, Any]:
-    """The same parameters as keywords. Those of ``base`` are checked; the settings are not yet."""
+    """The same parameters as keywords. Those of ``base`` are checked; of the settings the names are.
+
+    A third-party class checks its own parameters, but for the seed and the kernels, which have options.
+    """
     kind = tracker_class(name).Params
     if base == PAPER:
         return _printed(name, kind) | _parse_for(kind, settings)
-    if kind is None:  # a third-party class, which checks its own parameters
-        return ({} if base is None else toml.read(base)) | parse_settings(settings)
+    if kind is None:
+        own = parse_settings(settings)
+        _check_options(own, ("seed", "kernels"))
+        return ({} if base is None else toml.read(base)) | own
     values = {} if base is None else dataclasses.asdict(kind.from_toml(base))
     return values | _parse_for(kind, settings)
 
@@ -64,7 +76,24 @@ def _printed(name: str, kind: Any) -> dict[str, Any]:
 
 
 def _parse_for(kind: Any, settings: Sequence[str]) -> dict[str, Any]:
-    return _split_words(current_names(kind, parse_settings(settings)), kind)
+    """Parameters of a kind; TypeError for a name that isn't among them."""
+    values = current_names(kind, parse_settings(settings))
+    _check_options({name: values[name] for name in values.keys() - _names(kind)}, OPTIONS)
+    if issubclass(kind, Params):
+        kind.__new__(kind, **values)  # which checks the names alone
+    return _split_words(values, kind)
+
+
+def _check_options(values: Mapping[str, Any], names: Iterable[str]) -> None:
+    """TypeError for one of these names, which are set by options of their own."""
+    for name in names:
+        if name in values:
+            raise TypeError(f"--set {name}: expected a parameter, got what {OPTIONS[name]} sets")
+
+
+def _names(kind: Any) -> set[str]:
+    """The names of a kind's parameters."""
+    return {field.name for field in dataclasses.fields(kind)}
 
 
 def _split_words(values: Mapping[str, Any], kind: Any) -> dict[str, Any]:

@@ -11,6 +11,7 @@ if typing.TYPE_CHECKING:
     from typing_extensions import Self
 
 OURS = "our experiment: benchmarks/README.md"
+PAPER_COLUMNS = 160  # of the paper's images, to which lengths in the parameters refer
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -99,6 +100,7 @@ class FlowDepthParams(Params):
         unit="cells",
         source=OURS,
         low=0.01,
+        high=PAPER_COLUMNS,
         doc="of the flow's histograms, to each side of the velocity",
         was="flow_reach",
     )
@@ -107,6 +109,7 @@ class FlowDepthParams(Params):
         unit="cells",
         source=OURS,
         low=0.01,
+        high=PAPER_COLUMNS,
         doc="of the disparity's histogram, to each side of the disparity",
         was="depth_reach",
     )
@@ -357,9 +360,16 @@ class FlowDepthParams(Params):
         15.0, unit="frames/s", source="section 6", above=0, doc="where frames have no timestamps"
     )
     place_noise: float = parameter(
-        2.5, unit="cells", source=OURS, above=0, doc="standard deviation of the window's center"
+        2.5,
+        unit="cells",
+        source=OURS,
+        above=0,
+        high=PAPER_COLUMNS,
+        doc="standard deviation of the window's center",
     )
-    disparity_noise: float = parameter(0.2, unit="cells", source=OURS, above=0, doc="standard deviation")
+    disparity_noise: float = parameter(
+        0.2, unit="cells", source=OURS, above=0, high=PAPER_COLUMNS, doc="standard deviation"
+    )
     acceleration_noise: float = parameter(
         2.0,
         unit="m/s²",
@@ -406,7 +416,8 @@ class FlowDepthParams(Params):
         - Votes and negative votes (section 4.4) add up over all frames in which a block has one state. A mean
           disparity needs a fifth of the block's cells; without it a block isn't nearer.
         - Too few target pixels and no occluded block (section 4.5): the target is missed, moves on at its
-          last velocity, and is LOST after a while.
+          last velocity as far as the image's edge, and after a while is LOST and searched where it was last
+          found.
         - After a complete occlusion the disparity in the window is the target's.
         - All thresholds, sizes and numbers of votes: those that did best of some 100 random settings on the
           scenes of ``tricue reproduce okada-fig8``, seeds 0 to 2. The least reliability (9) is 0.3.

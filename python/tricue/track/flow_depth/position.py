@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 
 from tricue.camera.box import Box
 from tricue.kernels import Kernels
+from tricue.track.base.position_limit import MAX_SIGMA
 from tricue.track.base.stereo_noise import measurement_variances
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.state import FlowDepthState
@@ -21,7 +22,7 @@ def locate(
     """Position (3,), meters in the left camera's frame, and covariance (3, 3).
 
     None and None where the disparity isn't above 0. While the target is missed its velocity may change: the
-    covariance grows with the fourth power of the time.
+    covariance grows with the fourth power of the time, until the position is unknown by MAX_SIGMA.
     """
     step = state.reduced.step
     disparity = state.disparity * step + state.geometry.offset
@@ -36,5 +37,5 @@ def locate(
     covariance = covariances[0]
     if state.missed:
         diagonal = covariance.ravel()[::4]
-        diagonal += (p.acceleration_noise * state.missed**2 / 2) ** 2
+        diagonal += min(p.acceleration_noise * state.missed**2 / 2, MAX_SIGMA) ** 2
     return points[0], covariance

@@ -9,13 +9,11 @@ from numpy.typing import NDArray
 from tricue.camera.frame import Frame
 from tricue.kernels import Kernels
 from tricue.track.flow_depth.disparity_geometry import DisparityGeometry
-from tricue.track.flow_depth.params import FlowDepthParams
+from tricue.track.flow_depth.params import PAPER_COLUMNS, FlowDepthParams
 from tricue.track.flow_depth.rectangles import Region
 
 Image = NDArray[np.uint8]
 Plane = NDArray[np.float32]
-
-PAPER_COLUMNS = 160  # of the paper's images, to which lengths in the parameters refer
 
 
 class ReducedFrame(NamedTuple):

@@ -48,6 +48,7 @@ class FlowDepthState(NamedTuple):
     occluded: bool = False  # whether something nearer hides the target
     occluder_disparity: float = math.nan  # in the window, as long as jumps of it decide on complete occlusion
     missed: float = 0.0  # seconds since the target was last found
+    coasted: Velocity = (0.0, 0.0)  # how far it moved on since then
 
     @property
     def disparity_offset(self) -> float:

@@ -205,18 +205,10 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         return DisparityGeometry.of(assumed, vergence if by_pair else 0.0, is_metric=not by_pair)
 
     def _track(self, state: FlowDepthState) -> Track:
-        """The track of a state.
-
-        Its box is the mean of the blocks' window, which is up to a block too large, and of the pixels'
-        outline, which is too small; or, as printed, the target window.
-        """
-        outlined = self.params.target_window == "outline"
-        outline = state.outline.rectangle(state.blocks) if outlined else state.window
+        """The track of a state."""
         step = state.reduced.step
-        (x0, y0, x1, y1), (left, top, right, bottom) = state.window, outline
-        box = Box.from_xyxy(
-            step * (x0 + left) / 2, step * (y0 + top) / 2, step * (x1 + right) / 2, step * (y1 + bottom) / 2
-        )
+        x0, y0, x1, y1 = _shown_window(state, self.params)
+        box = Box.from_xyxy(step * x0, step * y0, step * x1, step * y1)
         status = state.status(self.params)
         is_measured = self.rig is not None or state.reduced.right is None  # not by a pair without its rig
         if "disparity" not in self.params.cues or not (is_measured and state.geometry.is_metric):
@@ -238,25 +230,55 @@ def _waits(state: FlowDepthState) -> bool:
     return state.occluded and math.isfinite(state.occluder_disparity)
 
 
-def _velocity(state: FlowDepthState, p: FlowDepthParams) -> Velocity:
-    """The state's velocity, or the mean velocity while the target is missed."""
-    by_mean = p.velocity_smoothing and state.missed and state.learned_frames
-    return state.mean_velocity if by_mean else state.velocity
+def _missed_velocity(state: FlowDepthState, p: FlowDepthParams) -> Velocity:
+    """The velocity by which a missed target moves on: the mean one, as far as there is one."""
+    return state.mean_velocity if p.velocity_smoothing and state.learned_frames else state.velocity
+
+
+def _shown_window(state: FlowDepthState, p: FlowDepthParams) -> Rectangle:
+    """The window of the track's box, cells.
+
+    It is the mean of the blocks' window, which is up to a block too large, and of the pixels' outline, which
+    is too small; or, as printed, the target window.
+    """
+    if p.target_window != "outline":
+        return state.window
+    (x0, y0, x1, y1), (left, top, right, bottom) = state.window, state.outline.rectangle(state.blocks)
+    return (x0 + left) / 2, (y0 + top) / 2, (x1 + right) / 2, (y1 + bottom) / 2
+
+
+def _shift(state: FlowDepthState, p: FlowDepthParams) -> Velocity:
+    """By which the target is expected to move until the next frame.
+
+    While it is missed it moves on, its center inside of the image. After ``lost_after`` nobody knows where it
+    would have gone: it is searched where it was last found.
+    """
+    if not state.missed:
+        return state.velocity
+    if state.missed > p.lost_after:
+        return -state.coasted[0], -state.coasted[1]
+    right, down = _missed_velocity(state, p)
+    x0, y0, x1, y1 = _shown_window(state, p)
+    height, width = state.reduced.gray.shape
+    x, y = (x0 + x1) / 2, (y0 + y1) / 2
+    return min(max(x + right, 0.0), width) - x, min(max(y + down, 0.0), height) - y
 
 
 def _predict(state: FlowDepthState, p: FlowDepthParams) -> FlowDepthState:
-    """The state moved by its velocity."""
-    right, down = _velocity(state, p)
+    """The state moved to where the target is expected in the next frame."""
+    right, down = _shift(state, p)
+    coasted = (state.coasted[0] + right, state.coasted[1] + down) if state.missed else (0.0, 0.0)
     return state._replace(
         window=moved(state.window, right, down),
         temporal_window=moved(state.temporal_window, right, down),
         blocks=state.blocks.moved(right, down),
+        coasted=coasted,
     )
 
 
 def _look_ahead(state: FlowDepthState, p: FlowDepthParams) -> Rectangle:
     """The candidate region of the next frame."""
-    return candidate_region(moved(state.window, *_velocity(state, p)), state, p)
+    return candidate_region(moved(state.window, *_shift(state, p)), state, p)
 
 
 def _coast(state: FlowDepthState, seconds: float, **changes: Any) -> FlowDepthState:

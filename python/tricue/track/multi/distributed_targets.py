@@ -15,9 +15,9 @@ from tricue.track.multi.targets import Targets
 class DistributedTargets:
     """As ``Targets``, a part of them in this process, the others in workers.
 
-    Workers start with the first target. A new one goes where there are fewest. WorkerEndedError where a
-    worker was killed: its targets are gone from :attr:`ids`, the others stay, and another worker starts with
-    the next new target.
+    A new target goes where there are fewest, for which a worker starts while there are fewer than
+    ``processes``, this one among them, and all have targets. WorkerEndedError where a worker was killed: its
+    targets are gone from :attr:`ids`, the others stay, and another worker takes its place at a new target.
     """
 
     def __init__(self, processes: int) -> None:
@@ -85,6 +85,6 @@ class DistributedTargets:
 
     def _emptiest(self) -> Targets | RemoteTargets:
         self._workers = [each for each in self._workers if not each.ended]
-        while len(self._workers) < self._processes - 1:
+        if len(self._workers) < self._processes - 1 and all(each.ids for each in self._parts):
             self._workers.append(RemoteTargets(self._memory))
         return min(self._parts, key=lambda each: len(each.ids))

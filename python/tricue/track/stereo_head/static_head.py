@@ -40,7 +40,7 @@ class StaticHead:
     intersections: Floats
     """(M,) of (1)."""
     frames: int
-    """How many frames there were; the others had no disparity."""
+    """How many frames there were after the first; those beyond M had no disparity."""
 
     @property
     def noise(self) -> dict[str, Any]:
@@ -71,7 +71,7 @@ def measure_static_head(
 
     The first frame gives size, disparity and model; each other one is measured from there. Without a rig a
     default one is assumed, and positions mean little. ValueError for a box as :meth:`StereoHeadTracker.init`,
-    and where the head is measured in fewer than ten frames or in less than half of them.
+    and where the head is measured in fewer than ten of the others or in less than half of them.
     """
     stream = iter(frames)
     first = next(stream, None)
@@ -93,8 +93,8 @@ def measure_static_head(
             rows.append([*found.position, found.depth.disparity, *color, found.match.intersection])
     if len(rows) < max(MIN_FRAMES, count / 2):
         raise ValueError(
-            f"frames: expected a head at rest, measured in {MIN_FRAMES} stereo pairs or more and in half of "
-            f"them, got {len(rows)} of {count}"
+            f"frames: expected a head at rest, measured in {MIN_FRAMES} or more stereo pairs after the "
+            f"first, which gives the model, and in half of them, got {len(rows)} of {count}"
         )
     table = np.array(rows)
     return StaticHead(table[:, :3], table[:, 3], table[:, 4:7], table[:, 7], count)
