@@ -36,7 +36,7 @@ def to_gray(image: NDArray[Any]) -> Image:
     return np.asarray(image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY), np.uint8)
 
 
-def choose_scale(rows: int, columns: int = 1) -> int:
+def choose_scale(rows: int, columns: int) -> int:
     """The whole number by which an image of so many rows and columns is enlarged before it is drawn on."""
     return max(1, min(MIN_ROWS // rows, MAX_COLUMNS // columns))
 
