@@ -84,7 +84,7 @@ sanitize: $(VENV)/dev
 	    $(PIP) install --quiet --no-build-isolation --no-deps --target $(SANITIZED) .
 	TRICUE_KERNELS=native PYTHONPATH=$(SANITIZED) ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 \
 	    LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libstdc++.so)" \
-	    $(BIN)/python -m pytest --capture=sys $(PARALLEL) tests/camera tests/cues tests/fuse tests/fuzz \
+	    $(BIN)/python -m pytest --capture=sys --hypothesis-profile=brief $(PARALLEL) tests/camera tests/cues tests/fuse tests/fuzz \
 	    tests/track/test_bad_input.py tests/track/*/test_bad_input.py tests/track/*/test_kernels.py
 
 # More cases of the property tests than the tests try: kernels beside guard pages, public calls, damaged files, command lines.

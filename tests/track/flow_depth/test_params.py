@@ -115,8 +115,8 @@ def test_the_paper_follows_until_the_overtaking(depth, overtakings, follow):
     assert np.mean(np.array(overlaps) > 0.5) > 0.9
 
 
-WITHOUT_EFFECT = {"resolution", "depth_camera_scale", "min_posterior_one_cue", "thickness"}
-"""In a stereo pair of 160 columns, by both cues, alone among the defaults."""
+WITHOUT_EFFECT = {"resolution", "depth_camera_scale", "min_posterior_one_cue", "thickness", "lost_after"}
+"""In a stereo pair of 160 columns, by both cues, nothing hidden for seconds, alone among the defaults."""
 
 
 EXTREMES: list[dict[str, Any]] = [

@@ -11,6 +11,7 @@ if typing.TYPE_CHECKING:
     from typing_extensions import Self
 
 OURS = "our experiment: benchmarks/README.md"
+NEVER = 1e9  # seconds
 PAPER_COLUMNS = 160  # of the paper's images, to which lengths in the parameters refer
 
 
@@ -416,8 +417,8 @@ class FlowDepthParams(Params):
         - Votes and negative votes (section 4.4) add up over all frames in which a block has one state. A mean
           disparity needs a fifth of the block's cells; without it a block isn't nearer.
         - Too few target pixels and no occluded block (section 4.5): the target is missed, moves on at its
-          last velocity as far as the image's edge, and after a while is LOST and searched where it was last
-          found.
+          last velocity as far as the image's edge. Hidden by something nearer it is never LOST, of which
+          print doesn't speak; else it is after a while.
         - After a complete occlusion the disparity in the window is the target's.
         - All thresholds, sizes and numbers of votes: those that did best of some 100 random settings on the
           scenes of ``tricue reproduce okada-fig8``, seeds 0 to 2. The least reliability (9) is 0.3.
@@ -456,4 +457,5 @@ class FlowDepthParams(Params):
             target_window="pixels",
             complete_occlusion="disparity",
             min_pixels=0.2,
+            lost_after=NEVER,
         )
