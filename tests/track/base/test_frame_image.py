@@ -77,6 +77,10 @@ FIRST, OTHER = Box(1.0, 2.0, 10.0, 12.0), (3, 4, 5, 6)
         ((False, None), Track(FIRST, 0.0, Status.LOST)),
         ((0, 0, 0, 0), Track(FIRST, 0.0, Status.LOST)),
         (None, Track(FIRST, 0.0, Status.LOST)),
+        ((1, 2, float("nan"), 4), Track(FIRST, 0.0, Status.LOST)),
+        ((float("-inf"), 2, 3, 4), Track(FIRST, 0.0, Status.LOST)),
+        ((np.full(4, np.nan), 0.5), Track(FIRST, 0.0, Status.LOST)),
+        ((True, np.full(4, np.inf)), Track(FIRST, 0.0, Status.LOST)),
     ],
 )
 def test_answers(answer, track) -> None:
@@ -92,7 +96,7 @@ def test_answers(answer, track) -> None:
         ("left", "update: expected a Track, .* got 'left'"),
         (5, "update: expected a Track, .* got 5"),
         ((1, 2, 3), "expected four numbers"),
-        ((1, 2, float("inf"), 3), "expected finite numbers"),
+        (Track(Box(1, 2, float("nan"), 3), 1.0, Status.TRACKED), "expected finite numbers"),
         ((OTHER, None), "expected a finite score, got None"),
         ((OTHER, float("nan")), "expected a finite score, got nan"),
         ({"box": OTHER}, "update: expected a Track"),

@@ -35,8 +35,8 @@ def adapt_class(cls: Any) -> Any:
     A third party needs only ``init(image, box)`` and ``update(image)``, in a class or in what a function
     makes. image: BGR (H, W, 3) uint8, on which a frame's other parts are attributes such as ``timestamp``;
     a ``tricue.Frame`` where ``init`` is annotated so. box: (x, y, width, height). ``update`` returns a
-    ``Track``, a box, (found, box) as cv2's trackers, (box, score), or None for a lost target. score: any
-    finite number, the higher the surer. It is assumed to need color and an initial box, and to draw random
+    ``Track``, a box, (found, box) as cv2's trackers, (box, score), or None for a lost target, as which a box
+    of NaN or infinity counts, too. score: any finite number, the higher the surer. It is assumed to need color and an initial box, and to draw random
     numbers if it takes a ``seed``. TypeError if a method is missing.
     """
     if traits_of(cls) is not ADAPTED_TRAITS:
@@ -167,8 +167,11 @@ def _parts(given: Any) -> tuple[bool, Any, Any]:
 
 
 def _is_empty(box: Any) -> bool:
-    """Whether a box is 0 in width and height, by which some say that the target is lost."""
+    """Whether a box is 0 in width and height, by which some say that the target is lost, or isn't finite, as
+    after a division by 0.
+    """
     try:
-        return len(box) == 4 and not any(float(size) for size in box[2:])
+        numbers = [float(value) for value in box]
     except (TypeError, ValueError):
         return False
+    return len(numbers) == 4 and not (all(map(math.isfinite, numbers)) and any(numbers[2:]))
