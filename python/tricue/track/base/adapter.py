@@ -36,8 +36,9 @@ def adapt_class(cls: Any) -> Any:
     makes. image: BGR (H, W, 3) uint8, on which a frame's other parts are attributes such as ``timestamp``;
     a ``tricue.Frame`` where ``init`` is annotated so. box: (x, y, width, height). ``update`` returns a
     ``Track``, a box, (found, box) as cv2's trackers, (box, score), or None for a lost target, as which a box
-    of NaN or infinity counts, too. score: any finite number, the higher the surer. It is assumed to need color and an initial box, and to draw random
-    numbers if it takes a ``seed``. TypeError if a method is missing.
+    of NaN or infinity counts, too. score: any finite number, the higher the surer. It is assumed to need
+    color and an initial box, and to draw random numbers if it takes a ``seed``. TypeError if a method is
+    missing.
     """
     if traits_of(cls) is not ADAPTED_TRAITS:
         return cls
