@@ -174,6 +174,9 @@ def test_parameters_of_trackers_are_set_by_name(dataset, tmp_path):
     [
         (["--set", "particles=3"], "--set: expected tracker.name=value, got 'particles=3'"),
         (["--set", "color-particle.particels=3"], "particels"),
+        (["--set", "fused.seed=3"], "--set seed: expected a parameter, got what --seeds N sets"),
+        (["--set", "mine.py:Mine.seed=3"], "--set seed: expected a parameter, got what --seeds N sets"),
+        (["--set", "flow-depth.rig=3"], "got what the sequence's calibration sets"),
         (
             ["--trackers", "still-box", "--set", "fused.max_speed=3"],
             "--set: expected a parameter of a tracker that runs (still-box), got one of 'fused'",

@@ -27,7 +27,7 @@ from tricue.evaluation.report.page import write_report
 from tricue.evaluation.results_folder import FORMS
 from tricue.evaluation.tasks import perform
 from tricue.track.base.registry import names
-from tricue.track.base.settings import parse_settings, read_settings
+from tricue.track.base.settings import read_settings, third_party_settings
 
 EXAMPLES = """\
 examples:
@@ -46,6 +46,13 @@ examples:
 """
 FAILED = 1
 MAX_NAMES = 6  # of sequences in a line
+_SET_BY = {
+    "seed": "--seeds N",
+    "kernels": "this command itself, to native,",
+    "intrinsics": "the sequence's calibration",
+    "rig": "the sequence's calibration",
+}
+"""What sets what isn't among a tracker's parameters."""
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -207,9 +214,9 @@ def settings_by_tracker(settings: Sequence[str]) -> dict[str, dict[str, Any]]:
             raise ValueError(f"--set: expected tracker.name=value, got {setting!r}")
         found.setdefault(tracker, []).append(f"{name}{equals}{value}")
     return {
-        tracker: read_settings(tracker, None, each)
+        tracker: read_settings(tracker, None, each, _SET_BY)
         if tracker in names() and not is_foreign(tracker)
-        else parse_settings(each)
+        else third_party_settings(each, _SET_BY)
         for tracker, each in found.items()
     }
 

@@ -64,6 +64,15 @@ def test_a_third_partys_seed_has_an_option_too(setting: str) -> None:
         make_tracker(f"{__name__}:Still", None, [setting], 0, "native")
 
 
+@pytest.mark.parametrize("line", ["seed = 3", 'kernels = "reference"'])
+def test_a_third_partys_seed_in_a_file_has_an_option_too(line: str, tmp_path: Path) -> None:
+    """It proves that the message names the file, and what sets it."""
+    path = tmp_path / "p.toml"
+    path.write_text(f"step = 2\n{line}\n")
+    with pytest.raises(TypeError, match=r"p.toml: (seed|kernels): expected a parameter, got what --"):
+        read_settings(f"{__name__}:Still", path, [])
+
+
 class Still:
     """A third party's."""
 

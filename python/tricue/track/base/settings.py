@@ -3,7 +3,7 @@
 
 import ast
 import dataclasses
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -21,6 +21,8 @@ OPTIONS = {
     "rig": "--calibration FILE",
 }
 """By which users give what isn't among a tracker's parameters."""
+THIRD_PARTYS = ("seed", "kernels")
+"""Those of the options that every third party's class has, too."""
 
 
 def make_tracker(
@@ -38,20 +40,33 @@ def make_tracker(
     return create(name, **read_settings(name, base, settings), seed=seed, kernels=kernels, **camera)
 
 
-def read_settings(name: str, base: Path | Literal["paper"] | None, settings: Sequence[str]) -> dict[str, Any]:
+def read_settings(
+    name: str,
+    base: Path | Literal["paper"] | None,
+    settings: Sequence[str],
+    options: Mapping[str, str] = OPTIONS,
+) -> dict[str, Any]:
     """The same parameters as keywords. Those of ``base`` are checked; of the settings the names are.
 
     A third-party class checks its own parameters, but for the seed and the kernels, which have options.
+    options: what the command sets these by, as in :data:`OPTIONS`.
     """
     kind = tracker_class(name).Params
     if base == PAPER:
-        return _printed(name, kind) | _parse_for(kind, settings)
+        return _printed(name, kind) | _parse_for(kind, settings, options)
     if kind is None:
-        own = parse_settings(settings)
-        _check_options(own, ("seed", "kernels"))
-        return ({} if base is None else toml.read(base)) | own
+        values = {} if base is None else toml.read(base)
+        _check_options(values, options, THIRD_PARTYS, str(base))
+        return values | third_party_settings(settings, options)
     values = {} if base is None else dataclasses.asdict(kind.from_toml(base))
-    return values | _parse_for(kind, settings)
+    return values | _parse_for(kind, settings, options)
+
+
+def third_party_settings(settings: Sequence[str], options: Mapping[str, str] = OPTIONS) -> dict[str, Any]:
+    """Those of a class whose parameters aren't known."""
+    values = parse_settings(settings)
+    _check_options(values, options, THIRD_PARTYS)
+    return values
 
 
 def papers() -> tuple[str, ...]:
@@ -75,20 +90,23 @@ def _printed(name: str, kind: Any) -> dict[str, Any]:
     return dataclasses.asdict(kind.paper())
 
 
-def _parse_for(kind: Any, settings: Sequence[str]) -> dict[str, Any]:
+def _parse_for(kind: Any, settings: Sequence[str], options: Mapping[str, str]) -> dict[str, Any]:
     """Parameters of a kind; TypeError for a name that isn't among them."""
     values = current_names(kind, parse_settings(settings))
-    _check_options({name: values[name] for name in values.keys() - _names(kind)}, OPTIONS)
+    _check_options(values.keys() - _names(kind), options, options)
     if issubclass(kind, Params):
         kind.__new__(kind, **values)  # which checks the names alone
     return _split_words(values, kind)
 
 
-def _check_options(values: Mapping[str, Any], names: Iterable[str]) -> None:
-    """TypeError for one of these names, which are set by options of their own."""
+def _check_options(
+    given: Container[str], options: Mapping[str, str], names: Iterable[str], place: str = "--set"
+) -> None:
+    """TypeError for one of these names, which are set by options of their own. place: where it is given."""
     for name in names:
-        if name in values:
-            raise TypeError(f"--set {name}: expected a parameter, got what {OPTIONS[name]} sets")
+        if name in given:
+            mark = " " if place == "--set" else ": "
+            raise TypeError(f"{place}{mark}{name}: expected a parameter, got what {options[name]} sets")
 
 
 def _names(kind: Any) -> set[str]:
