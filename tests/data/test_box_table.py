@@ -48,6 +48,12 @@ def test_absent_is_not_unknown(tmp_path: Path, row: str) -> None:
     assert np.isnan(truth.boxes).all(axis=1).tolist() == [False, True, True, False]
 
 
+def test_a_negative_size_is_refused(tmp_path: Path) -> None:
+    """It proves that it isn't taken for an absent target, here as in the other files of true boxes."""
+    with pytest.raises(ValueError, match=r"boxes.csv, line 2: expected a width and height of 0 or more"):
+        read(tmp_path, "0,1,2,3,4\n1,9,9,-5,4\n")
+
+
 def test_positions(tmp_path: Path) -> None:
     """It proves that positions are kept, also of absent targets, and are NaN where a cell is empty."""
     truth = read(tmp_path, "frame,x,y,w,h,Z_m,X_m\n2,1,2,3,4,5,6\n0,,,,,7,\n")

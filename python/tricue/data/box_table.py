@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.data.truth import MAX_FRAME_NUMBER, Truth, read_lines, truth_from_rows
+from tricue.data.truth import MAX_FRAME_NUMBER, Truth, check_sizes, read_lines, truth_from_rows
 
 BOX_TABLE = "boxes.csv"
 _BOX_COLUMNS = ("x", "y", "width", "height")
@@ -46,7 +46,9 @@ class _Row(NamedTuple):
         empty = [name for name in _BOX_COLUMNS if not self.cells[name]]
         if 0 < len(empty) < len(_BOX_COLUMNS):
             raise ValueError(f"{self.place}: expected all of x, y, width, height or none, got no {empty[0]}")
-        return [self.number(name) for name in _BOX_COLUMNS]
+        return check_sizes(
+            [self.number(name) for name in _BOX_COLUMNS], self.place, ",".join(self.cells.values())
+        )
 
 
 def read_box_table(path: Path) -> Truth:

@@ -9,7 +9,7 @@ without any of them may have a table, boxes.csv; see :mod:`tricue.data.box_table
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,6 +22,7 @@ MAX_FRAME_NUMBER = 10_000_000  # a day at 100 frames per second; a larger number
 DEPTHS_FILE = (
     "position_z_mm.txt"  # one line per frame: the target's median depth in millimeters, 0 or NaN if unknown
 )
+Box = TypeVar("Box", bound=Sequence[float])
 _OTB_TARGET_TRUTH = re.compile(r"groundtruth_rect\.(\d+)\.txt")  # in folders with several targets
 
 
@@ -165,8 +166,12 @@ def read_box(line: str, place: str, count: int | None = None) -> tuple[float, ..
 
 def _true_box(line: str, place: str, count: int | None) -> tuple[float, ...]:
     """As :func:`read_box`; ValueError also for a negative width or height, which may be a corner's place."""
-    box = read_box(line, place, count)
-    if min(box[2:]) < 0:
+    return check_sizes(read_box(line, place, count), place, line)
+
+
+def check_sizes(box: Box, place: str, line: str) -> Box:
+    """The box x, y, width, height of a line; ValueError for a negative width or height without NaN."""
+    if min(box[2:]) < 0 and not np.isnan(box).any():
         raise ValueError(f"{place}: expected a width and height of 0 or more, got {line.strip()!r:.60}")
     return box
 
