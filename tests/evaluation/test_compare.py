@@ -46,8 +46,22 @@ def test_what_got_worse_is_told(folders):
     assert found["fused"].worst_first()[0][0] == "s7"
     assert found["KCF"].verdict == "no difference shown"
     assert found["few"].verdict == "nothing can be told"
-    assert compare_folders(*folders).only == ["only in the old one: tracker gone"]
+    assert compare_folders(*folders).notes == ["only in the old one: tracker gone"]
     assert {e.tracker: e.verdict for e in compare_folders(*folders[::-1]).changes}["fused"] == "better"
+
+
+def test_too_few_recordings_for_many_lines(tmp_path, capsys):
+    """Of six recordings two changes have no p under 0.05 by Holm, so that nothing is told of them, as no
+    tracker of tricue evaluate is marked then; one alone has.
+    """
+    worse = [each - 0.1 for each in OLD[:6]]
+    old = write(tmp_path / "old", fused=OLD[:6], KCF=OLD[:6])
+    new = write(tmp_path / "new", fused=worse, KCF=OLD[:6])
+    one = write(tmp_path / "one", fused=worse)
+    assert [each.verdict for each in compare_folders(old, one).changes] == ["worse"]
+    assert [each.verdict for each in compare_folders(old, new).changes] == ["nothing can be told"] * 2
+    assert main(["compare", str(old), str(new), "--fail-if-worse"]) == 0
+    assert "Of so few recordings no p of 2 lines can be under 0.05 by Holm." in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

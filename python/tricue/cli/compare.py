@@ -46,7 +46,7 @@ def run(options: argparse.Namespace) -> int:
     """Run the command: tables on stdout. The exit code is 1 if it got worse and that was asked for."""
     found = compare_folders(options.old, options.new, options.number)
     print(table(found))
-    for note in found.only:
+    for note in found.notes:
         print(note)
     for change in found.changes:
         worst = [line for line in change.worst_first() if change.better * (line[2] - line[1]) < 0][:MOST]

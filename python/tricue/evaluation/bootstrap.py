@@ -87,6 +87,13 @@ def least_p(size: int) -> float:
     return sign_flip_p(np.ones(size), [str(each) for each in range(size)]) if size else math.nan
 
 
+def separable(sizes: Sequence[int]) -> bool:
+    """Whether any of several tests, each of so many recordings, can show a difference: whether the least
+    p-value that it has is below 1 - LEVEL by Holm's method.
+    """
+    return any(len(sizes) * least_p(size) < 1 - LEVEL for size in {*sizes})
+
+
 def holm(p_values: Sequence[float]) -> list[float]:
     """The p-values adjusted for their number (Holm 1979), in their order; NaN stays and doesn't count."""
     known = sorted((p, index) for index, p in enumerate(p_values) if not math.isnan(p))

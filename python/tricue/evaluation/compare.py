@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
 
-from tricue.evaluation.bootstrap import LEVEL, Interval, holm, mean_interval, sign_flip_p
+from tricue.evaluation.bootstrap import LEVEL, Interval, holm, mean_interval, separable, sign_flip_p
 from tricue.evaluation.differences import BETTER
 from tricue.evaluation.protocols import ONE_PASS, orders
 from tricue.evaluation.tables import JSON
@@ -60,11 +60,13 @@ class Change:
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """All changes of one number. only: trackers and sequences that one of both alone has, for a note."""
+    """All changes of one number. notes: why nothing can be told of any, and which trackers and sequences one
+    of both alone has.
+    """
 
     number: str
     changes: Sequence[Change]
-    only: Sequence[str]
+    notes: Sequence[str]
 
 
 def compare_folders(old: Path, new: Path, number: str = "auc") -> Comparison:
@@ -88,9 +90,15 @@ def compare_folders(old: Path, new: Path, number: str = "auc") -> Comparison:
             changes.append(_change(key, common, recordings, BETTER[number]))
     if not changes:
         raise ValueError(f"{old}, {new}: expected a tracker and a sequence that both have, got none")
+    notes = _only(before["rows"], after["rows"])
+    tested = [each.recordings for each in changes if not math.isnan(each.adjusted)]
     adjusted = holm([each.adjusted for each in changes])
+    if tested and not separable(tested):
+        adjusted = [math.nan] * len(changes)
+        lines = "1 line" if len(tested) == 1 else f"{len(tested)} lines"
+        notes = [f"Of so few recordings no p of {lines} can be under 0.05 by Holm.", *notes]
     changes = [replace(each, adjusted=p) for each, p in zip(changes, adjusted, strict=True)]
-    return Comparison(number, changes, _only(before["rows"], after["rows"]))
+    return Comparison(number, changes, notes)
 
 
 def _change(

@@ -15,8 +15,8 @@ from tricue.evaluation.bootstrap import (
     MIN_CLUSTERS,
     Interval,
     holm,
-    least_p,
     mean_interval,
+    separable,
     sign_flip_p,
 )
 
@@ -60,11 +60,8 @@ class Comparison:
 
     @property
     def separable(self) -> bool:
-        """Whether there are recordings enough to tell trackers apart, with all pairs in mind: whether the
-        least p-value that the test has of them is below 1 - LEVEL by Holm's method.
-        """
-        known = [each for each in self.pairs if not math.isnan(each.p)]
-        return any(len(known) * least_p(size) < 1 - LEVEL for size in {each.recordings for each in known})
+        """Whether there are recordings enough to tell trackers apart, with all pairs in mind."""
+        return separable([each.recordings for each in self.pairs if not math.isnan(each.p)])
 
     def pair(self, first: str, second: str) -> Pair | None:
         """The pair in this order; None where they have no sequence in common."""

@@ -32,7 +32,7 @@ def write_compare_page(found: Comparison, old: Path, new: Path, path: Path) -> P
         tag("p", "tricue compare", class_="kicker"),
         tag("h1", f"{new.name} against {old.name}"),
         tag("p", lead, class_="lead"),
-        [tag("p", note, class_="note") for note in found.only],
+        [tag("p", note, class_="note") for note in found.notes],
     )
     main = tag("main", header, _overview(found), [_sequences(each) for each in found.changes])
     path.parent.mkdir(parents=True, exist_ok=True)
