@@ -112,6 +112,24 @@ def test_images_of_another_size(studio: Studio, monkeypatch: pytest.MonkeyPatch)
     assert abs(place(studio).x - 2 * (START.x + level(number))) < 6
 
 
+def test_images_of_another_size_end_a_recording(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that a recording has frames and boxes of one size, is finished, and that the page is told."""
+    studio.begin()
+    studio.session.add(0, list(START), "fused")
+    studio.session.record()
+    studio.shows(3)
+    width, height = studio.session.size
+    monkeypatch.setattr(live_conftest, "IMAGES", [cv2.resize(each, None, fx=2, fy=2) for each in IMAGES])
+    studio.shows(2)
+    assert studio.session.recorder is None
+    changed = f"a camera: its images are {2 * width}x{2 * height} px now"
+    assert studio.session.errors == [f"{changed}, the recording has ended; draw the boxes anew"]
+    table, told, video = studio.session.recorded
+    assert len(table.read_text().splitlines()) == 1 + 3
+    assert len(json.loads(told.read_text())["tracks"]) == 3
+    assert cv2.VideoCapture(str(video)).read()[0]
+
+
 def test_a_tracker_that_breaks_ends_alone(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
     """It proves that an error of one tracker is said once, and others go on."""
     studio.begin()

@@ -217,7 +217,9 @@ class LiveSession:
             self._record(shown, frame)
 
     def _check_size(self, frame: Frame) -> None:
-        """Where the camera gives images of another size than before, the boxes of before mean nothing."""
+        """Where the camera gives images of another size than before, the boxes of before mean nothing, and a
+        recording, whose boxes and video are of one size, ends.
+        """
         height, width = image_of(frame).shape[:2]
         if (width, height) == self.size:
             return
@@ -225,7 +227,9 @@ class LiveSession:
         self._backlog.clear()
         for followed in self._followed.values():
             followed.stopped, followed.track = True, replace(followed.track, status=Status.LOST)
-        self.errors.append(f"{self.name}: its images are {width}x{height} px now; draw the boxes anew")
+        ended = ", the recording has ended" * (self.recorder is not None)
+        self.stop_recording()
+        self.errors.append(f"{self.name}: its images are {width}x{height} px now{ended}; draw the boxes anew")
 
     def _catch_up(self, followed: Followed) -> None:
         """Show a tracker the frames that it hasn't seen; an error ends it alone."""
