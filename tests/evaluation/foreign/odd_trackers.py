@@ -12,6 +12,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 import odd_helper
+from tricue import Box, Status, Track
 
 print("printed while it is imported")
 ODD = 4  # the update at which most do what they do
@@ -91,6 +92,11 @@ class Text(Still):
 class Nan(Still):
     def odd(self):
         return (1, 2, float("nan"), 4)
+
+
+class InfinitePosition(Still):
+    def odd(self):
+        return Track(Box(*self.box), 1.0, Status.TRACKED, (float("inf"), 0.0, 1.0))
 
 
 class Five(Still):

@@ -15,7 +15,7 @@ from tricue.evaluation import baselines
 from tricue.evaluation.dataset import find_entries
 from tricue.evaluation.evaluate import RUNS, Options, evaluate
 from tricue.evaluation.foreign import process
-from tricue.evaluation.foreign.spec import foreign_spec, split_name
+from tricue.evaluation.foreign.spec import ForeignSpec, foreign_spec, split_name
 from tricue.evaluation.record import Record
 from tricue.evaluation.report.page import write_report
 from tricue.evaluation.tasks import RESTARTS, Task, perform
@@ -115,7 +115,7 @@ def test_what_goes_wrong_in_an_update(name, error, there, patrol):
     ("name", "limit", "error"),
     [
         ("FailsWhileMade", PATIENT, "no weights here"),
-        ("HangsWhileMade", LIMIT, "no answer within 4 s (--time-limit)"),
+        ("HangsWhileMade", LIMIT, "not loaded within 4 s (--time-limit)"),
         (
             "make_nothing",
             PATIENT,
@@ -217,6 +217,31 @@ def test_another_time_limit_repeats_what_it_ended(folders, tmp_path):
     assert sorted(done) == ["odd_trackers.py:Hangs"] * 2 + ["odd_trackers.py:Raises"]
     (path,) = (tmp_path / RUNS).rglob("*Hangs/**/*.json")
     assert Record.from_json(path.read_text()).error == f"frame {AT}: no answer within 5 s (--time-limit)"
+
+
+@pytest.mark.parametrize(
+    ("error", "repeated"),
+    [
+        ("frame 0: not loaded within 60 s (--time-limit)", False),
+        ("frame 0: not loaded within 90 s (--time-limit)", True),
+        ("frame 4: no answer within 4 s (--time-limit)", False),
+        ("frame 4: no answer within 60 s (--time-limit)", True),
+        ("frame 4: RuntimeError: no answer within the beam", False),
+        ("", False),
+    ],
+)
+def test_what_no_other_limit_ended_is_kept(error, repeated):
+    """It proves that a run that was ended while it loaded, where the limit is a minute at least, isn't run
+    again and again, nor one whose own error sounds alike.
+    """
+    assert ForeignSpec("theirs", time_limit=LIMIT).outdated(error) is repeated
+
+
+def test_an_infinite_position_is_unknown(folders, tmp_path):
+    """It proves that it doesn't end the evaluation, whose files have no infinity."""
+    chosen = Options((f"{ODD}:InfinitePosition",), restarts=False, time_limit=PATIENT)
+    (result,) = evaluate(folders / "there", tmp_path, chosen).results
+    assert result.row.trouble == ""
 
 
 def test_trackers_of_cv2_by_their_names(there, patrol):

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
@@ -123,11 +124,16 @@ def _check_settings(made: Any, settings: Mapping[str, Any]) -> None:
 def _to_plain(track: Any, method: str) -> PlainTrack:
     checked = check_track(track, method)
     position, covariance = (
-        None if value is None else np.asarray(value, dtype=np.float64).reshape(shape)
+        None if value is None else _finite_or_nan(np.asarray(value, dtype=np.float64).reshape(shape))
         for value, shape in ((checked.position, 3), (checked.covariance, (3, 3)))
     )
     box = tuple(map(float, checked.box))
     return box, float(checked.score), Status(checked.status).value, position, covariance
+
+
+def _finite_or_nan(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """With NaN, unknown, for infinity, as which a division by 0 may come."""
+    return np.where(np.isfinite(values), values, np.nan)
 
 
 def from_plain(plain: PlainTrack) -> Track:

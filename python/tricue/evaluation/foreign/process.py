@@ -3,12 +3,13 @@
 
 import os
 import pickle
+import re
 import signal
 import subprocess
 import sys
 import threading
 import weakref
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import IO, Any
 
@@ -58,15 +59,15 @@ class WorkerProcess:
 
     def load(self, method: str, *arguments: Any) -> Any:
         """As :meth:`ask`, with the time that imports and models may take."""
-        return self._ask(max(self.limit, LOADING_LIMIT), method, *arguments)
+        return self._ask(max(self.limit, LOADING_LIMIT), not_loaded, method, *arguments)
 
     def ask(self, method: str, *arguments: Any) -> Any:
         """The value that a method of ``Host`` returns; WorkerError for what it raises, and at the end of the
         process.
         """
-        return self._ask(self.limit, method, *arguments)
+        return self._ask(self.limit, no_answer, method, *arguments)
 
-    def _ask(self, limit: float, method: str, *arguments: Any) -> Any:
+    def _ask(self, limit: float, late: Callable[[float], str], method: str, *arguments: Any) -> Any:
         if self.end:
             raise WorkerError(self.end)
         assert self._process.stdin is not None
@@ -81,7 +82,7 @@ class WorkerProcess:
             succeeded, value = pickle.load(self._process.stdout)
         except (EOFError, OSError, pickle.UnpicklingError):
             ended = self._how_it_ended()
-            self.end = no_answer(limit) if too_slow.is_set() else ended
+            self.end = late(limit) if too_slow.is_set() else ended
             raise WorkerError(self.end) from None
         finally:
             timer.cancel()
@@ -106,6 +107,20 @@ class WorkerProcess:
 def no_answer(limit: float) -> str:
     """The message of a time limit that ended a process."""
     return f"no answer within {limit:g} s (--time-limit)"
+
+
+def not_loaded(limit: float) -> str:
+    """The same of one that ended while something was loaded."""
+    return f"not loaded within {limit:g} s (--time-limit)"
+
+
+def ended_by_another_limit(error: str, limit: float) -> bool:
+    """Whether an error is one of these messages, but none of this time limit."""
+    present = no_answer(limit), not_loaded(max(limit, LOADING_LIMIT))
+    return _LATE.search(error) is not None and not error.endswith(present)
+
+
+_LATE = re.compile(r"(?:no answer|not loaded) within \S+ s \(--time-limit\)$")
 
 
 class RemoteTracker:

@@ -9,7 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from tricue.evaluation.foreign.host import CV2, TRAX, Description
-from tricue.evaluation.foreign.process import RemoteTracker, WorkerError, WorkerProcess, no_answer
+from tricue.evaluation.foreign.process import (
+    RemoteTracker,
+    WorkerError,
+    WorkerProcess,
+    ended_by_another_limit,
+)
 from tricue.evaluation.safe_tracker import SafeTracker
 from tricue.evaluation.tracker_spec import Make, SequenceInfo, TrackerSpec
 from tricue.track.base import registry
@@ -70,7 +75,7 @@ class ForeignSpec(TrackerSpec):
 
     def outdated(self, error: str) -> bool:
         """Whether it was ended by another time limit than this."""
-        return no_answer(0.0).partition(" 0 s")[0] in error and no_answer(self.time_limit) not in error
+        return ended_by_another_limit(error, self.time_limit)
 
     def _made(self, process: WorkerProcess, opened: SequenceInfo, seed: int) -> SafeTracker:
         keywords = dict(self.settings) if self.sees_a_picture(opened) else self.keywords(opened)
