@@ -63,7 +63,10 @@ def test_iou_is_a_symmetric_share(a: Box, b: Box) -> None:
 def test_clip_keeps_the_pixels_inside(box: Box, width: int, height: int) -> None:
     """It proves that clipping leaves exactly the pixels inside the image, none for a box outside."""
     inside = {(i, j) for i, j in pixels(box) if 0 <= i < height and 0 <= j < width}
-    assert pixels(box.clip(width, height)) == inside
+    clipped = box.clip(width, height)
+    assert pixels(clipped) == inside
+    assert clipped.area == len(inside)
+    assert min(clipped.width, clipped.height) >= 0
 
 
 @pytest.mark.parametrize(
@@ -129,6 +132,12 @@ BAD_VALUES += [
     (1, 2, 1e300, 4),
     (1e7, 2, 3, 4),
 ]
+
+
+@pytest.mark.parametrize("box", [(1, 2, 0.25, 3), (1, 2, 3, 0.25)])
+def test_a_box_may_be_thinner_than_a_pixel(box: tuple[float, ...]) -> None:
+    """It proves that any width and height above 0 will do."""
+    assert as_box(box) == box
 
 
 @pytest.mark.parametrize("value", BAD_TYPES)

@@ -104,6 +104,16 @@ def test_files_are_read(tmp_path: Path, suffix: str) -> None:
     assert made.rig == Rectification(RAW, SIZE).rig
 
 
+@pytest.mark.parametrize("count", [4, 5, 8, 12, 14])
+def test_every_distortion_model_of_opencv_is_read(tmp_path: Path, count: int) -> None:
+    """It proves that a file may have as many coefficients as cv2.stereoCalibrate gives."""
+    distortion = np.zeros(count)
+    distortion[:2] = -0.1, 0.02
+    raw = RAW._replace(distortions=(distortion, distortion))
+    path = stereo_file(tmp_path / "c.yml", D1=distortion, D2=distortion)
+    assert Rectification.from_opencv(path).rig == Rectification(raw, SIZE).rig
+
+
 def test_other_names_and_rodrigues_vectors_are_read(tmp_path: Path) -> None:
     """It proves that K1, distCoeffs1 and so on are known, and R may be a rotation vector."""
     (m1, m2), (d1, d2), rotation, translation = RAW

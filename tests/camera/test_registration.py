@@ -26,10 +26,11 @@ def middle(image: np.ndarray) -> np.ndarray:
     return np.average(np.column_stack([columns, rows]), axis=0, weights=image[rows, columns, 0])
 
 
+@pytest.mark.parametrize("z", [0.7, 2.0])
 @pytest.mark.parametrize("shift", [0.0, 0.1])
-def test_a_point_has_its_color(shift: float) -> None:
+def test_a_point_has_its_color(shift: float, z: float) -> None:
     """A thing that both cameras see is, in the depth camera's pixels, where that camera sees it."""
-    point = (0.2, -0.15, 2.0)
+    point = (0.1 * z, -0.075 * z, z)
     moved = (point[0] + shift, *point[1:])
     extrinsics = Extrinsics(translation=np.array([shift, 0, 0])) if shift else None
     depth = np.full((30, 40), point[2], np.float32)
@@ -204,6 +205,32 @@ def test_a_much_finer_color_image_has_no_gaps(scale: int) -> None:
     fine = Intrinsics.from_fov(32 * scale, 24 * scale, 60.0)
     found = Reprojection(coarse, fine, Extrinsics())(np.full((24, 32), 2.0, np.float32))
     np.testing.assert_allclose(found, 2.0, rtol=1e-6)
+
+
+def test_a_color_camera_finer_along_one_axis_has_no_gaps() -> None:
+    """Its pixels may be smaller along x alone, or along y alone."""
+    coarse = Intrinsics(30, 30, 3.5, 2.5, 8, 6)
+    for across, down in ((24, 1), (1, 24)):
+        center = (8 * across - 1) / 2, (6 * down - 1) / 2
+        fine = Intrinsics(30 * across, 30 * down, *center, 8 * across, 6 * down)
+        found = Reprojection(coarse, fine, Extrinsics())(np.full((6, 8), 2.0, np.float32))
+        np.testing.assert_allclose(found, 2.0, rtol=1e-6)
+
+
+def test_a_wall_close_to_the_color_camera_has_no_gaps() -> None:
+    """A depth pixel covers more color pixels, the nearer the color camera is to what it saw."""
+    camera = Intrinsics(40, 40, 15.5, 11.5, 32, 24)
+    forward = Extrinsics(translation=np.array([0.0, 0.0, -1.8]))
+    found = Reprojection(camera, camera, forward)(np.full((24, 32), 2.0, np.float32))
+    np.testing.assert_allclose(found, 0.2, rtol=1e-5)
+
+
+def test_a_color_camera_upside_down_sees_the_depth_so() -> None:
+    """A half turn about the line of sight turns the image, and leaves every depth."""
+    camera = Intrinsics(40, 40, 15.5, 11.5, 32, 24)
+    depth = np.random.default_rng(0).uniform(0.5, 4, (24, 32)).astype(np.float32)
+    turned = Reprojection(camera, camera, Extrinsics(np.diag([-1.0, -1.0, 1.0])))(depth)
+    np.testing.assert_allclose(turned, depth[::-1, ::-1], rtol=1e-6)
 
 
 def test_what_is_near_hides_what_is_behind() -> None:
