@@ -195,3 +195,11 @@ def test_boxes_are_the_trackers_own(undisturbed, patrol):
     run = one_pass.run(tricue.create("color-particle", seed=1), frames, Box(*boxes[0]))
     np.testing.assert_array_equal(record.run.boxes, run.boxes)
     np.testing.assert_array_equal(record.run.scores, run.scores)
+
+
+def test_a_folder_that_cant_be_written_is_told_before_the_first_run(folders, tmp_path):
+    """It proves that no run is lost for it."""
+    file = tmp_path / "file"
+    file.touch()
+    with pytest.raises(OSError, match="file"):
+        evaluate(folders, file, Options(("still-box",)), work=lambda _: pytest.fail("it ran"))

@@ -163,11 +163,12 @@ def evaluate(
     """Run all that is missing in ``folder`` of the data set at ``root``, and score all runs.
 
     jobs, scheduler: as :func:`tricue.evaluation.schedule.run_tasks` takes them. fresh: whether to run all
-    again. on_progress: called after each run. ValueError or OSError for a data set or options that can't
-    be used.
+    again. on_progress: called after each run. ValueError or OSError for a data set, a folder or options
+    that can't be used, before the first run.
     """
     plan = _Plan(root, options)
     store = Store(folder / RUNS)
+    store.prepare()
     failed = dict(plan.failed)
     for task in () if fresh else plan.missing:
         record = store.load(task, plan.fingerprint(task))

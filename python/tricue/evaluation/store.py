@@ -4,6 +4,7 @@
 import json
 import os
 import re
+import tempfile
 from pathlib import Path
 
 from tricue.evaluation.record import Record
@@ -15,6 +16,12 @@ class Store:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
+
+    def prepare(self) -> None:
+        """Make the folder; OSError where nothing can be written into it, which is better known early."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=self.folder):
+            pass
 
     def path(self, task: Task) -> Path:
         """Where a task's record is or will be."""
