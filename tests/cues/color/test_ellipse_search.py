@@ -220,6 +220,16 @@ def test_many_bins(kernels: Kernels) -> None:
     assert_allclose(found[..., 0], n / 65535, rtol=0, atol=2 * 15 * 2 * 18 * arguments["margin"] ** 2 / 2**31)
 
 
+@pytest.mark.parametrize("empty", [0, 1, 7, 8, 9])
+def test_every_bin_counts_where_all_are_seen(kernels: Kernels, empty: int) -> None:
+    """Of 65535 bins, each seen in two pixels, those that the model lacks are the share that doesn't match."""
+    bins = np.tile(np.arange(NO_BIN), 2).astype(np.uint16).reshape(255, 514)
+    model = np.ones(NO_BIN)
+    model[1000 : 1000 + empty] = 0
+    found = kernels.ellipse_search(bins, np.array([257.0, 127.5, 600, 600]), (1, 1, 1), model, 1.0, None)
+    assert_allclose(found[0, 0], [1 - empty / NO_BIN, 0, 0, 0], rtol=1e-15)
+
+
 BAD: list[tuple[dict[str, Any], str]] = [
     ({"ellipse": np.zeros(5)}, r"ellipse: expected shape \(4,\), got \(5,\)"),
     ({"ellipse": np.full(4, np.inf)}, "ellipse: expected finite numbers, got inf"),

@@ -10,12 +10,18 @@ namespace {
 
 static_assert((CompactBins::kUnmatchedCount & (CompactBins::kUnmatchedCount - 1)) == 0);
 
-constexpr std::uint16_t kUnassigned = kNoBin;  ///< a bin of the model that hasn't occurred yet
+/// A bin of the model that hasn't occurred yet. No bin is outside, and all 65535 may have an index of their own.
+constexpr std::uint16_t kUnassigned = CompactBins::kOutside;
 
+/// Returns how many bins are empty in the model.
 TRICUE_MULTIVERSION
-void initialize_indices(const double* __restrict model, std::size_t size, std::uint16_t* __restrict indices) {
-    for (std::size_t bin = 0; bin < size; ++bin)
+int initialize_indices(const double* __restrict model, std::size_t size, std::uint16_t* __restrict indices) {
+    int empty = 0;
+    for (std::size_t bin = 0; bin < size; ++bin) {
         indices[bin] = model[bin] > 0.0 ? kUnassigned : CompactBins::kUnmatched;
+        empty += !(model[bin] > 0.0);
+    }
+    return empty;
 }
 
 TRICUE_MULTIVERSION
@@ -30,8 +36,7 @@ CompactBins::CompactBins(const BinsView& bins, VectorRef model, double total, co
                          const Region& area)
     : cols(area.x1 - area.x0),
       indices(static_cast<std::size_t>(cols) * static_cast<std::size_t>(area.y1 - area.y0), kOutside),
-      masked(mask.data == nullptr ? 0 : indices.size() + kMaskPadding),
-      shares(kUnmatched + kUnmatchedCount, 0.0) {
+      masked(mask.data == nullptr ? 0 : indices.size() + kMaskPadding) {
     const Region visible = area.clipped({nullptr, bins.rows, bins.cols, 1, 0});
     fill_indices(bins, model, total, area, visible);
     if (mask.data != nullptr) fill_masked(bins, mask, area, visible);
@@ -42,17 +47,21 @@ void CompactBins::fill_indices(const BinsView& bins, VectorRef model, double tot
     const auto size = static_cast<std::uint16_t>(model.size());
     std::vector<std::uint16_t> table(std::size_t{size} + 1,
                                      kOutside);  // the last is for pixels without a bin
-    initialize_indices(model.data(), size, table.data());
+    const int empty = initialize_indices(model.data(), size, table.data());
+    // Never more indices than empty bins: with those of the other bins they fit 16 bits.
+    const int unmatched = empty < kUnmatchedCount ? std::min(empty, 1) : kUnmatchedCount;
+    const int spread_mask = std::max(unmatched - 1, 0);
+    shares.assign(std::size_t{kUnmatched} + static_cast<std::size_t>(unmatched), 0.0);
     for (int y = visible.y0; y < visible.y1; ++y) {
         const std::uint16_t* row = bins.row(y);
         std::uint16_t* out = indices.data() + std::ptrdiff_t{y - area.y0} * cols - area.x0;
         for (int x = visible.x0; x < visible.x1; ++x) {
             const std::uint16_t bin = std::min(row[x], size);
-            if (table[bin] == kUnassigned) {
+            if (table[bin] == kUnassigned && bin != size) {
                 table[bin] = static_cast<std::uint16_t>(shares.size());
                 shares.push_back(model[bin] / total);
             }
-            const int spread = table[bin] == kUnmatched ? (x + y) & (kUnmatchedCount - 1) : 0;
+            const int spread = table[bin] == kUnmatched ? (x + y) & spread_mask : 0;
             out[x] = static_cast<std::uint16_t>(table[bin] + spread);
         }
     }

@@ -16,8 +16,8 @@ namespace tricue {
 struct CompactBins {
     static constexpr std::uint16_t kOutside = 0;    ///< the index of pixels without a bin
     static constexpr std::uint16_t kUnmatched = 1;  ///< the first index of bins that are empty in the model
-    static constexpr int kUnmatchedCount =
-        8;  ///< how many indices those bins share: neighbors then needn't wait for each other's count
+    /// How many indices those bins share, unless they are fewer: neighbors then needn't wait for each other's count.
+    static constexpr int kUnmatchedCount = 8;
     static constexpr std::size_t kPadding = 16;  ///< the number of indices is a multiple of this
 
     static constexpr std::size_t kMaskPadding = 16;  ///< so that this many can be read from anywhere
