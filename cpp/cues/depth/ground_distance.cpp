@@ -37,7 +37,8 @@ GroundView::GroundView(int rows, int cols, VectorRef camera, VectorRef up, doubl
     if (!(std::abs(length - 1.0) <= 1e-6)) refuse("up", "a vector of length 1", length);
     require_limits(near_, far_);
     Vector ahead(3);
-    ahead << -up[2] * up[0], -up[2] * up[1], 1.0 - up[2] * up[2];
+    // Not 1 - up_z²: of a camera that looks straight down, little more would be left than the error of up's length.
+    ahead << -up[2] * up[0], -up[2] * up[1], up[0] * up[0] + up[1] * up[1];
     const double level = norm(ahead);
     if (!(level > 1e-6)) refuse("up", "a direction across the view", "one along it");
     ahead /= level;

@@ -45,7 +45,9 @@ def test_twin_measures_the_same_in_pictures(picture: Depth, camera: Floats, floo
     assert_array_equal(_core.ground_distance(*arguments), reference.ground_distance(*arguments), strict=True)
 
 
-@pytest.mark.parametrize(("tilt", "roll"), [(0.0, 0.0), (25.0, 0.0), (-40.0, 10.0), (70.0, -30.0)])
+@pytest.mark.parametrize(
+    ("tilt", "roll"), [(0.0, 0.0), (25.0, 0.0), (-40.0, 10.0), (70.0, -30.0), (89.999, 15.0)]
+)
 def test_is_the_distance_of_points(kernels: Kernels, tilt: float, roll: float) -> None:
     """It is the product of the points, by the inverse of the camera's matrix, with the view's direction along
     the ground of a camera that isn't rolled, by SciPy's rotation about the view.
@@ -59,6 +61,17 @@ def test_is_the_distance_of_points(kernels: Kernels, tilt: float, roll: float) -
     ahead = Rotation.from_euler("z", roll, degrees=True).apply([0.0, -np.sin(down), np.cos(down)])
     found = kernels.ground_distance(depth, LENS, upward(tilt, roll), -100.0, 100.0)
     assert_allclose(found, points @ ahead, rtol=0, atol=4 * 3 * np.finfo(np.float32).eps)
+
+
+@pytest.mark.parametrize("tilt", [80.0, -89.9, 89.999])
+@pytest.mark.parametrize("length", [1 - 9e-7, 1 + 9e-7])
+def test_looks_nearly_straight_down(kernels: Kernels, tilt: float, length: float) -> None:
+    """The length of up, within its tolerance, changes nothing, as only the direction counts."""
+    depth = np.full((40, 60), 2, np.float32)
+    up = upward(tilt, 20.0)
+    expected = kernels.ground_distance(depth, LENS, up, -100.0, 100.0)
+    found = kernels.ground_distance(depth, LENS, up * length, -100.0, 100.0)
+    assert_allclose(found, expected, rtol=0, atol=4 * np.finfo(np.float32).eps)
 
 
 def test_a_level_camera_changes_nothing(kernels: Kernels) -> None:

@@ -24,7 +24,8 @@ def ground_distance(depth: Depth, camera: Floats, up: Floats, near: float, far: 
         refuse("near", "a finite number", float(near))
     if not (np.isfinite(far) and far > near):
         refuse("far", "a finite number above near", float(far))
-    ahead = np.array([0.0, 0.0, 1.0]) - up[2] * up
+    x, y, z = up
+    ahead = np.array([-z * x, -z * y, x * x + y * y])  # not 1 - z²: up is only nearly of length 1
     level = _norm(ahead)
     if not level > MIN_LEVEL:
         refuse("up", "a direction across the view", "one along it")
