@@ -2,45 +2,37 @@
 #include "base/pixel_runs.hpp"
 
 #include <algorithm>
-#include <cstring>
 
+#include "base/marked_words.hpp"
 #include "base/simd.hpp"
 
 namespace tricue {
 namespace {
 
 constexpr std::size_t kReservedRuns = 2048;  // runs for which memory is reserved at once
-constexpr std::size_t kWordBytes = sizeof(std::uint64_t);
-
-std::size_t whole_words(int bytes) {
-    return (static_cast<std::size_t>(bytes) + kWordBytes - 1) / kWordBytes * kWordBytes;
-}
-
-TRICUE_MULTIVERSION
-void mark_changes(const std::uint8_t* __restrict labels, int n, std::uint8_t* __restrict changes) {
-    for (int x = 1; x < n; ++x) changes[x] = labels[x] != labels[x - 1];
-}
 
 }  // namespace
+
+TRICUE_MULTIVERSION
+bool mark_changes(const std::uint8_t* __restrict labels, int n, std::uint8_t* __restrict changes) {
+    std::uint8_t any = 0;
+    for (int x = 1; x < n; ++x) any |= changes[x] = labels[x] != labels[x - 1];
+    return any != 0;
+}
 
 PixelRuns::PixelRuns(int cols) : cols_(cols), changes_(whole_words(cols)), edges_(changes_.size() + 1) {
     runs_.reserve(kReservedRuns);
 }
 
-/// Where one run ends and the next begins. Eight pixels without a change are skipped at once. Of other pixels each is written, and
-/// overwritten by the next unless a run ends there: a branch would be mispredicted.
+/// Where one run ends and the next begins. Each pixel near a change is written, and overwritten by the next unless a run ends there:
+/// a branch would be mispredicted.
 std::size_t PixelRuns::find_edges(const std::uint8_t* labels) {
     mark_changes(labels, cols_, changes_.data());
     std::size_t count = 0;
-    for (std::size_t first = 0; first < changes_.size(); first += kWordBytes) {
-        std::uint64_t any;
-        std::memcpy(&any, changes_.data() + first, kWordBytes);
-        if (any == 0) continue;
-        for (std::size_t x = first; x < first + kWordBytes; ++x) {
-            edges_[count] = static_cast<int>(x);
-            count += changes_[x];
-        }
-    }
+    for_marked_words(changes_, [&](std::size_t x) {
+        edges_[count] = static_cast<int>(x);
+        count += changes_[x];
+    });
     edges_[count] = cols_;
     return count + 1;
 }

@@ -7,6 +7,9 @@
 
 namespace tricue {
 
+/// Sets, from the second pixel of a row on, whether its label isn't that of the pixel before. Returns whether any is.
+bool mark_changes(const std::uint8_t* labels, int n, std::uint8_t* changes);
+
 /// Pixels [begin, end) of one row with the same label, not 0. `parent` is an earlier run of the same component, or the run itself.
 struct PixelRun {
     int row, begin, end;

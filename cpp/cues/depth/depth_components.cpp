@@ -36,12 +36,6 @@ void find_levels(const float* __restrict depth, int n, double near, double scale
     }
 }
 
-/// Whether a label differs from that of the pixel before it.
-TRICUE_MULTIVERSION
-void mark_changes(const std::uint8_t* __restrict labels, int n, std::uint8_t* __restrict changes) {
-    for (int x = 1; x < n; ++x) changes[x] = labels[x] != labels[x - 1];
-}
-
 /// Where the runs of a row begin and end. Returns how many there are.
 TRICUE_MULTIVERSION
 std::ptrdiff_t list_runs(const BitImage& labeled, const BitImage& changes, int y, bool single,
@@ -86,8 +80,7 @@ PixelRuns label_runs(const ImageView& labels, bool single) {
     std::vector<std::uint8_t> changed(static_cast<std::size_t>(labels.cols));
     for (int y = 0; y < labels.rows; ++y) {
         labeled.read(y, labels.row(y));
-        mark_changes(labels.row(y), labels.cols, changed.data());
-        changes.read(y, changed.data());
+        if (mark_changes(labels.row(y), labels.cols, changed.data())) changes.read(y, changed.data());
     }
     return label_runs(labeled, changes, labels, single);
 }

@@ -3,11 +3,11 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 #include "base/check.hpp"
 #include "base/depth_pixels.hpp"
+#include "base/marked_words.hpp"
 #include "base/overlapping_blocks.hpp"
 #include "base/simd.hpp"
 
@@ -17,13 +17,6 @@ namespace {
 // Neighbors mostly share a level, and reading a count that was just written is slow: so neighbors count in
 // different tables.
 constexpr std::size_t kTables = 4;
-
-// Most pixels of a segmented image are not counted: eight at a time are skipped, as their flags are one number.
-constexpr std::size_t kWord = sizeof(std::uint64_t);
-
-std::size_t whole_words(std::size_t pixels) {
-    return (pixels + kWord - 1) / kWord * kWord;
-}
 
 /// Whether each pixel of a row is counted, and its level; `levels.count` for what isn't.
 TRICUE_MULTIVERSION
@@ -58,19 +51,15 @@ Vector depth_histogram(const DepthView& depth, const ImageView& mask, const Dept
     require_mask(mask, depth);
     require_levels(levels);
     const auto bins = static_cast<std::size_t>(levels.count) + 1;
-    const auto cols = static_cast<std::size_t>(depth.cols);
     std::vector<std::int64_t> counts(kTables * bins);
-    std::vector<std::int32_t> level(whole_words(cols), levels.count);
+    std::vector<std::int32_t> level(whole_words(depth.cols), levels.count);
     std::vector<std::uint8_t> counted(level.size());
     for (int y = 0; y < depth.rows; ++y) {
         find_levels(depth.row(y), mask.row(y), depth.cols, levels, counted.data(), level.data());
-        for (std::size_t first = 0; first < level.size(); first += kWord) {
-            std::uint64_t any;
-            std::memcpy(&any, counted.data() + first, kWord);
-            if (any == 0) continue;
-            for (std::size_t x = first; x < first + kWord; ++x)
-                ++counts[(x % kTables) * bins + static_cast<std::size_t>(level[x])];
-        }
+        // Most pixels of a segmented image are not counted.
+        for_marked_words(counted, [&](std::size_t x) {
+            ++counts[(x % kTables) * bins + static_cast<std::size_t>(level[x])];
+        });
     }
     Vector histogram = Vector::Zero(levels.count);
     for (std::size_t t = 0; t < kTables; ++t)

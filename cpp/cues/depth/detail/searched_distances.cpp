@@ -89,21 +89,11 @@ void mask_distances(const float* __restrict distance, const std::uint8_t* __rest
     for_overlapping_blocks(n, [=](std::ptrdiff_t x) { to[x] = mask[x] ? distance[x] : kUnmeasured; });
 }
 
-/// Whether each label isn't that of the pixel before it. Returns whether that is so anywhere.
-TRICUE_MULTIVERSION
-bool mark_changes(const std::uint8_t* __restrict labels, int n, std::uint8_t* __restrict changes) {
-    std::uint8_t any = 0;
-    changes[0] = 0;
-    for (int x = 1; x < n; ++x) any |= changes[x] = labels[x] != labels[x - 1];
-    return any != 0;
-}
-
-/// The same of pixels that are listed: whether each one's left neighbor is listed, too, and has another label.
+/// As mark_changes, of pixels that are listed: whether each one's left neighbor is listed, too, and has another label.
 TRICUE_MULTIVERSION
 bool mark_listed_changes(const std::uint8_t* __restrict labels, const std::int32_t* __restrict columns, int n,
                          std::uint8_t* __restrict changes) {
     std::uint8_t any = 0;
-    changes[0] = 0;
     for (int i = 1; i < n; ++i)
         any |= changes[i] = (labels[i] != labels[i - 1]) & (columns[i] == columns[i - 1] + 1);
     return any != 0;
