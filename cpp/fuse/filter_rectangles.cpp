@@ -43,7 +43,7 @@ States grid_pattern(const Places& places) {
     return pattern;
 }
 
-const Vector kNoModel = Vector::Zero(1);
+constexpr double kNoModel = 0.0;  ///< the only level of a model that isn't compared with
 
 /// What is seen in and around rectangles.
 class Observer {
@@ -52,8 +52,7 @@ public:
         : depth_(depth),
           camera_(camera),
           by_(by),
-          contrast_(depth, camera, is_relative() ? by.model : DepthModel{kNoModel, by.reach}, by.places,
-                    by.nearer) {}
+          contrast_(depth, camera, contrast_model(), by.places, by.nearer) {}
 
     /// (N, 4) as by depth_contrast, the distance that of absolute depths where the model is of these.
     States measure(StatesRef states, bool with_nearer) {
@@ -88,6 +87,11 @@ public:
 
 private:
     bool is_relative() const { return by_.middle == 0.0; }
+
+    DepthModel contrast_model() const {
+        if (is_relative()) return by_.model;
+        return {Eigen::Map<const Vector>(&kNoModel, 1), by_.reach};
+    }
 
     const DepthView& depth_;
     VectorRef camera_;
