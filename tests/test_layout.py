@@ -74,6 +74,17 @@ def test_kernel_is_whole(name: str) -> None:
     assert not missing, f"{name} lacks: " + ", ".join(missing)
 
 
+@pytest.mark.parametrize("name", KERNELS)
+def test_kernel_runs_without_the_gil(name: str) -> None:
+    """What a kernel's binding calls goes through `unlocked`: trackers in other threads run meanwhile."""
+    bindings = "\n".join(file.read_text() for file in (ROOT / "python" / "bindings").glob("*.cpp"))
+    function = re.search(rf'm\.def\("{name}", (\w+),', bindings)
+    assert function is not None
+    body = re.search(rf"^[^\n]*\b{function[1]}\(.*?^}}$", bindings, re.MULTILINE | re.DOTALL)
+    assert body is not None
+    assert "unlocked(" in body[0]
+
+
 @pytest.mark.parametrize(
     ("folder", "suffix", "prefix"),
     [

@@ -85,17 +85,6 @@ inline ImageView color_image(const py::object& object, const char* name) {
             image_side(array, 1, name), 3, array.strides(0)};
 }
 
-inline ImageView gray_image(const py::object& object, const char* name) {
-    const auto array = require<std::uint8_t>(object, name, 2, "a uint8 gray image (H, W)");
-    const bool packed = array.shape(1) == 1 || array.strides(1) == 1;
-    const bool downward = array.shape(0) == 1 || array.strides(0) >= 0;
-    if (array.size() > 0 && !(packed && downward))
-        throw py::value_error(std::string(name) +
-                              ": expected packed pixels; numpy.ascontiguousarray makes them");
-    return {static_cast<const std::uint8_t*>(array.data()), image_side(array, 0, name),
-            image_side(array, 1, name), 1, array.strides(0)};
-}
-
 /// Pixels packed, rows maybe padded: a view of a part of an image works as the image does.
 template <typename Scalar>
 py::array packed_rows(const py::object& object, const char* name, const char* expected) {
@@ -109,6 +98,16 @@ py::array packed_rows(const py::object& object, const char* name, const char* ex
         throw py::value_error(std::string(name) +
                               ": expected packed pixels; numpy.ascontiguousarray makes them");
     return array;
+}
+
+inline ImageView byte_image(const py::object& object, const char* name, const char* expected) {
+    const auto array = packed_rows<std::uint8_t>(object, name, expected);
+    return {static_cast<const std::uint8_t*>(array.data()), image_side(array, 0, name),
+            image_side(array, 1, name), 1, array.strides(0)};
+}
+
+inline ImageView gray_image(const py::object& object, const char* name) {
+    return byte_image(object, name, "a uint8 gray image (H, W)");
 }
 
 inline PlaneView plane_view(const py::object& object, const char* name, const char* expected) {

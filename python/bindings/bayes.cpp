@@ -31,9 +31,7 @@ PlaneView plane(const py::object& object, const char* name) {
 }
 
 ImageView mask_view(const py::object& object, const char* name) {
-    const auto array = packed_rows<std::uint8_t>(object, name, "a uint8 mask (H, W)");
-    return {static_cast<const std::uint8_t*>(array.data()), image_side(array, 0, name),
-            image_side(array, 1, name), 1, array.strides(0)};
+    return byte_image(object, name, "a uint8 mask (H, W)");
 }
 
 Rectangle rectangle(const Corners& corners) {

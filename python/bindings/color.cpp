@@ -65,8 +65,10 @@ std::tuple<Array<float>, Array<double>> rank_window_arrays(const Bytes& image, c
                                                            const Array<float>& models, double flat) {
     const auto view = color_image(image, "image");
     const auto places = states(pattern, "pattern");
-    auto [ranks, correlations] =
-        rank_window(view, vector(ellipse, "ellipse"), places, rank_maps(models, places.rows()), flat);
+    const auto where = vector(ellipse, "ellipse");
+    const auto maps = rank_maps(models, places.rows());
+    auto [ranks, correlations] = unlocked(work_of(places.rows(), maps.rows() + 1),
+                                          [&] { return rank_window(view, where, places, maps, flat); });
     return {give(std::move(ranks), {3, places.rows()}), give(std::move(correlations))};
 }
 
@@ -75,7 +77,8 @@ Array<float> learn_ranks_arrays(const Array<float>& models, const Array<float>& 
     const auto places = seen.cols();
     const Eigen::Map<const Floats> row(seen.data(), 1, 3 * places);
     const auto maps = rank_maps(models, places);
-    return give(learn_ranks(maps, row, rate), {maps.rows(), 3, places});
+    return give(unlocked(maps.size(), [&] { return learn_ranks(maps, row, rate); }),
+                {maps.rows(), 3, places});
 }
 
 std::tuple<Array<float>, Array<float>, Array<float>> learn_contrast_arrays(
@@ -83,10 +86,11 @@ std::tuple<Array<float>, Array<float>, Array<float>> learn_contrast_arrays(
     const Array<double>& around, const Array<float>& target, const Array<float>& surround, double rate,
     double rare) {
     const auto view = color_image(image, "image");
+    const auto where = vector(ellipse, "ellipse");
     const Windows windows{states(inside, "inside"), states(around, "around")};
     const auto known = color_cube(target, "target"), other = color_cube(surround, "surround");
-    auto [own, round, rule] =
-        learn_contrast(view, vector(ellipse, "ellipse"), windows, known, other, rate, rare);
+    auto [own, round, rule] = unlocked(
+        known.size(), [&] { return learn_contrast(view, where, windows, known, other, rate, rare); });
     const std::vector<py::ssize_t> cube(3, known.cols());
     return {give(std::move(own), cube), give(std::move(round), cube), give(std::move(rule), cube)};
 }

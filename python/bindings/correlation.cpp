@@ -58,7 +58,8 @@ Array<double> evidence_peak_arrays(const Floating& responses, const Floating& co
                                    double contrast_weight) {
     const auto planes = stack<float>(responses, "responses", "float32 responses (F, R, C)");
     const auto other = floats(contrast, "contrast", {-1, -1}, kPlane);
-    return give(evidence_peak(planes, other, {filter_weight, contrast_weight}));
+    return give(unlocked(work(planes),
+                         [&] { return evidence_peak(planes, other, {filter_weight, contrast_weight}); }));
 }
 
 }  // namespace
