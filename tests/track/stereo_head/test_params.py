@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tricue import Frame, Status, StereoHeadTracker, Track
-from tricue.scenes import StereoScene
+from tricue.scenes import StereoScene, head
 
 Params = StereoHeadTracker.Params
 
@@ -181,3 +181,13 @@ def test_extremes_give_finite_tracks(extreme, covered: StereoScene, follow):
     black = np.zeros_like(covered.frames[0].color)
     assert_sane([tracker.update(Frame(black, right=black)) for _ in range(10)])
     assert_sane([tracker.update(Frame(frame.color, right=frame.right)) for frame in covered.frames[:3]])
+
+
+@pytest.mark.parametrize("subpixel", [True, False])
+def test_a_range_wider_than_the_image(subpixel: bool, follow):
+    """In cells of 40 pixels, 64 cells are more disparities than one search can have: those that the image has
+    are among them.
+    """
+    scene = head(0, 4, "640x480")
+    ranges = {"resolution": 16, "disparities": (64, 64), "subpixel": subpixel}
+    assert_sane(follow(StereoHeadTracker(rig=scene.rig, **ranges), scene.frames, scene.boxes[0]))

@@ -59,12 +59,13 @@ def find_initial_disparity(
 def limits_around(disparity: float, step: int, p: StereoHeadParams) -> tuple[int, int]:
     """The limits of the search around an expected disparity, pixels (4).
 
-    With fractions of a pixel they are wider, as the first and the last candidate have none.
+    With fractions of a pixel they are wider, as the first and the last candidate have none. They end 2000
+    pixels away, as one search has no more candidates.
     """
-    below, above = p.disparities
+    below, above = (min(cells * step, MAX_CANDIDATE_DISPARITIES // 2) for cells in p.disparities)
     if not p.subpixel:
-        return round(disparity) - below * step, round(disparity) + above * step
-    return math.floor(disparity) - below * step, math.ceil(disparity) + above * step
+        return round(disparity) - below, round(disparity) + above
+    return math.floor(disparity) - below, math.ceil(disparity) + above
 
 
 def limits_between(geometry: StereoGeometry, near: float, far: float, step: int) -> tuple[int, int]:

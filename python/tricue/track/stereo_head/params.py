@@ -129,7 +129,7 @@ class StereoHeadParams(Params):
         source="(4), section 5",
         low=1,
         high=64,
-        doc="range of the disparity: below and above the expected one",
+        doc="range of the disparity: below and above the expected one, each up to 2000 pixels",
     )
     window: int = parameter(
         5, unit="cells", source=OURS, low=1, high=15, doc="side of the matching window, odd"
