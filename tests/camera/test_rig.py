@@ -44,6 +44,12 @@ def test_projection_is_the_camera_matrix() -> None:
     np.testing.assert_allclose(CAMERA.project(points), homogeneous[:, :2] / homogeneous[:, 2:], rtol=1e-12)
 
 
+def test_vector_is_the_numbers_of_the_matrix() -> None:
+    """It proves the order in which kernels take a camera: focal lengths, then the principal point."""
+    (fx, _, cx), (_, fy, cy), _ = CAMERA.matrix
+    np.testing.assert_array_equal(CAMERA.vector, np.array([fx, fy, cx, cy]), strict=True)
+
+
 def test_whole_depth_images_back_project() -> None:
     """It proves that pixel grids broadcast with a depth image and that NaN depths give NaN points."""
     depth = np.full((3, 4), 2.0)

@@ -66,7 +66,7 @@ def _call_stages(k: Any) -> None:
     k.histogram_mean(np.bincount(bins.ravel(), minlength=256).astype(float), (8, 8, 4), 64)
     scene = walker(0, 1, "tof")
     depth, lens = np.ascontiguousarray(scene.frames[0].depth), scene.intrinsics
-    camera, plane = np.array([lens.fx, lens.fy, lens.cx, lens.cy]), np.array([0.0, -1.0, 0.0, 1.0])
+    camera, plane = lens.vector, np.array([0.0, -1.0, 0.0, 1.0])
     distance = k.ground_distance(depth, camera, plane[:3], 0.3, 8.0)
     mask = k.depth_edges(distance, 0.06, 0.01) ^ np.uint8(1)
     density = k.depth_density(k.depth_histogram(distance, mask, 0.3, 8.0, 256), 4.0)

@@ -107,6 +107,11 @@ class Intrinsics:
         """The camera matrix K (3, 3)."""
         return np.array([[self.fx, 0, self.cx], [0, self.fy, self.cy], [0, 0, 1]], np.float64)
 
+    @property
+    def vector(self) -> NDArray[np.float64]:
+        """fx, fy, cx, cy, pixels (4,), as kernels take a camera."""
+        return np.array([self.fx, self.fy, self.cx, self.cy], np.float64)
+
     def back_project(self, u: ArrayLike, v: ArrayLike, z: ArrayLike) -> NDArray[np.float64]:
         """Points (..., 3), meters in the camera frame, at pixel coordinates u, v and depths z.
 

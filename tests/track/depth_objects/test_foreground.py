@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from tricue import DepthParticleTracker, Intrinsics
 from tricue.track.depth_objects.floor import NO_FLOOR
 from tricue.track.depth_objects.foreground import Foreground, extract_foreground
-from tricue.track.depth_objects.projection import camera_vector
 
 Params = DepthParticleTracker.Params
 Depth = NDArray[np.float32]
@@ -41,7 +40,7 @@ def hall(noise: float = 0.0, wall: float = WALL, post: float = 3.0) -> Depth:
 def found(kernels, depth: Depth, plane=NO_FLOOR, seed=0, **parameters):
     """The foreground of a frame, and its floor."""
     rng = np.random.default_rng(seed)
-    return extract_foreground(kernels, depth, camera_vector(CAMERA), plane, rng, Params(**parameters))
+    return extract_foreground(kernels, depth, CAMERA.vector, plane, rng, Params(**parameters))
 
 
 @pytest.mark.parametrize("seed", range(3))

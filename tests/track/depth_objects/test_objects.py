@@ -12,13 +12,12 @@ from tricue import Box, DepthParticleTracker, Intrinsics, reference
 from tricue.track.depth_objects.floor import NO_FLOOR
 from tricue.track.depth_objects.foreground import Foreground, extract_foreground
 from tricue.track.depth_objects.objects import DISTRIBUTION_BINS, segment
-from tricue.track.depth_objects.projection import camera_vector
 from tricue.track.depth_particle.initialize import find_people, initialize_in_box, initialize_on_person
 
 Params = DepthParticleTracker.Params
 P = Params()
 CAMERA = Intrinsics.from_fov(176, 144, 47.5, 39.5)
-NUMBERS = camera_vector(CAMERA)
+NUMBERS = CAMERA.vector
 NEARER, FARTHER, WALL = 2.0, 4.0, 7.0  # meters
 LEFT_BOX, RIGHT_BOX = Box(30, 30, 36, 100), Box(110, 50, 20, 60)  # pixels
 

@@ -5,13 +5,12 @@ import numpy as np
 from tricue import Box, Intrinsics
 from tricue.track.depth_objects.projection import (
     back_project_box,
-    camera_vector,
     project_box,
     project_rectangle,
 )
 
 CAMERA = Intrinsics.from_fov(176, 144, 47.5, 39.5)
-NUMBERS = camera_vector(CAMERA)
+NUMBERS = CAMERA.vector
 
 
 def boxes(count):

@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 from tricue import Intrinsics, _core
 from tricue.track.depth_objects.objects import DISTRIBUTION_BINS
-from tricue.track.depth_objects.projection import camera_vector, project_box
+from tricue.track.depth_objects.projection import project_box
 from tricue.track.depth_particle.matching import MAX_PIECE_DEPTH, PIECE_REGION, complete_body
 from tricue.track.depth_particle.motion import BodyMotion
 from tricue.track.depth_particle.signature import Signature
 
-CAMERA = camera_vector(Intrinsics.from_fov(176, 144, 47.5, 39.5))
+CAMERA = Intrinsics.from_fov(176, 144, 47.5, 39.5).vector
 EXPECTED = np.array([0.0, 0.0, 3.0, 0.6, 1.8])
 SIZE = EXPECTED[3:]
 BODY, LEG = [0.0, -0.3, 3.0, 0.6, 1.2], [0.1, 0.6, 3.0, 0.2, 0.5]

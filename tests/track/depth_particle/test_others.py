@@ -7,11 +7,11 @@ from numpy.typing import NDArray
 from tricue import Box, DepthParticleTracker, Frame, Intrinsics, _core
 from tricue.track.depth_objects.foreground import Foreground
 from tricue.track.depth_objects.objects import NOTHING_KNOWN, SAME_DEPTH, SAME_DEPTH_SLOPE
-from tricue.track.depth_objects.projection import back_project_box, camera_vector
+from tricue.track.depth_objects.projection import back_project_box
 from tricue.track.depth_particle.others import region_in, remember_others
 
 CAMERA = Intrinsics.from_fov(176, 144, 47.5, 39.5)
-NUMBERS = camera_vector(CAMERA)
+NUMBERS = CAMERA.vector
 REACH = 0.5
 TARGET, Z = Box(60, 40, 30, 80), 3.0
 STATE = back_project_box(TARGET, Z, NUMBERS)

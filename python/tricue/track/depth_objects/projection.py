@@ -16,7 +16,7 @@ Floats = NDArray[np.float64]
 
 def camera_vector(camera: Intrinsics) -> Floats:
     """(4,) fx, fy, cx, cy, pixels: the intrinsics as kernels take them."""
-    return np.array([camera.fx, camera.fy, camera.cx, camera.cy])
+    return camera.vector
 
 
 def project_rectangle(state: Floats, camera: Floats) -> list[float]:

@@ -18,7 +18,7 @@ from tricue.track.base.traits import Channels, Traits
 from tricue.track.depth_objects.floor import NO_FLOOR
 from tricue.track.depth_objects.foreground import Foreground, extract_foreground
 from tricue.track.depth_objects.objects import NOTHING_KNOWN, segment
-from tricue.track.depth_objects.projection import camera_vector, project_box, project_rectangle
+from tricue.track.depth_objects.projection import project_box, project_rectangle
 from tricue.track.depth_particle.depth_model import DepthModel, DepthObservation, filter_settings
 from tricue.track.depth_particle.initialize import initialize_in_box, initialize_on_person
 from tricue.track.depth_particle.matching import TargetObject
@@ -129,7 +129,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         detected.
         """
         depth, timestamp = validation.depth_image(frame)
-        camera = camera_vector(validation.camera_or_default(self.intrinsics, depth.shape))
+        camera = validation.camera_or_default(self.intrinsics, depth.shape).vector
         random = RandomSource(self.seed)
         rng = random.generator
         fg, plane = extract_foreground(self._k, depth, camera, NO_FLOOR, rng, self.params)

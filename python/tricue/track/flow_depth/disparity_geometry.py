@@ -26,9 +26,7 @@ class DisparityGeometry(NamedTuple):
     @classmethod
     def of(cls, rig: StereoRig, vergence: float, is_metric: bool = True) -> "DisparityGeometry":
         """The geometry of a rig; vergence in degrees."""
-        camera = rig.intrinsics
-        numbers = np.array([camera.fx, camera.fy, camera.cx, camera.cy])
-        return cls(numbers, rig.baseline, math.radians(vergence), is_metric)
+        return cls(rig.intrinsics.vector, rig.baseline, math.radians(vergence), is_metric)
 
     @property
     def disparity_times_depth(self) -> float:

@@ -33,7 +33,7 @@ class StereoGeometry(NamedTuple):
     def of(cls, rig: StereoRig) -> "StereoGeometry":
         """The geometry of a rig."""
         camera = rig.intrinsics
-        five = np.array([camera.fx, camera.fy, camera.cx, camera.cy, rig.baseline])
+        five = np.append(camera.vector, rig.baseline)
         return cls(five, (camera.height, camera.width), tuple(five.tolist()), five[:4])
 
     def disparity(self, z: float) -> float:
