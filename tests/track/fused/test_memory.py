@@ -35,10 +35,10 @@ def noise(height: int, width: int, seed: int) -> Image:
     return np.asarray(cv2.resize(small, (width, height), interpolation=cv2.INTER_CUBIC), np.uint8)
 
 
-def picture(card: int, offset: int = 0) -> Frame:
-    """One of several cards before the same ground, so many pixels to the right of the target's place."""
+def picture(card: int, right: int = 0, down: int = 0) -> Frame:
+    """One of several cards before the same ground, so many pixels from the target's place."""
     image = noise(240, 320, 5)
-    image[96:144, 136 + offset : 184 + offset] = noise(48, 48, card)
+    image[96 + down : 144 + down, 136 + right : 184 + right] = noise(48, 48, card)
     return Frame(image)
 
 
@@ -111,11 +111,11 @@ def test_what_was_learned_since_is_verified_by_what_was_known():
     assert limited._replace(log_odds=match.log_odds) == match
 
 
-@pytest.mark.parametrize("offset", [20, -30])
+@pytest.mark.parametrize("offset", [(20, 0), (-30, 0), (0, 20), (0, -30)], ids=str)
 def test_a_target_seen_elsewhere_is_not_here(offset):
     """Models that see their target beside the match say so."""
     tracker = followed(1)
-    match = in_doubt(match_of(tracker, picture(1, offset)))
+    match = in_doubt(match_of(tracker, picture(1, *offset)))
     assert limit_log_odds(model_of(tracker), match) == match
     assert limit_log_odds(model_of(tracker), match._replace(target=TARGET)).log_odds == LOG_ODDS_ELSEWHERE
 

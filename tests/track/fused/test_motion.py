@@ -65,6 +65,14 @@ def test_jumps_are_in_sides_of_the_target():
     assert near_penalty == pytest.approx(far_penalty)
 
 
+def test_the_first_typical_jump_is_the_mean_of_all():
+    """Each of the first jumps counts as much as the others."""
+    places = [target(x) for x in (100, 100, 110, 110, 150)]
+    velocities = np.diff([each.x for each in places])
+    jumps = np.abs(np.diff(velocities)) / 40
+    assert after(places).typical == pytest.approx(jumps.mean())
+
+
 def test_time_counts():
     """Over a frame that was dropped the target moves twice as far."""
     assert STEADY.penalty(target(172), target(188), 2 * SECONDS, WEIGHT) == pytest.approx(0)

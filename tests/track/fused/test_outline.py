@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: MIT
 """The sides of what stands at the target's depth, against depth images whose truth is known."""
 
+import math
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
-from tricue import Intrinsics, StereoRig
+from tricue import FusedTracker, Intrinsics, StereoRig
 from tricue import kernels as kernel_sets
 from tricue.track.fused.depth_sources import DepthImageSource, ExpectedDepth, StereoSource
 from tricue.track.fused.experts.depth import covered_share
+from tricue.track.fused.learn import _update_outline
 from tricue.track.fused.outline import (
     BOX_OUTLINE,
     MAX_COVERED_BY_OCCLUDER,
@@ -39,6 +43,7 @@ SIDES = [  # left, top, right and bottom, pixels from the center
     (60, 20, 70, 80),
 ]
 RNG = np.random.default_rng(0)
+ALL_SEEN = Sides(*4 * [Side.SEEN])
 
 
 def thing(sides: tuple[float, ...], z: float = Z, wall: float = WALL) -> np.ndarray:
@@ -266,6 +271,25 @@ def test_outlines_are_blended(rate):
     expected = [(1 - rate) * a + rate * b for a, b in zip(old, new, strict=True)]
     assert old.blend(new, rate) == pytest.approx(expected)
     assert isinstance(old.blend(new, rate), Outline)
+
+
+@pytest.mark.parametrize("rate", [9, 25, 60])
+def test_the_outline_follows_by_its_time_constant(rate):
+    """After one time constant it is 1 - 1/e of the way to what is measured, at any frame rate."""
+    p = FusedTracker.Params(outline_time_constant=1.0)
+    window = window_around(thing((40, 32, 32, 32)))
+    reaches = measure_reaches(window, 0.0, 0.0, covered_share(window), standing=False)
+    state = SimpleNamespace(
+        missed_frames=0, sides=ALL_SEEN, depth_object=None, outline=BOX_OUTLINE, seconds=1 / rate
+    )
+    state.replace = lambda outline: SimpleNamespace(**{**vars(state), "outline": outline})
+    match = SimpleNamespace(window=window, right=0.0, down=0.0)
+    found = state
+    for _ in range(rate):
+        state.outline = found.outline
+        found = _update_outline(state, match, p)
+    assert reaches.left > 1.2
+    assert found.outline.left - 1 == pytest.approx((1 - math.exp(-1)) * (reaches.left - 1))
 
 
 def test_exactly_half_is_filled():

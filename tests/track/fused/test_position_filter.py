@@ -1,10 +1,21 @@
 # SPDX-License-Identifier: MIT
 """The fused tracker's Kalman filter in meters, against known motions."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
+from tricue import Intrinsics
+from tricue.track.fused.experts.depth import DEPTH_SAMPLES, DepthMeasurement
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.position_filter import MAX_INNOVATION, SHARED_DEPTH_ERROR, PositionFilter
+from tricue.track.fused.position_filter import (
+    LATERAL_NOISE,
+    MAX_INNOVATION,
+    SHARED_DEPTH_ERROR,
+    PositionFilter,
+    back_project,
+)
+from tricue.track.fused.target import Target
 
 P = FusedParams()
 START = np.array([0.4, -0.2, 2.0])
@@ -148,3 +159,17 @@ def test_covariance_stays_valid(seconds, kernels):
             estimate = estimate.correct(kernels, START, NOISE)
     np.testing.assert_array_equal(estimate.covariance, estimate.covariance.T)
     assert np.linalg.eigvalsh(estimate.covariance).min() > 0
+
+
+@pytest.mark.parametrize("z", [1.0, 3.0])
+def test_a_measured_point_has_the_noise_of_its_source(z, kernels):
+    """On the optical axis, that of a depth averaged over the target's samples, and of a part of its side."""
+    camera = Intrinsics(300.0, 250.0, 159.5, 119.5, 320, 240)
+    source = SimpleNamespace(noise=lambda z, pixel_size: 0.01 * z * pixel_size)
+    observation = SimpleNamespace(camera=camera, depth_source=source, k=kernels)
+    target = Target(160.0, 120.0, 50.0, 50.0)
+    point, covariance = back_project(observation, target, DepthMeasurement(z, 0.05, 1.0))
+    assert point == pytest.approx([0, 0, z], abs=1e-9)
+    lateral = LATERAL_NOISE * 50 * z
+    deviations = lateral / 300, lateral / 250, 0.01 * z * 50 / DEPTH_SAMPLES
+    np.testing.assert_allclose(covariance, np.diag(deviations) ** 2, rtol=1e-6, atol=1e-12)

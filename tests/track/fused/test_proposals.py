@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: MIT
+"""Where in the whole frame a lost target is looked for first."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from tricue import Intrinsics
+from tricue import kernels as kernel_sets
+from tricue.track.fused.depth_sources import DepthImageSource
+from tricue.track.fused.experts.color import ColorExpert
+from tricue.track.fused.experts.depth import DepthExpert
+from tricue.track.fused.params import FusedParams
+from tricue.track.fused.proposals import LostTarget, propose_windows
+from tricue.track.fused.target import Target
+from tricue.track.fused.target_observation import TargetObservation
+from tricue.track.fused.window import extract_windows
+
+P = FusedParams()
+KERNELS = kernel_sets.load("native")
+RED, GRAY = (40, 40, 220), (120, 120, 120)
+
+
+def lost(target: Target, frame: int = 0) -> LostTarget:
+    """Missed for a while."""
+    return LostTarget(target, None, 20, frame)
+
+
+def red_square(width: int, height: int, x: float, y: float, side: int = 24) -> TargetObservation:
+    """A color picture with a red square around a place of a gray ground."""
+    image = np.full((height, width, 3), GRAY, np.uint8)
+    left, top = int(x) - side // 2, int(y) - side // 2
+    image[top : top + side, left : left + side] = RED
+    camera = Intrinsics.from_fov(width, height, 60)
+    return TargetObservation(KERNELS, image, "color", camera, None, None)
+
+
+@pytest.mark.parametrize("size", [(320, 240), (200, 310), (437, 151)], ids=str)
+@pytest.mark.parametrize("place", [(0.2, 0.3), (0.5, 0.5), (0.8, 0.6), (0.3, 0.75)], ids=str)
+def test_the_place_of_its_colors_comes_first(size, place):
+    """A target that went elsewhere is looked for where its colors are, to a few pixels of its 24."""
+    width, height = size
+    first = Target(width / 2, height / 2, 24.0, 24.0)
+    learned = extract_windows(red_square(width, height, first.x, first.y), [first], P.context)[0]
+    x, y = place[0] * width, place[1] * height
+    color: Any = SimpleNamespace(color=ColorExpert.from_window(learned))
+    model: Any = SimpleNamespace(appearance=color, depth=None, params=P)
+    found = propose_windows(model, red_square(width, height, x, y), lost(first))[0].target
+    assert (found.x, found.y) == pytest.approx((x, y), abs=5)
+
+
+@pytest.mark.parametrize("length", [0.4, 0.8])
+def test_objects_of_its_size_in_meters_come_first(length):
+    """Of two objects in a depth image that where the target's size in meters fits."""
+    width, height, focal, z = 320, 240, 300.0, 3.0
+    camera = Intrinsics(focal, focal, width / 2 - 0.5, height / 2 - 0.5, width, height)
+    depth = np.full((height, width), 6.0, np.float32)
+    places = {}
+    for x, side in ((80, 0.4), (220, 0.8)):
+        half = round(focal * side / z / 2)
+        depth[120 - half : 120 + half, x - half : x + half] = z
+        places[side] = x
+    source = DepthImageSource(depth)
+    observation = TargetObservation(KERNELS, None, "depth", camera, source, None, depth)
+    target = Target(160.0, 40.0, 40.0, 40.0)
+    model: Any = SimpleNamespace(
+        depth=DepthExpert(0.05, focal * length), params=P, limit_growth=lambda growth, _: growth
+    )
+    found = propose_windows(model, observation, lost(target))[0].target
+    assert (found.x, found.y) == pytest.approx((places[length], 120), abs=3)
+    assert found.side * z / focal == pytest.approx(length, rel=0.02)
