@@ -94,7 +94,9 @@ def test_true_boxes_count_from_the_start(
     code, printed, _ = run(capsys, str(place), "--start", "3")
     assert code == 0
     assert printed[-2].endswith("precision at 20 px 1.000")
-    assert printed[-1].startswith("30 frames/s assumed, as nothing tells the times")
+    assert printed[-1].startswith(
+        "30 frames/s assumed, as the images have no times; give another rate with --fps N"
+    )
     assert "5 frames, 5 tracked" in printed[0]
 
 

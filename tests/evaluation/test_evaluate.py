@@ -181,7 +181,7 @@ def test_wrong_options_are_told_before_anything_runs(folders, tmp_path, options,
 
 def test_a_folder_without_sequences_is_refused(tmp_path):
     """The error names the folder."""
-    with pytest.raises(ValueError, match="expected sequences with true boxes, found none"):
+    with pytest.raises(ValueError, match="expected sequences with true boxes, found none; tricue info says"):
         evaluate(tmp_path, tmp_path / "out", FEW)
 
 

@@ -107,7 +107,7 @@ def prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
 
 def _time_note(source: Source) -> str:
     """What is assumed of the times of frames, "" where they are known."""
-    rate = f"{source.fps:g} frames/s assumed, as nothing tells the times of the images; --fps N says it"
+    rate = f"{source.fps:g} frames/s assumed, as the images have no times; give another rate with --fps N"
     return "" if source.knows_times else rate
 
 

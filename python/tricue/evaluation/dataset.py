@@ -236,7 +236,9 @@ def find_entries(root: Path, reading: ReadOptions = ReadOptions()) -> list[Entry
         each = [Entry(f"{name}/{target}", place, target, reading) for target in labeled]
         entries += each or [Entry(name, place, None, reading)]
     if not entries:
-        raise ValueError(f"{root}: expected sequences with true boxes, found none")
+        raise ValueError(
+            f"{root}: expected sequences with true boxes, found none; tricue info says what is there"
+        )
     return entries
 
 

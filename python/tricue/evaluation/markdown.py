@@ -66,8 +66,8 @@ def telling(found: Comparison) -> str:
     if not found.telling:
         count = "one recording" if found.recordings == 1 else f"{found.recordings} recordings"
         return (
-            f"Of {count} nothing can be told about others: from {MIN_CLUSTERS} on means have intervals, and"
-            " trackers can be told apart."
+            f"No intervals or significance: they need {MIN_CLUSTERS} recordings or more, and this group has"
+            f" {count}."
         )
     interval = f"[ ]: 95 % bootstrap interval over {found.recordings} recordings."
     if found.separable:
