@@ -143,6 +143,7 @@ def test_a_guessed_camera_is_in_the_covariance(rooms, width_of_view, monkeypatch
     off = guessed.position - known.position
     assert abs(off[0]) > 5 * np.sqrt(known.covariance[0, 0])
     assert np.all(np.abs(off) <= 2 * np.sqrt(np.diag(guessed.covariance)))
+    assert np.sqrt(guessed.covariance[0, 0]) < 0.5 * abs(guessed.position[0])
     assert guessed.covariance[2, 2] == pytest.approx(known.covariance[2, 2], rel=0.1)
     assert np.linalg.eigvalsh(guessed.covariance).min() > 0
 

@@ -9,14 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
-from tricue.camera.rig import Intrinsics
 
 Floats = NDArray[np.float64]
-
-
-def camera_vector(camera: Intrinsics) -> Floats:
-    """(4,) fx, fy, cx, cy, pixels: the intrinsics as kernels take them."""
-    return camera.vector
 
 
 def project_rectangle(state: Floats, camera: Floats) -> list[float]:

@@ -16,7 +16,6 @@ from tricue.track.depth_objects.floor import NO_FLOOR
 from tricue.track.depth_objects.foreground import Foreground, extract_foreground
 from tricue.track.depth_objects.objects import EVERYWHERE, Region, segment
 from tricue.track.depth_objects.params import SegmentationParams
-from tricue.track.depth_objects.projection import camera_vector
 from tricue.track.fused.arrays import Floats, Plane
 from tricue.track.fused.depth_sources import DepthImageSource
 from tricue.track.fused.target import Target
@@ -140,7 +139,7 @@ def find_objects(
 
     floor: its plane in an earlier frame. Sabeti, Parvizi and Wu 2008, section IV.A.
     """
-    k, camera, rng = observation.k, camera_vector(observation.camera), np.random.default_rng(0)
+    k, camera, rng = observation.k, observation.camera.vector, np.random.default_rng(0)
     foreground, floor = extract_foreground(k, depth, camera, floor, rng, SEGMENTATION)
     region = EVERYWHERE if around is None else _region(around, foreground)
     found = segment(k, foreground, floor, SEGMENTATION, region=region)

@@ -23,6 +23,5 @@ def find_support(
     width and height in squares.
     None of them where no plane holds enough of what is around the target, or it holds the target itself.
     """
-    lens = np.array([camera.fx, camera.fy, camera.cx, camera.cy])
-    on_plane = k.support_pixels(depth, *grid, side, *size, z, lens, DRAWS, SUPPORT_TOLERANCE * z)
+    on_plane = k.support_pixels(depth, *grid, side, *size, z, camera.vector, DRAWS, SUPPORT_TOLERANCE * z)
     return on_plane.view(np.bool_)
