@@ -146,7 +146,7 @@ def test_protocols_attributes_and_files_for_papers(dataset, tmp_path, capsys):
     assert main(arguments) == 0
     printed = capsys.readouterr().out
     assert "| one-pass | backward | every-3 |" in " ".join(printed.split())
-    assert "Of 4 recordings nothing can be told" in printed
+    assert "this group has 4 recordings" in printed
     with (tmp_path / tables.ATTRIBUTES).open() as file:
         lines = {(line["sequence"], line["attribute"]): line for line in csv.DictReader(file)}
     assert lines["one", "low_resolution"]["has"] == "0"  # 20x20 pixels
