@@ -89,7 +89,7 @@ def test_it_waits_until_the_tracker_finds_somebody() -> None:
     ["frame: expected the channel depth, which this tracker needs", "frame.depth: expected 4 rows", "gamma"],
 )
 def test_other_errors_are_not_waited_out(error: str) -> None:
-    """It proves that an error that the next frame can't mend comes at once."""
+    """It proves that an error that the next frame can't fix comes at once."""
     with pytest.raises(ValueError, match=error):
         next(steps(Shy(ValueError(error)), dark_then_bright(), None, RunClock()))  # type: ignore[arg-type]
 

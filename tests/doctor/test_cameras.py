@@ -49,7 +49,7 @@ def test_one_that_may_not_be_opened(system, tmp_path, monkeypatch):
     (found,) = cameras.find_cameras()
     assert found.verdict is Verdict.WARNING
     assert found.text == "Webcam, which you may not open"
-    assert "usermod -aG video" in found.mend
+    assert "usermod -aG video" in found.fix
 
 
 @pytest.mark.parametrize(

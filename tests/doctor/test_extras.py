@@ -24,9 +24,9 @@ def judge(monkeypatch):
 
 
 def test_a_whole_extra(judge):
-    """Its versions are told, and nothing is to mend."""
+    """Its versions are told, and nothing is to fix."""
     found = judge(Requirement("here", ">=1"))
-    assert (found.verdict, found.text, found.mend) == (Verdict.OK, "here 2.0", "")
+    assert (found.verdict, found.text, found.fix) == (Verdict.OK, "here 2.0", "")
 
 
 def test_a_missing_package(judge):
@@ -34,7 +34,7 @@ def test_a_missing_package(judge):
     found = judge(Requirement("here"), Requirement("gone", ">=3"), Requirement("lost"))
     assert found.verdict is Verdict.ABSENT
     assert found.text == "here 2.0; gone, lost missing"
-    assert found.mend.endswith("-m pip install 'gone>=3' lost")
+    assert found.fix.endswith("-m pip install 'gone>=3' lost")
 
 
 def test_an_old_package(judge):
@@ -42,7 +42,7 @@ def test_an_old_package(judge):
     found = judge(Requirement("old", ">=1.2"), Requirement("here"))
     assert found.verdict is Verdict.WARNING
     assert "old 0.9 is too old, >=1.2 is needed" in found.text
-    assert found.mend.endswith("-m pip install --upgrade 'old>=1.2'")
+    assert found.fix.endswith("-m pip install --upgrade 'old>=1.2'")
 
 
 def test_a_broken_package(judge):
@@ -50,7 +50,7 @@ def test_a_broken_package(judge):
     found = judge(Requirement("odd-one", ">=1"), Requirement("gone"))
     assert found.verdict is Verdict.BROKEN
     assert "odd-one 1.0 can't be imported: OSError: libodd.so: cannot open" in found.text
-    assert found.mend.endswith("-m pip install --force-reinstall 'odd-one>=1' gone")
+    assert found.fix.endswith("-m pip install --force-reinstall 'odd-one>=1' gone")
 
 
 def test_only_what_is_installed_is_imported(monkeypatch):

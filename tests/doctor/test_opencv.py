@@ -73,8 +73,8 @@ def test_missing_baselines_name_the_package_that_has_them(site):
     found = by_name(opencv.find_opencv())["baselines"]
     assert found.verdict is Verdict.ABSENT
     assert found.text.startswith("MIL; CSRT, KCF, MOSSE, MedianFlow missing")
-    assert "uninstall -y opencv-python-headless" in found.mend
-    assert found.mend.endswith("-m pip install opencv-contrib-python-headless")
+    assert "uninstall -y opencv-python-headless" in found.fix
+    assert found.fix.endswith("-m pip install opencv-contrib-python-headless")
 
 
 def test_what_detects_faces_is_told(site, monkeypatch, tmp_path):
@@ -83,12 +83,12 @@ def test_what_detects_faces_is_told(site, monkeypatch, tmp_path):
     versions = {"scikit-image": "0.26.0"}
     monkeypatch.setattr(opencv, "installed", lambda package: versions.get(package, ""))
     found = by_name(opencv.find_opencv())["faces"]
-    assert (found.verdict, found.mend) == (Verdict.OK, "")
+    assert (found.verdict, found.fix) == (Verdict.OK, "")
     assert "scikit-image 0.26.0" in found.text
     versions.clear()
     found = by_name(opencv.find_opencv())["faces"]
     assert found.verdict is Verdict.ABSENT
-    assert found.mend.endswith("-m pip install 'tricue[face]'")
+    assert found.fix.endswith("-m pip install 'tricue[face]'")
     cascades = f"class data:\n    haarcascades = {str(tmp_path)!r}\nCascadeClassifier = 1\n"
     (tmp_path / "cv2" / "__init__.py").write_text(WHOLE + cascades)
     assert by_name(opencv.find_opencv())["faces"].verdict is Verdict.ABSENT
@@ -106,9 +106,9 @@ def test_several_packages_are_told(site):
     assert found.verdict is Verdict.WARNING
     assert "share one folder" in found.text
     assert all(
-        name in found.mend for name in ("opencv-python-headless", "opencv-contrib-python", "opencv-python")
+        name in found.fix for name in ("opencv-python-headless", "opencv-contrib-python", "opencv-python")
     )
-    assert found.mend.endswith("install opencv-contrib-python==4.14.0.94")
+    assert found.fix.endswith("install opencv-contrib-python==4.14.0.94")
 
 
 @pytest.mark.parametrize(
@@ -124,13 +124,13 @@ def test_several_packages_are_told(site):
     ids=["ImportError", "RuntimeError", "OSError", "crash", "emptied", "old"],
 )
 def test_a_cv2_that_does_not_work_is_a_failure(site, code, said):
-    """The core needs it. The report says what is wrong, and which command of pip mends it."""
+    """The core needs it. The report says what is wrong, and which command of pip fixes it."""
     site(code, opencv_python_headless="4.10.0.84")
     found = by_name(opencv.find_opencv())["cv2"]
     assert found.verdict is Verdict.FAILED
     assert said in found.text
-    assert "-m pip install --" in found.mend
-    assert "opencv-python-headless" in found.mend
+    assert "-m pip install --" in found.fix
+    assert "opencv-python-headless" in found.fix
 
 
 def test_no_cv2_at_all(monkeypatch):
@@ -140,4 +140,4 @@ def test_no_cv2_at_all(monkeypatch):
     assert found.verdict is Verdict.FAILED
     assert "No module named 'cv2'" in found.text
     assert "no package of it is installed" in found.text
-    assert "opencv-python-headless" in found.mend
+    assert "opencv-python-headless" in found.fix

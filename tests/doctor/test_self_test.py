@@ -54,4 +54,4 @@ def test_an_encoder_is_judged_by_what_can_be_read(answer, verdict, text):
     """A file that was written and can't be read is broken."""
     found = encoders._judge("H.264 in .mp4", answer)
     assert (found.verdict, found.text) == (verdict, text)
-    assert bool(found.mend) == (verdict is Verdict.ABSENT)
+    assert bool(found.fix) == (verdict is Verdict.ABSENT)

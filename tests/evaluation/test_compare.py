@@ -114,6 +114,12 @@ def test_what_is_no_evaluation_is_told(folders, tmp_path, content, message, caps
     assert error.count("\n") == 1
 
 
+def test_a_folder_that_is_not_there_is_told(folders, tmp_path, capsys):
+    """A misspelled name is something else than a folder without an evaluation."""
+    assert main(["compare", str(tmp_path / "onee"), str(folders[1])]) == 2
+    assert "onee: expected a folder of tricue evaluate, there is none of that name" in capsys.readouterr().err
+
+
 def test_nothing_in_common_is_told(tmp_path, capsys):
     """Other trackers, or other sequences."""
     one, other = write(tmp_path / "one", a=OLD), write(tmp_path / "other", b=OLD)

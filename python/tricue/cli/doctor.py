@@ -7,7 +7,7 @@ from tricue.doctor.examine import as_json, as_text, examine, healthy
 
 EXAMPLES = """\
 examples:
-  tricue doctor                                               a line for each thing, and how to mend it
+  tricue doctor                                               a line for each thing, and how to fix it
   tricue doctor --json > doctor.json                          for bug reports and programs
   python -m tricue doctor                                     also where tricue can't be imported
 """

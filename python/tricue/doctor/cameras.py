@@ -49,8 +49,8 @@ def _device(path: Path, about: Path) -> Finding:
         name = "unnamed"
     if os.access(path, os.R_OK | os.W_OK):
         return Finding(SECTION, str(path), Verdict.OK, name)
-    mend = "sudo usermod -aG video $USER, then log in again"
-    return Finding(SECTION, str(path), Verdict.WARNING, f"{name}, which you may not open", mend)
+    fix = "sudo usermod -aG video $USER, then log in again"
+    return Finding(SECTION, str(path), Verdict.WARNING, f"{name}, which you may not open", fix)
 
 
 def _listed(name: str, code: str) -> Finding:

@@ -49,7 +49,7 @@ def healthy(findings: Sequence[Finding]) -> bool:
 
 
 def as_text(findings: Sequence[Finding]) -> str:
-    """A line for each finding, below it what mends it, and at the end what it all comes to."""
+    """A line for each finding, below it what fixes it, and at the end what it all comes to."""
     width = max(len(each.name) for each in findings)
     lines: list[str] = []
     section = ""
@@ -58,8 +58,8 @@ def as_text(findings: Sequence[Finding]) -> str:
             lines += [*([""] if lines else []), each.section]
             section = each.section
         lines.append(f"  {MARKS[each.verdict]:<8}{each.name:<{width}}  {each.text}")
-        if each.mend:
-            lines.append(f"  {'':<8}{'':<{width}}  mend: {each.mend}")
+        if each.fix:
+            lines.append(f"  {'':<8}{'':<{width}}  fix: {each.fix}")
     return "\n".join([*lines, "", _sum_up(findings)])
 
 
@@ -71,7 +71,7 @@ def as_json(findings: Sequence[Finding]) -> str:
             "name": each.name,
             "verdict": each.verdict.value,
             "text": each.text,
-            "mend": each.mend,
+            "fix": each.fix,
         }
         for each in findings
     ]

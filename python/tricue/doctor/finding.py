@@ -17,10 +17,10 @@ class Verdict(str, Enum):
 
 @dataclass(frozen=True)
 class Finding:
-    """One line of the report. mend: the command or the deed that helps, "" where there is none."""
+    """One line of the report. fix: the command or the deed that helps, "" where there is none."""
 
     section: str
     name: str
     verdict: Verdict
     text: str
-    mend: str = ""
+    fix: str = ""

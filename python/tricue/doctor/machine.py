@@ -97,8 +97,8 @@ def _folder(folder: Path) -> Finding:
             free = shutil.disk_usage(folder).free
     except OSError as error:
         text = f"{short(folder)} can't be written: {error.strerror}"
-        mend = "go to another folder, or give --output one of another"
-        return Finding("Places", name, Verdict.WARNING, text, mend)
+        fix = "go to another folder, or give --output one of another"
+        return Finding("Places", name, Verdict.WARNING, text, fix)
     text = f"{short(folder)} can be written, {_size(free)} free"
     return Finding("Places", name, Verdict.OK if free > MIN_FREE else Verdict.WARNING, text)
 

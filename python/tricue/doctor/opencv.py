@@ -88,8 +88,8 @@ def _several(providers: dict[str, str]) -> Finding:
         f"{', '.join(providers)} share one folder: the last one installed counts, to uninstall one breaks all"
     )
     remove = f"{pip().replace('install', 'uninstall')}-y {' '.join(providers)}"
-    mend = f"{remove}, then {pip(f'{kept}=={providers[kept]}')}"
-    return Finding(SECTION, "several packages", Verdict.WARNING, text, mend)
+    fix = f"{remove}, then {pip(f'{kept}=={providers[kept]}')}"
+    return Finding(SECTION, "several packages", Verdict.WARNING, text, fix)
 
 
 def _trackers(present: list[str]) -> Finding:

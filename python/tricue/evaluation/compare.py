@@ -124,6 +124,8 @@ def _change(
 
 def _read(folder: Path) -> dict[str, Any]:
     path = folder / JSON
+    if not folder.exists():
+        raise ValueError(f"{folder}: expected a folder of tricue evaluate, there is none of that name")
     if not path.is_file():
         raise ValueError(f"{folder}: expected a folder of tricue evaluate, there is no {JSON} in it")
     try:
