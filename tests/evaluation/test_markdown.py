@@ -12,7 +12,7 @@ def test_printed_tables_are_aligned_and_leave_out_empty_columns(folders, tmp_pat
     """Every line of a table is as wide as its head; no position was measured, no target was absent."""
     found = evaluate(folders, tmp_path, Options(("meanShift", "still-box")))
     table, told, by_sequence = markdown(found).split("\n\n")
-    assert told.startswith("Of 3 recordings nothing can be told")
+    assert told.endswith("this group has 3 recordings.")
     for text in (table, by_sequence):
         assert len({len(line) for line in text.splitlines()}) == 1
     assert "position" not in table
