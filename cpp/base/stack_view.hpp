@@ -7,15 +7,14 @@
 
 namespace tricue {
 
-/// A non-owning, read-only view of planes of one size, C-contiguous (planes, rows, cols).
+/// A non-owning, read-only view of contiguous planes of one size; by default one follows the other.
 template <typename Scalar>
 struct StackView {
     const Scalar* data;
     int planes, rows, cols;
+    std::ptrdiff_t pitch = std::ptrdiff_t{rows} * cols;  ///< numbers from a plane to the next
 
-    const Scalar* row(int plane, int y) const {
-        return data + (std::ptrdiff_t{plane} * rows + y) * std::ptrdiff_t{cols};
-    }
+    const Scalar* row(int plane, int y) const { return data + plane * pitch + std::ptrdiff_t{y} * cols; }
 };
 
 using FloatStack = StackView<float>;

@@ -14,10 +14,8 @@ namespace tricue {
 PlaceFilter learn_place_filter(const ImageView& patch, FloatsRef taper, FloatsRef mask, ComplexesRef label,
                                const ComplexStack& previous, const ComplexStack& first,
                                double temporal_weight, double penalty, double first_weight) {
-    const Floats numbers = hog_color_cells(patch, taper);
-    const int rows = static_cast<int>(taper.rows());
-    const FloatStack cells{numbers.data(), static_cast<int>(numbers.rows()) / rows, rows,
-                           static_cast<int>(taper.cols())};
+    const FloatPlanes numbers = hog_color_cells(patch, taper);
+    const FloatStack cells = numbers.view();
     require_filter("first", first, cells);
     require_share_of_first(first_weight);
     Complexes learned = regularized_filter(cells, mask, label, previous, temporal_weight, penalty);

@@ -49,12 +49,11 @@ SizeFilter learn_size_filter(const ImageView& patch, PlacesRef places, FloatsRef
     require_positive(ridge, "ridge");
     const PixelBytes picked = pick_pixels(patch, places);
     const int picked_cols = static_cast<int>(places.cols());
-    const Floats numbers = hog_color_cells(
+    const FloatPlanes numbers = hog_color_cells(
         {picked.data(), static_cast<int>(places.rows()), picked_cols, 3, 3 * std::ptrdiff_t{picked_cols}},
         taper);
-    const int rows = static_cast<int>(taper.rows());
-    const FloatStack cells{numbers.data(), static_cast<int>(numbers.rows()) / rows, rows,
-                           static_cast<int>(taper.cols())};
+    const FloatStack cells = numbers.view();
+    const int rows = cells.rows;
     require_filter("first_numerator", first.numerator, cells);
     require_plane("first_denominator", first.denominator.rows(), first.denominator.cols(), rows,
                   cells.cols / 2 + 1);

@@ -3,16 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/check.hpp"
+#include "base/color_cells.hpp"
 #include "base/simd.hpp"
 #include "cues/color/box_contrast.hpp"
 #include "cues/color/color_posterior.hpp"
 #include "cues/color/hog_color_cells.hpp"
-#include "cues/color/joint_histogram.hpp"
 #include "fuse/combine_posteriors.hpp"
 #include "fuse/correlation_response.hpp"
 #include "fuse/evidence_peak.hpp"
@@ -70,38 +71,28 @@ Span find_span(double center, double length, int size) {
             static_cast<int>(std::max(std::min(std::nearbyint(center + length / 2), most), first + 1))};
 }
 
-/// The pixels of a part of a patch, channel by channel.
-std::vector<std::uint8_t> take_colors(const ImageView& patch, Span rows, Span columns) {
-    const std::size_t n = static_cast<std::size_t>(rows.size()) * static_cast<std::size_t>(columns.size());
-    std::vector<std::uint8_t> colors(3 * n);
-    std::uint8_t *blue = colors.data(), *green = blue + n, *red = green + n;
-    for (int y = rows.first; y < rows.end; ++y) {
-        const std::uint8_t* pixel = patch.row(y) + 3 * std::ptrdiff_t{columns.first};
-        for (int x = 0; x < columns.size(); ++x, pixel += 3) {
-            *blue++ = pixel[0];
-            *green++ = pixel[1];
-            *red++ = pixel[2];
-        }
-    }
-    return colors;
-}
-
-int bins_of(VectorRef roots) {
-    for (int bins = 1; bins <= 64; bins *= 2)
-        if (roots.size() == Eigen::Index{bins} * bins * bins) return bins;
+int bits_of(VectorRef roots) {
+    for (int bits = 0; bits <= 6; ++bits)
+        if (roots.size() == Eigen::Index{1} << (3 * bits)) return bits;
     refuse("roots", "(B³,), B a power of two up to 64", std::to_string(roots.size()));
 }
 
-double color_similarity(const ImageView& patch, VectorRef roots, int bins, double right, double down,
+/// The Bhattacharyya coefficient of colors around a place with those that `roots` is of.
+double color_similarity(const ImageView& patch, VectorRef roots, int bits, double right, double down,
                         const TargetSearch& search) {
     const Span rows = find_span(patch.rows / 2.0 + down, search.inner * search.height, patch.rows),
                columns = find_span(patch.cols / 2.0 + right, search.inner * search.width, patch.cols);
-    const std::vector<std::uint8_t> colors = take_colors(patch, rows, columns);
-    const Floats histogram =
-        joint_histogram({colors.data(), 1, std::ptrdiff_t{rows.size()} * columns.size()}, bins);
+    std::vector<std::int32_t> counts(static_cast<std::size_t>(roots.size())),
+        cells(static_cast<std::size_t>(columns.size()));
+    for (int y = rows.first; y < rows.end; ++y) {
+        pixel_cells(patch.row(y) + 3 * std::ptrdiff_t{columns.first}, columns.size(), bits, cells.data());
+        for (const std::int32_t cell : cells) ++counts[static_cast<std::size_t>(cell)];
+    }
+    const auto pixels = static_cast<float>(std::ptrdiff_t{rows.size()} * columns.size());
     double sum = 0.0;
-    for (Eigen::Index i = 0; i < histogram.size(); ++i)
-        if (histogram.data()[i] > 0.0F) sum += std::sqrt(double{histogram.data()[i]}) * roots[i];
+    for (Eigen::Index i = 0; i < roots.size(); ++i)
+        if (const std::int32_t count = counts[static_cast<std::size_t>(i)]; count > 0)
+            sum += std::sqrt(double{static_cast<float>(count) / pixels}) * roots[i];
     return sum;
 }
 
@@ -119,19 +110,18 @@ void require_arguments(const ImageView& patch, const PlaneView& other, const Tar
 LocalizedTarget localize_target(const ImageView& patch, FloatsRef taper, const TargetLook& look,
                                 const PlaneView& other, const TargetSearch& search) {
     require_arguments(patch, other, search);
-    const int bins = bins_of(look.roots);
-    const Floats cells = hog_color_cells(patch, taper);
+    const int bits = bits_of(look.roots);
+    const FloatPlanes cells = hog_color_cells(patch, taper);
     const int rows = static_cast<int>(taper.rows()), cols = static_cast<int>(taper.cols()),
               filters = look.filters.filters;
-    Floats responses =
-        correlation_response({cells.data(), static_cast<int>(cells.rows()) / rows, rows, cols}, look.filters);
+    Floats responses = correlation_response(cells.view(), look.filters);
     const Vector peak = evidence_peak({responses.data(), filters, rows, cols},
                                       find_contrast(patch, look.table, other, search),
                                       {search.filter_weight, search.contrast_weight});
     Vector found(peak.size() + 2);
     found.head(peak.size()) = peak;
     found[peak.size()] = peak_sharpness(responses.data(), taper.size(), peak[5]);
-    found[peak.size() + 1] = color_similarity(patch, look.roots, bins, 2 * peak[0], 2 * peak[1], search);
+    found[peak.size() + 1] = color_similarity(patch, look.roots, bits, 2 * peak[0], 2 * peak[1], search);
     return {std::move(found), std::move(responses)};
 }
 

@@ -57,12 +57,9 @@ Shift log_polar_shift(const ImageView& patch, PlacesRef places, FloatsRef taper,
     if (filter.filters != 1) refuse("filter", "one filter", std::to_string(filter.filters));
     const PixelBytes picked = pick_pixels(patch, places);
     const int rows = static_cast<int>(places.rows()), cols = static_cast<int>(places.cols());
-    const Floats cells = hog_color_cells({picked.data(), rows, cols, 3, 3 * std::ptrdiff_t{cols}}, taper);
-    const int cell_rows = static_cast<int>(taper.rows()), cell_cols = static_cast<int>(taper.cols());
-    return find_shift(
-        correlation_response({cells.data(), static_cast<int>(cells.rows()) / cell_rows, cell_rows, cell_cols},
-                             filter),
-        range);
+    const FloatPlanes cells =
+        hog_color_cells({picked.data(), rows, cols, 3, 3 * std::ptrdiff_t{cols}}, taper);
+    return find_shift(correlation_response(cells.view(), filter), range);
 }
 
 }  // namespace tricue

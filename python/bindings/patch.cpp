@@ -35,9 +35,13 @@ Bytes sample_turned_windows_arrays(const Bytes& image, const Array<double>& wind
 Array<float> hog_color_cells_arrays(const Bytes& patch, const Array<float>& taper) {
     const auto view = color_image(patch, "patch");
     const auto weights = floats(taper, "taper", {-1, -1}, "float32 (R, C)");
-    auto cells =
-        unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return hog_color_cells(view, weights); });
-    return give(std::move(cells), {19, weights.rows(), weights.cols()});
+    auto cells = unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] {
+        const FloatPlanes planes = hog_color_cells(view, weights);
+        Floats each(planes.planes(), planes.size());
+        for (int k = 0; k < planes.planes(); ++k) std::copy_n(planes.plane(k), planes.size(), &each(k, 0));
+        return each;
+    });
+    return give(std::move(cells), {cells.rows(), weights.rows(), weights.cols()});
 }
 
 Array<float> color_posterior_arrays(const Bytes& image, const Array<float>& table) {

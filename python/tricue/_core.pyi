@@ -1482,7 +1482,7 @@ def hog_color_cells(
         taper: float32 (R, C), at least one cell
 
     Returns:
-        float32 (19, R, C); in C++ the planes one below the other
+        float32 (19, R, C)
 
     Raises:
         ValueError: on a patch of another size, or no cells

@@ -16,6 +16,7 @@ namespace tricue {
 namespace {
 
 constexpr int kBins = 8, kUnsigned = 4, kBlocks = 4, kColors = 3;
+constexpr int kContrasts = kBins + kUnsigned + kBlocks;
 constexpr float kMinContrast = 102.0F;  // gray levels; added to the energy of every block
 constexpr float kMaxShare = 0.2F;       // of a block's contrast in one orientation of one cell
 constexpr float kTexture = 0.2357F;     // 1 / sqrt(18), as Felzenszwalb et al. have it
@@ -127,12 +128,12 @@ void find_scales(const float* __restrict above, const float* __restrict below, i
     }
 }
 
-/// Writes the normalized orientations and the texture of a row of n cells to planes that are `plane` numbers apart. `upper` and
+/// Writes the normalized orientations and the texture of a row of n cells to planes that are `pitch` numbers apart. `upper` and
 /// `lower` are the scales of the blocks above and below: those of cell x are at x, to the left, and x + 1, to the right.
 TRICUE_MULTIVERSION
 void normalize(const float* __restrict sums, const float* __restrict upper, const float* __restrict lower,
-               const float* __restrict taper, int n, std::ptrdiff_t plane, float* __restrict cells) {
-    float* texture = cells + (kBins + kUnsigned) * plane;
+               const float* __restrict taper, int n, std::ptrdiff_t pitch, float* __restrict cells) {
+    float* texture = cells + (kBins + kUnsigned) * pitch;
     TRICUE_INDEPENDENT
     for (int x = 0; x < n; ++x) {
         const float n0 = upper[x], n1 = upper[x + 1], n2 = lower[x], n3 = lower[x + 1], weight = taper[x];
@@ -142,21 +143,21 @@ void normalize(const float* __restrict sums, const float* __restrict upper, cons
             const float sum = sums[k * n + x];
             const float c0 = cut(sum * n0), c1 = cut(sum * n1), c2 = cut(sum * n2), c3 = cut(sum * n3);
             t0 += c0, t1 += c1, t2 += c2, t3 += c3;
-            cells[k * plane + x] = 0.5F * (c0 + c1 + c2 + c3) * weight;
+            cells[k * pitch + x] = 0.5F * (c0 + c1 + c2 + c3) * weight;
         };
         const auto put_unsigned = [&](int k) {
             const float sum = sums[k * n + x] + sums[(k + kUnsigned) * n + x];
             const float c0 = cut(sum * n0), c1 = cut(sum * n1), c2 = cut(sum * n2), c3 = cut(sum * n3);
-            cells[(kBins + k) * plane + x] = 0.5F * (c0 + c1 + c2 + c3) * weight;
+            cells[(kBins + k) * pitch + x] = 0.5F * (c0 + c1 + c2 + c3) * weight;
         };
         // Written out, as the compiler vectorizes only the innermost loop.
         put_signed(0), put_signed(1), put_signed(2), put_signed(3);
         put_signed(4), put_signed(5), put_signed(6), put_signed(7);
         put_unsigned(0), put_unsigned(1), put_unsigned(2), put_unsigned(3);
         texture[x] = kTexture * t0 * weight;
-        texture[plane + x] = kTexture * t1 * weight;
-        texture[2 * plane + x] = kTexture * t2 * weight;
-        texture[3 * plane + x] = kTexture * t3 * weight;
+        texture[pitch + x] = kTexture * t1 * weight;
+        texture[2 * pitch + x] = kTexture * t2 * weight;
+        texture[3 * pitch + x] = kTexture * t3 * weight;
     }
 }
 
@@ -226,7 +227,7 @@ Floats sum_orientations(PaddedPlanes& levels, int rows, int cols) {
     return sums;
 }
 
-void write_orientations(const Floats& sums, FloatsRef taper, float* cells) {
+void write_orientations(const Floats& sums, FloatsRef taper, FloatPlanes& cells) {
     const int rows = static_cast<int>(taper.rows()), cols = static_cast<int>(taper.cols());
     PaddedPlanes energy(1, rows, cols);
     for (int y = 0; y < rows; ++y) find_energy(&sums(y, 0), cols, energy.row(0, y));
@@ -235,17 +236,18 @@ void write_orientations(const Floats& sums, FloatsRef taper, float* cells) {
     for (int y = 0; y <= rows; ++y) find_scales(energy.row(0, y - 1), energy.row(0, y), cols, &scales(y, 0));
     for (int y = 0; y < rows; ++y) {
         const std::ptrdiff_t at = std::ptrdiff_t{y} * cols;
-        normalize(&sums(y, 0), &scales(y, 0), &scales(y + 1, 0), taper.data() + at, cols, taper.size(),
-                  cells + at);
+        normalize(&sums(y, 0), &scales(y, 0), &scales(y + 1, 0), taper.data() + at, cols, cells.pitch(),
+                  cells.plane(0) + at);
     }
 }
 
-void write_colors(PaddedPlanes& levels, FloatsRef taper, float* cells) {
+void write_colors(PaddedPlanes& levels, FloatsRef taper, FloatPlanes& cells) {
     const int rows = static_cast<int>(taper.rows()), cols = static_cast<int>(taper.cols());
-    for (int c = 0; c < kColors; ++c, cells += taper.size()) {
+    for (int c = 0; c < kColors; ++c) {
+        float* plane = cells.plane(kContrasts + c);
         for (int y = 0; y < rows; ++y)
-            sum_cells(levels.row(c, 2 * y), levels.row(c, 2 * y + 1), cols, cells + std::ptrdiff_t{y} * cols);
-        center_color(mean_level(cells, taper.size()), taper.data(), static_cast<int>(taper.size()), cells);
+            sum_cells(levels.row(c, 2 * y), levels.row(c, 2 * y + 1), cols, plane + std::ptrdiff_t{y} * cols);
+        center_color(mean_level(plane, taper.size()), taper.data(), static_cast<int>(taper.size()), plane);
     }
 }
 
@@ -261,17 +263,16 @@ void require_arguments(const ImageView& patch, FloatsRef taper) {
 
 }  // namespace
 
-Floats hog_color_cells(const ImageView& patch, FloatsRef taper) {
+FloatPlanes hog_color_cells(const ImageView& patch, FloatsRef taper) {
     require_arguments(patch, taper);
     PaddedPlanes levels(kColors, patch.rows, patch.cols);
     for (int y = 0; y < patch.rows; ++y)
         split_row(patch.row(y), patch.cols, levels.row(0, y), levels.row(1, y), levels.row(2, y));
     for (int c = 0; c < kColors; ++c) levels.replicate_border(c);
     const int rows = patch.rows / 2, cols = patch.cols / 2;
-    constexpr int kContrasts = kBins + kUnsigned + kBlocks;
-    Floats cells((kContrasts + kColors) * rows, cols);
-    write_orientations(sum_orientations(levels, rows, cols), taper, cells.data());
-    write_colors(levels, taper, cells.data() + kContrasts * taper.size());
+    FloatPlanes cells(kContrasts + kColors, rows, cols);
+    write_orientations(sum_orientations(levels, rows, cols), taper, cells);
+    write_colors(levels, taper, cells);
     return cells;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/arrays.hpp"
+#include "base/float_planes.hpp"
 #include "base/image_view.hpp"
 
 namespace tricue {
@@ -31,10 +32,10 @@ namespace tricue {
 ///
 /// @param patch uint8 (2R, 2C, 3) BGR
 /// @param taper float32 (R, C), at least one cell
-/// @returns float32 (19, R, C); in C++ the planes one below the other
+/// @returns float32 (19, R, C)
 /// @throws std::invalid_argument on a patch of another size, or no cells
 /// Source: Dalal, Triggs 2005, section 6; Felzenszwalb, Girshick, McAllester, Ramanan 2010, section 6. Cells of 2 x 2 pixels,
 /// eight bins by the ratio of the sides, the 102 levels and the colors are ours.
-Floats hog_color_cells(const ImageView& patch, FloatsRef taper);
+FloatPlanes hog_color_cells(const ImageView& patch, FloatsRef taper);
 
 }  // namespace tricue

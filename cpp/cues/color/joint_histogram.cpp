@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "cues/color/detail/color_cells.hpp"
+#include "base/color_cells.hpp"
 
 namespace tricue {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/check.hpp"
+#include "base/color_cells.hpp"
 #include "base/simd.hpp"
-#include "cues/color/detail/color_cells.hpp"
 #include "cues/color/detail/ellipse_sampler.hpp"
 #include "cues/color/detail/learn_histograms.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/check.hpp"
-#include "cues/color/detail/color_cells.hpp"
+#include "base/color_cells.hpp"
 #include "cues/color/detail/learn_histograms.hpp"
 
 namespace tricue {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/check.hpp"
-#include "cues/color/detail/color_cells.hpp"
+#include "base/color_cells.hpp"
 #include "cues/color/detail/compare_window.hpp"
 #include "cues/color/detail/ellipse_sampler.hpp"
 #include "cues/color/detail/rank_maps.hpp"

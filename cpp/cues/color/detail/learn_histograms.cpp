@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "base/check.hpp"
+#include "base/color_cells.hpp"
 #include "base/simd.hpp"
-#include "cues/color/detail/color_cells.hpp"
 
 namespace tricue {
 namespace {

@@ -3,23 +3,23 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
+#include <memory>
 
 namespace tricue {
 
-/// Planes of floats with a border of one number, so that every number inside has all its neighbors.
+/// Planes of floats with a border of one number, so that every number inside has all its neighbors. Initially they are unspecified.
 class PaddedPlanes {
 public:
     PaddedPlanes(int planes, int rows, int cols)
         : rows_(rows),
           cols_(cols),
-          numbers_(static_cast<std::size_t>(planes) * (static_cast<std::size_t>(rows) + 2) *
-                   (static_cast<std::size_t>(cols) + 2)) {}
+          numbers_(new float[static_cast<std::size_t>(planes) * (static_cast<std::size_t>(rows) + 2) *
+                             (static_cast<std::size_t>(cols) + 2)]) {}
 
     /// The first number inside of row y, -1 to `rows`.
     float* row(int plane, int y) {
         const std::ptrdiff_t line = plane * (std::ptrdiff_t{rows_} + 2) + y + 1;
-        return numbers_.data() + line * (std::ptrdiff_t{cols_} + 2) + 1;
+        return numbers_.get() + line * (std::ptrdiff_t{cols_} + 2) + 1;
     }
 
     /// Sets the border to the nearest numbers inside; the plane must not be empty.
@@ -35,7 +35,7 @@ public:
 
 private:
     int rows_, cols_;
-    std::vector<float> numbers_;
+    std::unique_ptr<float[]> numbers_;
 };
 
 }  // namespace tricue

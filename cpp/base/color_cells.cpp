@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cues/color/detail/color_cells.hpp"
+#include "base/color_cells.hpp"
 
 #include "base/check.hpp"
 #include "base/overlapping_blocks.hpp"
@@ -20,6 +20,17 @@ void find_cells(const std::uint8_t* __restrict blue, const std::uint8_t* __restr
 }
 
 TRICUE_MULTIVERSION
+void find_pixel_cells(const std::uint8_t* __restrict pixels, std::ptrdiff_t n, int bits,
+                      std::int32_t* __restrict cells) {
+    const int shift = 8 - bits;
+    for_overlapping_blocks(n, [=](std::ptrdiff_t k) {
+        const std::int32_t b = pixels[3 * k] >> shift, g = pixels[3 * k + 1] >> shift,
+                           r = pixels[3 * k + 2] >> shift;
+        cells[k] = (((b << bits) | g) << bits) | r;
+    });
+}
+
+TRICUE_MULTIVERSION
 void find_word_cells(const std::uint32_t* __restrict words, std::ptrdiff_t n, int bits,
                      std::int32_t* __restrict cells) {
     const std::uint32_t mask = (1U << bits) - 1U;
@@ -31,6 +42,10 @@ void find_word_cells(const std::uint32_t* __restrict words, std::ptrdiff_t n, in
 }
 
 }  // namespace
+
+void pixel_cells(const std::uint8_t* pixels, std::ptrdiff_t n, int bits, std::int32_t* cells) {
+    find_pixel_cells(pixels, n, bits, cells);
+}
 
 void word_cells(const std::uint32_t* words, std::ptrdiff_t n, int bits, std::int32_t* cells) {
     find_word_cells(words, n, bits, cells);

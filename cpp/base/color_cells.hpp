@@ -17,6 +17,9 @@ int bits_of_cube(FloatsRef cube, const char* name);
 /// The cell of every sample of one ellipse in a cube of 2^bits bins a channel: index (b bins + g) bins + r.
 void color_cells(const SampleView& samples, std::ptrdiff_t ellipse, int bits, std::int32_t* cells);
 
+/// The same of n pixels.
+void pixel_cells(const std::uint8_t* pixels, std::ptrdiff_t n, int bits, std::int32_t* cells);
+
 /// The same of n words, in whose bytes b, g, r follow each other from the lowest.
 void word_cells(const std::uint32_t* words, std::ptrdiff_t n, int bits, std::int32_t* cells);
 
