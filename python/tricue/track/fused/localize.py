@@ -95,5 +95,4 @@ def recenter(model: TargetModel, candidate: Candidate) -> Candidate:
 def clamp_to_image(target: Target, window: Window) -> Target:
     """The target with its center moved into the window's image."""
     height, width = window.observation.shape
-    x, y = min(max(target.x, 0.0), width), min(max(target.y, 0.0), height)
-    return target._replace(x=x, y=y)
+    return target.at(min(max(target.x, 0.0), width), min(max(target.y, 0.0), height))

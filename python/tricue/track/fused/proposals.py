@@ -6,6 +6,7 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
+from tricue.track.fused.arrays import Plane
 from tricue.track.fused.depth_object import find_objects
 from tricue.track.fused.depth_sources import ExpectedDepth
 from tricue.track.fused.experts.depth import DepthMeasurement, measure_center_depths
@@ -22,6 +23,7 @@ COLOR_PLACES_IN_TURN = 2  # per frame, beside the one where they do most
 MAX_GRID_PROPOSALS = 3  # per frame, of a grid over the whole frame
 SAMPLES_PER_TARGET = 8  # on a side of the target, in the search for its colors
 MAX_FRAME_SAMPLES = 256  # on a side of the frame, in the search for the target's colors
+CONTRAST_STEP = 2  # samples between two places whose contrast is measured
 PROPOSED_SCALES = 1.0, 0.7, 1.0, 1.4  # of the target's last size, one per frame in turn, without depth
 
 T = TypeVar("T")
@@ -78,8 +80,7 @@ def _object_proposals(model: TargetModel, observation: TargetObservation, lost: 
     for each in find_objects(observation, observation.depth_image)[0]:
         side = Target.of(each.box).side
         mismatch = abs(math.log(side * each.z / model.depth.length)) if model.depth else 0.0
-        x, y = each.box.center
-        found.append((mismatch, lost.target._replace(x=x, y=y)))
+        found.append((mismatch, lost.target.at(*each.box.center)))
     found.sort(key=lambda each: each[0])
     return [each for _, each in found[:MAX_OBJECT_PROPOSALS]]
 
@@ -92,25 +93,38 @@ def _color_proposals(model: TargetModel, observation: TargetObservation, lost: L
     step = max(target.side / SAMPLES_PER_TARGET, max(height, width) / MAX_FRAME_SAMPLES)
     rows, columns = (max(2 * round(length / step / 2), 2) for length in (height, width))
     whole = np.array([[0.0, 0.0, width, height]])
-    samples = k.sample_windows(observation.picture, whole, rows, columns)
-    flat = np.ascontiguousarray(samples.reshape(1, -1, 3).transpose(0, 2, 1))
-    posterior = k.color_lookup(flat, model.appearance.color.table).reshape(rows, columns)
+    samples = k.sample_windows(observation.picture, whole, rows, columns)[0]
+    posterior = k.color_posterior(samples, model.appearance.color.table)
     across, down = width / columns, height / rows
     upright = target.upright
     size = upright.width / across, upright.height / down
     contrast = k.box_contrast(posterior, *size, model.params.surround_size, 1.0)
-    y = down * (rows // 2 + 2.0 * (np.arange(rows // 2) - rows // 4))[:, None]
-    x = across * (columns // 2 + 2.0 * (np.arange(columns // 2) - columns // 4))[None]
-    targets = []
-    for _ in range(MAX_COLOR_PLACES):
-        i, j = np.unravel_index(np.argmax(contrast), contrast.shape)
-        if not np.isfinite(contrast[i, j]):
-            break
-        targets.append(target._replace(x=float(x[0, j]), y=float(y[i, 0])))
-        near = (np.abs(x - x[0, j]) < target.side) & (np.abs(y - y[i, 0]) < target.side)
-        contrast = np.where(near, -np.inf, contrast)
+    apart = target.side / (CONTRAST_STEP * down), target.side / (CONTRAST_STEP * across)
+    targets = [
+        target.at(
+            across * (columns // 2 + CONTRAST_STEP * (j - columns // 4)),
+            down * (rows // 2 + CONTRAST_STEP * (i - rows // 4)),
+        )
+        for i, j in _separate_peaks(contrast, apart)
+    ]
     best, *others = targets
     return [best, *_in_turn(others, COLOR_PLACES_IN_TURN, lost.frame)]
+
+
+def _separate_peaks(contrast: Plane, apart: tuple[float, float]) -> list[tuple[int, int]]:
+    """Row and column of the cells with most contrast, each so many rows or columns apart from those before.
+
+    contrast: (R, C); overwritten.
+    """
+    rows, columns = (max(math.ceil(each), 1) for each in apart)
+    peaks: list[tuple[int, int]] = []
+    for _ in range(MAX_COLOR_PLACES):
+        i, j = divmod(int(contrast.argmax()), contrast.shape[1])
+        if contrast[i, j] == -np.inf:
+            break
+        peaks.append((i, j))
+        contrast[max(i - rows + 1, 0) : i + rows, max(j - columns + 1, 0) : j + columns] = -np.inf
+    return peaks
 
 
 def _grid_proposals(observation: TargetObservation, lost: LostTarget, p: FusedParams) -> list[Target]:
@@ -118,11 +132,11 @@ def _grid_proposals(observation: TargetObservation, lost: LostTarget, p: FusedPa
     target = lost.target
     half = p.context * target.side / 2
     height, width = observation.shape
-    rows, columns = (min(max(int(np.ceil(length / half)), 1), WINDOW_CELLS) for length in (height, width))
+    rows, columns = (min(max(math.ceil(length / half), 1), WINDOW_CELLS) for length in (height, width))
     x, y = (np.arange(columns) + 0.5) * width / columns, (np.arange(rows) + 0.5) * height / rows
     squared = np.add.outer((y - target.y) ** 2, (x - target.x) ** 2).ravel()
     nearest = _in_turn(np.argsort(squared, kind="stable").tolist(), MAX_GRID_PROPOSALS, lost.frame)
-    return [target._replace(x=float(x[i % columns]), y=float(y[i // columns])) for i in nearest]
+    return [target.at(float(x[i % columns]), float(y[i // columns])) for i in nearest]
 
 
 def _in_turn(items: list[T], count: int, frame: int) -> list[T]:

@@ -47,9 +47,13 @@ class Target(NamedTuple):
         height = math.hypot(self.width * down, self.height * across)
         return Target(self.x, self.y, width, height)
 
+    def at(self, x: float, y: float) -> "Target":
+        """The target with its center elsewhere."""
+        return Target(x, y, self.width, self.height, self.turn)
+
     def shift(self, right: float, down: float) -> "Target":
         """The target so many pixels farther right and down in the image."""
-        return Target(self.x + right, self.y + down, self.width, self.height, self.turn)
+        return self.at(self.x + right, self.y + down)
 
     def along(self, right: float, down: float) -> tuple[float, float]:
         """How far right and down in the image so many pixels along its own axes are."""
@@ -63,7 +67,8 @@ class Target(NamedTuple):
     def turn_by(self, steps: float) -> "Target":
         """The target turned clockwise around its center, to the nearest step."""
         half = TURN_STEPS // 2
-        return self._replace(turn=(self.turn + round(steps) + half) % TURN_STEPS - half)
+        turn = (self.turn + round(steps) + half) % TURN_STEPS - half
+        return Target(self.x, self.y, self.width, self.height, turn)
 
 
 def axes(turn: int) -> tuple[float, float]:

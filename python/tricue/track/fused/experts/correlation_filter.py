@@ -11,7 +11,7 @@ from tricue.track.base.params import parameter
 from tricue.track.fused.arrays import Floats, Plane
 from tricue.track.fused.experts.spectra import CHANNELS, FirstFrameParams, Spectra, label_spectrum
 from tricue.track.fused.sources import OURS
-from tricue.track.fused.window import HANN_WINDOW, WINDOW_CELLS, Window, WindowParams
+from tricue.track.fused.window import CELL_PIXELS, HANN_WINDOW, WINDOW_CELLS, Window, WindowParams
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,11 +93,14 @@ class CorrelationFilterExpert(NamedTuple):
         )
 
 
+# Patch pixels, of cells' centers from the middle of the window.
+CELL_OFFSETS = CELL_PIXELS * np.abs(np.arange(WINDOW_CELLS) + 0.5 - WINDOW_CELLS / 2)
+
+
 @lru_cache(maxsize=64)
 def _mask_profile(length: float, outer: float) -> Floats:
-    offset = 2 * np.abs(np.arange(WINDOW_CELLS) + 0.5 - WINDOW_CELLS / 2)
-    share = np.clip((outer - 2 * offset / length) / (outer - 1), 0, 1)
-    profile: Floats = np.sin(np.pi / 2 * share) ** 2
+    share = (outer - 2 * CELL_OFFSETS / length) / (outer - 1)
+    profile: Floats = np.sin(np.pi / 2 * np.minimum(np.maximum(share, 0.0), 1.0)) ** 2
     return profile
 
 
