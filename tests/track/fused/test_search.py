@@ -146,12 +146,16 @@ def test_the_local_match_is_penalized_by_its_distance_too(search_among):
     assert search_among(far, near=match(THERE, odds=4.0)).target == THERE
 
 
-def test_those_with_most_evidence_are_measured(search_among):
-    """Of all places only the first ``candidates`` by evidence are measured, and the likeliest is taken."""
+def test_those_with_most_evidence_are_recognized(search_among):
+    """Of all places only the first ``candidates`` by evidence are looked at closely, and the likeliest is
+    taken.
+    """
     poor, good = match(THERE, odds=4.0), match(THERE.shift(5.0, 0.0), odds=7.0)
     assert P.candidates == 2
     assert search_among(poor, good).target == good.target
-    assert search_among(poor, poor, good).target == poor.target
+    third = search_among(poor, poor, good)
+    assert third.target == poor.target
+    assert third.best_seen == 4
 
 
 @pytest.mark.parametrize("features", [REPAINTED, REARRANGED], ids=["structure alone", "color alone"])

@@ -119,7 +119,7 @@ class FusedParams(  # dataclasses take the fields of the last base first
         doc="by which it stands out from all that was seen since it was missed",
     )
     candidates: int = parameter(
-        2, unit="places", source=OURS, low=1, high=99, doc="measured in a search of the whole frame"
+        2, unit="places", source=OURS, low=1, high=99, doc="recognized in a search of the whole frame"
     )
 
     # time

@@ -15,18 +15,16 @@ def redetect(
 ) -> Match:
     """Re-detect the target in the whole frame; local: what was found where it should be.
 
-    A match elsewhere needs ``min_log_odds``, and more than the local one has. Its distance only counts
-    against it: what doesn't look enough like the target isn't measured.
+    Those with most evidence are recognized. A match elsewhere needs ``min_log_odds``, and more than the local
+    one has. Its distance only counts against it: what doesn't look enough like the target isn't measured.
     """
     windows = propose_windows(model, observation, lost)
     candidates = sorted((localize(model, each) for each in windows), key=lambda each: -each.evidence)
-    recognitions = [recognize(model, each) for each in candidates]
+    recognitions = [recognize(model, each) for each in candidates[: model.params.candidates]]
     seen = max([local.log_odds, *map(_log_odds, recognitions)])
     local = local._replace(log_odds=local.log_odds - _distance_penalty(model, lost, local))
     matches = [
-        _match_elsewhere(model, lost, each)
-        for each in recognitions[: model.params.candidates]
-        if _log_odds(each) >= min_log_odds
+        _match_elsewhere(model, lost, each) for each in recognitions if _log_odds(each) >= min_log_odds
     ]
     best = max(matches, key=lambda each: each.log_odds, default=local)
     found = best.log_odds >= min_log_odds and best.log_odds > local.log_odds
