@@ -3,17 +3,20 @@
 
     python examples/batch_folder.py videos/ --boxes boxes.csv --output tracks/ --jobs 4
 
-boxes.csv has a line for each video, ``name.mp4,x,y,width,height``, pixels of its first frame. Without it each
-video starts on the first box of the table beside it: of ``name.mp4`` that is ``name.csv``.
+boxes.csv has a line for each video, ``name.mp4,x,y,width,height``, pixels of its first frame. A video without
+one starts on the first box of the table beside it: of ``name.mp4`` that is ``name.csv``. A CSV is written
+once its video is through; Ctrl-C keeps those that are.
 """
 
 import argparse
 import csv
+import signal
 import sys
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from pathlib import Path
 
 import tricue
+from tricue.cli.arguments import count as whole_number
 from tricue.errors import one_line
 from tricue.export.table import columns, row
 
@@ -23,16 +26,35 @@ SUFFIXES = {".avi", ".mkv", ".mov", ".mp4", ".webm"}
 def track_video(video: Path, box: list[float] | None, target: Path) -> dict[str, int]:
     """Track one video into a CSV file; its frames, and how many of them have which status."""
     source, tracker = tricue.open_source(video), tricue.FusedTracker()
+    box = box or source.first_box
+    if box is None:
+        raise ValueError(f"no box; give it a line in --boxes, or {video.with_suffix('.csv').name} beside it")
     counts = {"frames": 0, "tracked": 0, "occluded": 0, "lost": 0}
+    rows = [columns()]
+    for number, frame in enumerate(source):
+        track = tracker.update(frame) if number else tracker.init(frame, box)
+        rows.append(row(number, frame.timestamp, track))
+        counts["frames"] += 1
+        counts[str(track.status)] += 1
     with target.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(columns())
-        for number, frame in enumerate(source):
-            track = tracker.update(frame) if number else tracker.init(frame, box or source.first_box)
-            writer.writerow(row(number, frame.timestamp, track))
-            counts["frames"] += 1
-            counts[str(track.status)] += 1
+        csv.writer(file).writerows(rows)
     return counts
+
+
+def plan(folder: Path, boxes: dict[str, list[float]], output: Path) -> dict[Path, Path]:
+    """The CSV of each video. ValueError where one would be written over another, or beside its video."""
+    videos = sorted(path for path in folder.iterdir() if path.suffix.lower() in SUFFIXES)
+    if not videos:
+        raise ValueError(f"{folder}: no videos ({', '.join(sorted(SUFFIXES))})")
+    if strays := sorted(boxes.keys() - {video.name for video in videos}):
+        raise ValueError(f"--boxes: {folder} has no {', '.join(strays)}")
+    if output.resolve() == folder.resolve():
+        raise ValueError("--output: expected another folder than the videos', whose tables may be there")
+    targets = {output / f"{video.stem}.csv": video for video in videos}
+    for video in videos:
+        if (other := targets[output / f"{video.stem}.csv"]) is not video:
+            raise ValueError(f"{video.name} and {other.name} would have the same CSV; rename one")
+    return {video: target for target, video in targets.items()}
 
 
 def read_boxes(path: Path | None) -> dict[str, list[float]]:
@@ -53,36 +75,43 @@ def _named_box(fields: list[str], place: str) -> tuple[str, list[float]]:
         raise ValueError(f"{place}: expected name.mp4,x,y,width,height, got {line!r}") from None
 
 
+def report(name: str, job: Future[dict[str, int]]) -> bool:
+    """Print what came of a video; whether it was tracked. Whatever one does, the others go on."""
+    try:
+        print(f"{name}: " + ", ".join(f"{count} {what}" for what, count in job.result().items()))
+    except Exception as error:
+        print(f"{name}: {one_line(error)}", file=sys.stderr)
+        return False
+    return True
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Track all, and print the summary; the exit code is 1 where a video failed."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("folder", type=Path)
     parser.add_argument("--boxes", type=Path)
     parser.add_argument("--output", type=Path, default=Path("tracks"))
-    parser.add_argument("--jobs", type=int, default=None, help="processes; by default one for each core")
+    parser.add_argument("--jobs", type=whole_number, help="processes; by default one for each core")
     options = parser.parse_args(arguments)
     try:
-        videos = sorted(path for path in options.folder.iterdir() if path.suffix.lower() in SUFFIXES)
         boxes = read_boxes(options.boxes)
+        targets = plan(options.folder, boxes, options.output)
         options.output.mkdir(parents=True, exist_ok=True)
     except (OSError, ValueError) as error:
         parser.error(one_line(error))
-    failed = 0
-    with ProcessPoolExecutor(options.jobs) as pool:
+    # by default Ctrl-C ends a process's video alone, and it would go on with the next one
+    with ProcessPoolExecutor(options.jobs, None, signal.signal, (signal.SIGINT, signal.SIG_DFL)) as pool:
         jobs = {
-            pool.submit(
-                track_video, video, boxes.get(video.name), options.output / f"{video.stem}.csv"
-            ): video
-            for video in videos
+            pool.submit(track_video, video, boxes.get(video.name), target): video.name
+            for video, target in targets.items()
         }
-        for job in as_completed(jobs):
-            name = jobs[job].name
-            try:
-                print(f"{name}: " + ", ".join(f"{count} {what}" for what, count in job.result().items()))
-            except Exception as error:  # whatever one video does, the others go on
-                failed += 1
-                print(f"{name}: {one_line(error)}", file=sys.stderr)
-    print(f"{len(videos) - failed} of {len(videos)} videos tracked into {options.output}")
+        try:
+            failed = sum(not report(jobs[job], job) for job in as_completed(jobs))
+        except KeyboardInterrupt:
+            pool.shutdown(cancel_futures=True)
+            print("ended")
+            return 130
+    print(f"{len(targets) - failed} of {len(targets)} videos tracked into {options.output}")
     return 1 if failed else 0
 
 

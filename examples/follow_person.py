@@ -16,7 +16,9 @@ import argparse
 import math
 
 import tricue
+from tricue.camera.numbers import positive
 from tricue.camera.read_calibration import read_intrinsics
+from tricue.cli.arguments import box
 from tricue.data.source import Source
 from tricue.errors import TargetNotFoundError
 from tricue.track.pan_tilt import PanTiltCommand
@@ -66,13 +68,13 @@ def run(source: Source, options: argparse.Namespace) -> None:
     """Follow the person through the source, and stop, however it ends."""
     if "depth" not in source.channels:
         raise ValueError(f"{source.name}: expected depth images, found only {' and '.join(source.channels)}")
-    box = None if options.box is None else [float(number) for number in options.box.split(",")]
+    distance = positive(options.distance, "--distance", "meters")
     tracker = tricue.DepthParticleTracker(intrinsics=camera_of(source, options.fov))
     head, command, started = tricue.PanTilt(), PanTiltCommand(0.0, 0.0, 0.0, 0.0), False
     try:
         for number, frame in enumerate(source):
             try:
-                track = tracker.update(frame) if started else tracker.init(frame, box)
+                track = tracker.update(frame) if started else tracker.init(frame, options.box)
             except TargetNotFoundError:
                 print(f"{number}: nobody there")
                 continue
@@ -84,7 +86,7 @@ def run(source: Source, options: argparse.Namespace) -> None:
             elif options.pan_tilt:
                 turn_head(standing(command))
             else:
-                drive(*follow(track, options.distance))
+                drive(*follow(track, distance))
     finally:
         if options.pan_tilt:
             turn_head(standing(command))
@@ -96,7 +98,7 @@ def main(arguments: list[str] | None = None) -> None:
     """Follow, and print a line a frame."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("source")
-    parser.add_argument("--box", help="x,y,width,height in the first frame")
+    parser.add_argument("--box", type=box, help="x,y,width,height in the first frame")
     parser.add_argument("--distance", type=float, default=1.5, help="meters")
     parser.add_argument("--depth-scale", type=float, help="meters per unit")
     parser.add_argument("--fov", type=float, help="degrees, horizontal")

@@ -5,14 +5,15 @@
     python examples/gate_alarm.py video.mp4 --box 128,79,64,78 --box 40,90,60,80 --region 60,20,200,200
 
 The region and the boxes are x,y,width,height, pixels. A target is in the region while its box's center is.
-Put your siren, message or relay into ``alarm``.
+Put your siren, message or relay into ``alarm``. Ctrl-C ends it.
 """
 
 import argparse
 import sys
+from contextlib import suppress
 
 import tricue
-from tricue.camera.box import as_box
+from tricue.cli.arguments import box
 from tricue.data.source import Source
 
 
@@ -30,13 +31,16 @@ def watch(source: Source, boxes: list[tricue.Box], region: tricue.Box) -> int:
         alarms += 1
         alarm(now, text)
 
-    with tricue.MultiTracker(on_lost=lambda target, _: raise_alarm(f"target {target} is lost")) as several:
+    def lost(target: int, _: tricue.Track) -> None:
+        raise_alarm(f"target {target} is lost")
+
+    with suppress(KeyboardInterrupt), tricue.MultiTracker(on_lost=lost) as several:
         inside: dict[int, bool] = {}
         for number, frame in enumerate(source):
             now = number / source.fps if frame.timestamp is None else frame.timestamp
             if number == 0:
-                for box in boxes:
-                    inside[several.add(frame, box)] = region.contains(*box.center)
+                for start in boxes:
+                    inside[several.add(frame, start)] = region.contains(*start.center)
                 continue
             for target, track in several.update(frame).items():
                 if track.status is not tricue.Status.TRACKED:
@@ -52,14 +56,12 @@ def main(arguments: list[str] | None = None) -> int:
     """Watch; the exit code is 1 where there was an alarm."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("source", help="a camera's number, a URL, or a file")
-    parser.add_argument("--box", action="append", required=True, help="of each target")
-    parser.add_argument("--region", required=True)
+    parser.add_argument("--box", type=box, action="append", required=True, help="of each target")
+    parser.add_argument("--region", type=box, required=True)
     options = parser.parse_args(arguments)
     try:
-        numbers = [[float(number) for number in text.split(",")] for text in [options.region, *options.box]]
-        region, *boxes = (as_box(each) for each in numbers)
-        alarms = watch(tricue.open_source(options.source), boxes, region)
-    except (OSError, TypeError, ValueError) as error:
+        alarms = watch(tricue.open_source(options.source), options.box, options.region)
+    except (OSError, ValueError) as error:
         parser.error(str(error))
     print(f"{alarms} alarms")
     return 1 if alarms else 0

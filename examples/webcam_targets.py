@@ -9,10 +9,16 @@ Ctrl-C, or q in the window, ends it.
 """
 
 import argparse
+from collections.abc import Sequence
 from contextlib import nullcontext
+from pathlib import Path
 
 import cv2
 import tricue
+from tricue.camera.box import BoxLike
+from tricue.cli.arguments import box
+from tricue.cli.output_files import check_not_read
+from tricue.data.input_files import input_files
 from tricue.data.source import Source
 from tricue.draw import OverlayWriter, targets_overlay
 
@@ -32,7 +38,9 @@ def main(arguments: list[str] | None = None) -> None:
     """Track until the video or the user ends it."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("source", nargs="?", default="0", help="a camera's number, a URL, or a file")
-    parser.add_argument("--box", action="append", default=[], help="x,y,width,height, for each target")
+    parser.add_argument(
+        "--box", type=box, action="append", default=[], help="x,y,width,height, for each target"
+    )
     parser.add_argument("--output", help="a video of it, .mp4 or .webm")
     parser.add_argument("--no-window", action="store_true")
     options = parser.parse_args(arguments)
@@ -44,12 +52,10 @@ def main(arguments: list[str] | None = None) -> None:
         print("ended")
 
 
-def choose_boxes(frame: tricue.Frame, texts: list[str], window: bool) -> list[list[float]]:
+def choose_boxes(frame: tricue.Frame, given: list[tricue.Box], window: bool) -> Sequence[BoxLike]:
     """The boxes of the command line, or those that are drawn."""
-    boxes = [[float(number) for number in text.split(",")] for text in texts]
-    if not boxes and window:
-        boxes = [[float(number) for number in box] for box in cv2.selectROIs(TITLE, frame.color)]
-    if not boxes:
+    boxes: Sequence[BoxLike] = given or (cv2.selectROIs(TITLE, frame.color) if window else [])
+    if not len(boxes):
         raise ValueError("no boxes; draw some, or give --box x,y,width,height")
     return boxes
 
@@ -58,14 +64,16 @@ def track(source: Source, options: argparse.Namespace) -> None:
     """Start on the boxes, follow them, show and write the overlay."""
     window = not options.no_window and has_window()
     writer = None if options.output is None else OverlayWriter(options.output, source.fps)
+    if writer is not None:
+        check_not_read([writer.path], input_files(source, Path(options.source)))
     with writer or nullcontext(), tricue.MultiTracker(on_lost=report) as several:
         for frame in source:
             frame.require("color")
             if several.ids:
                 several.update(frame)
             else:
-                for box in choose_boxes(frame, options.box, window):
-                    several.add(frame, box)
+                for each in choose_boxes(frame, options.box, window):
+                    several.add(frame, each)
             picture = targets_overlay(frame.color, several.tracks)
             if writer is not None:
                 writer.write(picture, frame.timestamp)

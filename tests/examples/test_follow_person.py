@@ -126,14 +126,18 @@ def test_it_stops_without_the_person(program: Program) -> None:
     ("options", "said"),
     [
         ([], "--fov 57"),
-        (["--fov", "57", "--box", "a,b"], "could not convert string to float: 'a'"),
+        (["--fov", "57", "--box", "a,b"], "expected four numbers x,y,width,height, got 'a,b'"),
         (["--fov", "57", "--box", "1,2"], "box"),
+        (["--fov", "57", "--distance", "nan"], "--distance: expected a finite number"),
+        (["--fov", "57", "--distance", "-1"], "--distance: expected meters above 0"),
     ],
 )
 def test_wrong_input_is_one_line(
     options: list[str], said: str, recording: Path, program: Program, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """It proves that an unknown camera and a wrong box are told with what to do, and exit code 2."""
+    """It proves that an unknown camera, a wrong box and a distance that no motor should get are told with
+    what to do, and exit code 2.
+    """
     with pytest.raises(SystemExit) as stop:
         program("follow_person").main([str(recording), "--depth-scale", "0.001", *options])
     assert stop.value.code == 2

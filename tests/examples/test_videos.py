@@ -2,16 +2,21 @@
 """The examples that take videos: several targets, a folder of them, an alarm."""
 
 import csv
+import os
+import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import cv2
 import pytest
-from tricue import Box, open_source
+import tricue
+from tricue import Box, Frame, open_source
+from tricue.data.source import Source
+from tricue.draw import OverlayWriter
 from tricue.scenes import Scene
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -76,10 +81,97 @@ def test_a_folder_of_videos(face_video: Path, face_box: str, tmp_path: Path) -> 
     assert "2 of 3 videos" in told.stdout
     assert "broken.mp4: " in told.stderr
     assert "Traceback" not in told.stderr
+    assert not (output / "broken.csv").exists()
     with (output / "b.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 25
     assert rows[-1]["status"] == "tracked"
+
+
+def test_an_overlay_over_its_video(
+    face_video: Path, face_box: str, tmp_path: Path, program: Program, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that the video that is read stays as it was."""
+    video = tmp_path / "holiday.avi"
+    video.write_bytes(face_video.read_bytes())
+    options = ["--box", face_box, "--output", str(video), "--no-window"]
+    with pytest.raises(SystemExit) as stop:
+        program("webcam_targets").main([str(video), *options])
+    assert stop.value.code == 2
+    assert "holiday.avi: expected a file to write to that isn't read" in capsys.readouterr().err
+    assert video.read_bytes() == face_video.read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("names", "table", "output", "message"),
+    [
+        (["a.avi"], "a.mp4,1,2,30,40\n", "tracks", "has no a.mp4"),
+        (["a.avi", "a.mp4"], "", "tracks", "a.avi and a.mp4 would have the same CSV"),
+        (["a.avi"], "", "videos", "--output: expected another folder"),
+        ([], "", "tracks", "videos: no videos"),
+    ],
+)
+def test_a_folder_that_would_give_wrong_tables(
+    names: list[str],
+    table: str,
+    output: str,
+    message: str,
+    tmp_path: Path,
+    program: Program,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """It proves that a box without its video, tables over one another, over those beside the videos, and no
+    videos at all are told before anything is written.
+    """
+    (tmp_path / "videos").mkdir()
+    for name in names:
+        (tmp_path / "videos" / name).touch()
+    (tmp_path / "boxes.csv").write_text(table)
+    options = ["--boxes", str(tmp_path / "boxes.csv"), "--output", str(tmp_path / output)]
+    with pytest.raises(SystemExit) as stop:
+        program("batch_folder").main([str(tmp_path / "videos"), *options])
+    assert stop.value.code == 2
+    assert message in capsys.readouterr().err.splitlines()[-1]
+    assert not (tmp_path / "tracks").exists()
+
+
+def test_a_video_that_cannot_start(face_video: Path, tmp_path: Path) -> None:
+    """It proves that an earlier run's table stays, and that the line says where a box is looked for."""
+    folder, output = tmp_path / "videos", tmp_path / "tracks"
+    folder.mkdir()
+    output.mkdir()
+    (folder / "a.avi").write_bytes(face_video.read_bytes())
+    (output / "a.csv").write_text("earlier")
+    command = [sys.executable, EXAMPLES / "batch_folder.py", folder, "--output", output, "--jobs", "1"]
+    told = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert told.returncode == 1
+    assert "a.avi: no box; give it a line in --boxes, or a.csv beside it" in told.stderr
+    assert (output / "a.csv").read_text() == "earlier"
+
+
+@pytest.mark.skipif(not hasattr(os, "killpg"), reason="a terminal's Ctrl-C goes to a group of processes")
+def test_ctrl_c_in_a_folder(face: Scene, face_video: Path, face_box: str, tmp_path: Path) -> None:
+    """It proves that Ctrl-C ends all processes, without a traceback and without half a table."""
+    folder, output = tmp_path / "videos", tmp_path / "tracks"
+    folder.mkdir()
+    (folder / "a.avi").write_bytes(face_video.read_bytes())
+    with OverlayWriter(folder / "long.avi", 30) as writer:
+        for number in range(1500):
+            image = face.frames[number % len(face.frames)].color
+            assert image is not None
+            writer.write(image)
+    (tmp_path / "boxes.csv").write_text(f"a.avi,{face_box}\nlong.avi,{face_box}\n")
+    options = ["--boxes", tmp_path / "boxes.csv", "--output", output, "--jobs", "1"]
+    command = [sys.executable, "-u", EXAMPLES / "batch_folder.py", folder, *options]
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    ) as running:
+        assert running.stdout is not None
+        assert running.stdout.readline().startswith("a.avi: 25 frames")
+        os.killpg(running.pid, signal.SIGINT)
+        out, err = running.communicate(timeout=60)
+    assert (out, err, running.returncode) == ("ended\n", "", 130)
+    assert [path.name for path in output.iterdir()] == ["a.csv"]
 
 
 @pytest.mark.parametrize("line", ["a.avi,1,2,3", "a.avi,1,2,x,4", "a.avi"])
@@ -117,6 +209,27 @@ def test_no_alarm_where_nothing_happens(
     """It proves that a target that stays inside raises none."""
     arguments = [str(face_video), "--box", face_box, "--region=-500,-500,2000,2000"]
     assert program("gate_alarm").main(arguments) == 0
+    assert capsys.readouterr().out == "0 alarms\n"
+
+
+def test_ctrl_c_at_the_gate(
+    face: Scene,
+    face_box: str,
+    program: Program,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """It proves that Ctrl-C, the only end that a camera has, still tells the alarms."""
+
+    class Interrupted(Source):
+        def __iter__(self) -> Iterator[Frame]:
+            yield from face.frames[:5]
+            raise KeyboardInterrupt
+
+    stream = SimpleNamespace(timed=True, fps=30, length=None)
+    source = Interrupted("gate", {"color": stream})  # type: ignore[dict-item]
+    monkeypatch.setattr(tricue, "open_source", lambda place: source)
+    assert program("gate_alarm").main(["0", "--box", face_box, "--region=-500,-500,2000,2000"]) == 0
     assert capsys.readouterr().out == "0 alarms\n"
 
 
