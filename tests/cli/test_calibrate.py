@@ -67,11 +67,19 @@ def test_skin_threshold_parts_skin_from_the_rest(tmp_path, capsys):
     (tmp_path / "given.toml").write_text("particles = 60\nskin_threshold = 0.9\n")
     given = ["--params", str(tmp_path / "given.toml")]
     assert main(["calibrate", "skin-threshold", str(folder), *given, "--output", str(out)]) == 0
-    assert "3 images, area under the ROC curve 1.000" in capsys.readouterr().out
+    assert "3 images, 3 with skin, area under the ROC curve 1.000" in capsys.readouterr().out
     params = ColorParams.from_toml(out)
     assert params.particles == 60
     rest = max(REST) - max(abs(a - b) for a, b in zip(REST, SKIN, strict=True))
     assert rest / 255 - 0.06 < params.skin_threshold < max(SKIN) / 255
+
+
+def test_images_without_skin_are_not_counted(tmp_path, capsys):
+    """The curve is of the images that show skin, and the line says of how many."""
+    folder = write_masks(tmp_path / "skin", SKIN)
+    cv2.imwrite(str(folder / "mask" / "1.png"), np.zeros(SIZE, np.uint8))
+    assert main(["calibrate", "skin-threshold", str(folder), "--output", str(tmp_path / "o.toml")]) == 0
+    assert "3 images, 2 with skin" in capsys.readouterr().out
 
 
 def test_head_colors_have_a_mode_of_skin_and_one_of_hair(tmp_path, capsys):
@@ -170,7 +178,9 @@ def test_samples_without_masks_or_boxes_are_named(tmp_path, capsys):
 
 
 def test_a_recording_without_a_head_is_named(still, tmp_path, capsys):
-    """A blank recording, too few frames, no box, and a distance without a rig are told by the name."""
+    """A blank recording, too few frames, no box, an image of another size, and a distance without a rig are
+    told by the name, and the image by its frame.
+    """
     folder, out = write_pair(still, tmp_path / "pair"), tmp_path / "o.toml"
     ending = ["--output", str(out)]
     calibrated = ["--calibration", str(folder / "rig.toml")]
@@ -178,6 +188,12 @@ def test_a_recording_without_a_head_is_named(still, tmp_path, capsys):
     assert "pair: expected a box" in failing(["stereo-noise", str(folder), *calibrated, *ending], capsys)
     same = failing(["stereo-noise", str(folder), *calibrated, "--output", str(folder / "rig.toml")], capsys)
     assert "rig.toml: expected a file to write to that isn't read" in same
+    cv2.imwrite(str(folder / "left" / "0012.png"), np.zeros((100, 160, 3), np.uint8))
+    line = failing(["stereo-noise", str(folder), *box, *calibrated, *ending], capsys)
+    assert "pair: frame 12: right: expected the shape of color, (100, 160, 3), got (120, 160, 3)" in line
+    cv2.imwrite(str(folder / "right" / "0012.png"), np.zeros((100, 160, 3), np.uint8))
+    line = failing(["stereo-noise", str(folder), *box, *calibrated, *ending], capsys)
+    assert "pair: frame 12: frame.color: expected the first frame's shape" in line
     for path in sorted(folder.glob("*/*.png"))[::-1]:
         if int(path.stem) > 5:
             path.unlink()

@@ -199,12 +199,14 @@ def test_an_empty_right_folder_is_refused(tmp_path: Path) -> None:
 
 
 def test_different_sizes_are_refused(tmp_path: Path) -> None:
-    """It proves that both shapes are named."""
-    source = open_source(images(tmp_path / "a", 10), right=images(tmp_path / "b", 110, width=32))
-    with pytest.raises(
-        ValueError, match=r"right: expected the shape of color, \(48, 64, 3\), got \(48, 32, 3\)"
-    ):
+    """It proves that the frame is named, and both shapes."""
+    source = open_source(images(tmp_path / "a", 10), right=images(tmp_path / "b", 110))
+    cv2.imwrite(str(tmp_path / "b" / "000002.png"), np.zeros((48, 32, 3), np.uint8))
+    shapes = r"\(48, 64, 3\), got \(48, 32, 3\)"
+    with pytest.raises(ValueError, match=f"^frame 2: right: expected the shape of color, {shapes}"):
         levels(source)
+    with pytest.raises(ValueError, match=r"^frame 2: right"):
+        list(source.frames([2]))
 
 
 def test_depth_is_no_pair(tmp_path: Path) -> None:

@@ -92,7 +92,16 @@ def _skin_threshold(options: argparse.Namespace, _params: Any) -> dict[str, Any]
 
     pairs = find_masked_images(options.place)
     _check_output(options.output, chain.from_iterable(pairs))
-    images, masks = tee(pair.read() for pair in pairs)
+    with_skin = 0
+
+    def read() -> Iterator[tuple[Any, Any]]:
+        nonlocal with_skin
+        for pair in pairs:
+            image, mask = pair.read()
+            with_skin += bool(mask.any())
+            yield image, mask
+
+    images, masks = tee(read())
     try:
         curve = skin_roc((image for image, _ in images), (mask for _, mask in masks))
     except ValueError as error:
@@ -100,7 +109,8 @@ def _skin_threshold(options: argparse.Namespace, _params: Any) -> dict[str, Any]
             raise ValueError(f"{options.place}: {error}; no mask marks skin, or all do") from None
         raise
     threshold, _ = curve.at_false_positive_rate(options.false_positives, LOWEST_SKIN_THRESHOLD)
-    print(f"{options.place}: {len(pairs)} images, area under the ROC curve {curve.area:.3f}")
+    count = f"{len(pairs)} images, {with_skin} with skin"
+    print(f"{options.place}: {count}, area under the ROC curve {curve.area:.3f}")
     for rate in sorted({*RATES, options.false_positives}):
         at, found = curve.at_false_positive_rate(rate, LOWEST_SKIN_THRESHOLD)
         print(f"  false positives {rate:5.1%}: threshold {at:6.3f}, {found:.1%} of the skin")

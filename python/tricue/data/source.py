@@ -156,12 +156,20 @@ class Source:
         for number, moment in zip(numbers, moments, strict=False):
             seconds = moment[self._clock][0] if self.rate is None else number / self.rate
             images = {name: image for name, (_, image) in moment.items()}
-            color, depth, right = (images.get(name) for name in ("color", "depth", "right"))
-            if self.rectify and color is not None and right is not None:
-                color, right = self.rectify(color, right)
-            if self.register and depth is not None:
-                depth = self.register(depth)
-            yield Frame(color, depth, right, seconds)
+            try:
+                frame = self._frame(images, seconds)
+            except ValueError as error:  # of one image of thousands
+                raise ValueError(f"frame {number}: {error}") from error
+            yield frame
+
+    def _frame(self, images: Mapping[str, NDArray[Any]], seconds: float) -> Frame:
+        """The frame of one moment, its pair rectified and its depth registered as needed."""
+        color, depth, right = (images.get(name) for name in ("color", "depth", "right"))
+        if self.rectify and color is not None and right is not None:
+            color, right = self.rectify(color, right)
+        if self.register and depth is not None:
+            depth = self.register(depth)
+        return Frame(color, depth, right, seconds)
 
     @property
     def _first(self) -> Stream:

@@ -85,7 +85,10 @@ def measure_static_head(
     count, rows = 0, []
     for frame in stream:
         count += 1
-        left, right, _ = validation.stereo_pair(frame, state.shape)
+        try:
+            left, right, _ = validation.stereo_pair(frame, state.shape)
+        except ValueError as error:
+            raise ValueError(f"frame {count}: {error}") from error
         pair = PreparedPair.of(k, left, right, state.first_mean, p)
         found = measure(k, pair, state.geometry, ellipse, disparity, state.first_histogram, p)
         if found is not None:
