@@ -125,7 +125,11 @@ BAD = [
     ),
     (["track", "{walk}", "--detect", "cat"], "tricue track: argument --detect: invalid choice: 'cat'"),
     (["track", "{walk}", "--kernels", "fast"], "tricue track: argument --kernels: invalid choice: 'fast'"),
-    (["track", "{walk}", "--seed", "x"], "tricue track: argument --seed: invalid int value: 'x'"),
+    (
+        ["track", "{walk}", "--seed", "x"],
+        "tricue track: argument --seed: expected a whole number from 0 on, got 'x'",
+    ),
+    (["demo", "--seed", "-3"], "tricue demo: argument --seed: expected a whole number from 0 on, got '-3'"),
     (["track"], "tricue track: the following arguments are required: INPUT"),
     (
         ["reproduce", "sabeti-fig9"],

@@ -18,13 +18,20 @@ def add_common(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--kernels", default="native", choices=("native", "reference"), help="default %(default)s"
     )
-    command.add_argument("--seed", type=int, default=0, help="of the random numbers, default %(default)s")
+    command.add_argument("--seed", type=seed, default=0, help="of the random numbers, default %(default)s")
 
 
 def count(text: str) -> int:
     """A whole number above 0."""
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"expected a whole number above 0, got {text!r}")
+    return int(text)
+
+
+def seed(text: str) -> int:
+    """A whole number from 0 on."""
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"expected a whole number from 0 on, got {text!r}")
     return int(text)
 
 

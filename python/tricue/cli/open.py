@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from tricue import app
-from tricue.cli.arguments import add_topics, tracker_name
+from tricue.cli.arguments import add_topics, seed, tracker_name
 from tricue.cli.calibrations import find_calibration
 from tricue.cli.source_options import add_source_options, open_input
 from tricue.cli.starts import DEFAULT_TRACKER, depth_tracker
@@ -38,7 +38,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
         metavar="NAME",
         help="what new targets begin with; the page has a choice",
     )
-    command.add_argument("--seed", type=int, default=0, help="of the random numbers, default %(default)s")
+    command.add_argument("--seed", type=seed, default=0, help="of the random numbers, default %(default)s")
     add_topics(command)
     add_source_options(command)
 
