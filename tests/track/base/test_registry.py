@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 import pickle
+import subprocess
+import sys
 from importlib.metadata import EntryPoint
 
 import numpy as np
@@ -116,3 +118,16 @@ def test_the_flow_and_depth_tracker_by_its_name() -> None:
     assert (camera.intrinsics, camera.rig) == (rig.intrinsics, None)  # type: ignore[attr-defined]
     with pytest.raises(TypeError, match=r"^intrinsics: expected without rig"):
         tricue.create("flow-depth", rig=rig, intrinsics=rig.intrinsics)
+
+
+def test_a_tracker_of_cv2_by_its_class() -> None:
+    """It proves that cv2's classes are made by ``create``; what their constructors make crashes in init."""
+    code = (
+        "import numpy as np, tricue\n"
+        "image = np.random.default_rng(0).integers(0, 256, (60, 80, 3), np.uint8)\n"
+        "tracker = tricue.create('cv2:TrackerMIL')\n"
+        "tracker.init(image, (20, 10, 30, 30))\n"
+        "print(tracker.update(image).status)\n"
+    )
+    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (told.returncode, told.stdout) == (0, "tracked\n")

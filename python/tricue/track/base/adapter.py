@@ -87,7 +87,7 @@ class _Adapted:
     def __init__(self, *, seed: int = 0, kernels: str = "native", **params: Any) -> None:
         self.seed, self.kernels, self.params = seed, kernels, params
         seeds = {"seed": seed} if self.traits.random else {}
-        self.tracker = type(self)._cls(**seeds, **params)
+        self.tracker = _maker(type(self)._cls)(**seeds, **params)
         if not _is_tracker(self.tracker):
             made = type(self.tracker).__name__
             raise TypeError(
@@ -136,6 +136,13 @@ class _Adapted:
         if not (isinstance(score, Real) and math.isfinite(score)):
             raise ValueError(f"{method}: expected a finite score, got {score!r:.80}")
         return Track(self._box, float(score), Status.TRACKED)
+
+
+def _maker(cls: Callable[..., Any]) -> Callable[..., Any]:
+    """What makes the tracker: of cv2's classes ``create``, as their constructors make ones that crash."""
+    is_cv2s = isinstance(cls, type) and cls.__module__.partition(".")[0] == "cv2"
+    make: Callable[..., Any] = getattr(cls, "create", cls) if is_cv2s else cls
+    return make
 
 
 def _restore(cls: Callable[..., Any], values: dict[str, Any]) -> Any:
