@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 import tricue.rerun
-from tricue import Box, Frame, Intrinsics, Pose, Status, Track
+from tricue import Box, Frame, Intrinsics, Pose, Status, StereoRig, Track
 
 CAMERA = Intrinsics(60, 60, 31.5, 23.5, 64, 48)
 BOX = Box(10.0, 20.0, 6.0, 8.0)
@@ -72,6 +72,17 @@ def test_what_is_logged(rerun: FakeRerun) -> None:
     box = logged["camera/ball"][2]
     assert (box["mins"], box["sizes"], box["labels"]) == ([[10, 20]], [[6, 8]], ["ball: tracked, 0.50"])
     assert np.array_equal(logged["world/ball"][1], [[[3.0, 0.0, 2.0]]])
+
+
+def test_a_stereo_pair_is_shown_by_its_left_camera(rerun: FakeRerun) -> None:
+    """It proves that the camera of any recording will do, as that of one with stereo pairs is a rig."""
+    place = Pose(np.eye(3), [0, 0, 5])
+    left = Intrinsics(60, 60, 31.5, 23.5, 64, 48, pose=place)
+    tricue.rerun.log(frame(0), camera=StereoRig(left, 0.1))
+    (pinhole,) = [keywords for _, kind, _, keywords in rerun.logged if kind == "Pinhole"]
+    assert np.array_equal(pinhole["image_from_camera"], left.matrix)
+    (placed,) = [keywords for _, kind, _, keywords in rerun.logged if kind == "Transform3D"]
+    assert np.array_equal(placed["translation"], [0, 0, 5])
 
 
 def test_positions_in_the_world(rerun: FakeRerun) -> None:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame, FrameLike, as_frame
-from tricue.camera.rig import Intrinsics
+from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.track.base.track import Status, Track
 
 COLORS = {Status.TRACKED: (0, 200, 80), Status.OCCLUDED: (255, 170, 0), Status.LOST: (220, 40, 40)}
@@ -31,7 +31,7 @@ def log(
     track: Track | None = None,
     *,
     name: str = "target",
-    camera: Intrinsics | None = None,
+    camera: Intrinsics | StereoRig | None = None,
     number: int | None = None,
     recording: Any = None,
 ) -> None:
@@ -42,7 +42,8 @@ def log(
     in the camera's frame (x right, y down, z forward). Log several targets of a frame under names of their
     own; ``frame`` may be None after the first.
 
-    camera: of the images, so that Rerun shows them in space, at the pose of the frame or the camera.
+    camera: of the images, so that Rerun shows them in space, at the pose of the frame or the camera; of a
+        stereo pair its left one's images are shown so.
     number: of the frame, for a second timeline. recording: a ``rerun.RecordingStream``; by default the
         current one.
     ImportError where rerun-sdk isn't installed; TypeError or ValueError for what is no frame.
@@ -54,6 +55,7 @@ def log(
     if pose is not None:
         place = rr.Transform3D(translation=pose.translation, mat3x3=pose.rotation)
         rr.log("camera", place, recording=recording)
+    camera = camera.intrinsics if isinstance(camera, StereoRig) else camera
     if camera is not None:
         pinhole = rr.Pinhole(image_from_camera=camera.matrix, resolution=[camera.width, camera.height])
         rr.log("camera", pinhole, recording=recording)
