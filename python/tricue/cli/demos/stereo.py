@@ -72,9 +72,7 @@ def _table(results: Mapping[str, SceneResult[StereoScene]]) -> str:
         held = f"{overlaps.mean():>10.2f}{np.mean(overlaps > MIN_HELD_OVERLAP):>11.1%}"
         said = result.count_hidden(Status.OCCLUDED, Status.LOST)
         lines.append(f"{name:30}{held}{median:>12.2f} %{high:>6.1f} %{said:>14}{result.speed:>10,.0f}")
-    return "\n".join(
-        [*lines, "\nErrors are relative_errors of the distance; hidden: said counts OCCLUDED and LOST."]
-    )
+    return "\n".join([*lines, "\nErrors are shares of the distance; hidden: said counts OCCLUDED and LOST."])
 
 
 def _plot(figure: Any, results: Mapping[str, SceneResult[StereoScene]]) -> None:
