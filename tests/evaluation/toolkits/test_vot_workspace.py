@@ -221,6 +221,28 @@ def test_depth_of_another_size_is_left_out(tmp_path: Path) -> None:
         write_workspace(tmp_path / "other", ["flow-depth"], [folder])
 
 
+@pytest.mark.parametrize(("measured", "kept", "other"), [(True, "depth", "color"), (False, "color", "depth")])
+def test_a_channel_that_is_not_registered_to_the_boxes_is_left_out(
+    measured: bool, kept: str, other: str, tmp_path: Path
+) -> None:
+    """It proves that no tracker is judged in one camera's image by boxes of another's: where positions were
+    measured the boxes are the depth image's.
+    """
+    folder = vot(tmp_path / "a")
+    camera = f"fx = 50.0\nfy = 50.0\ncx = 31.5\ncy = 23.5\nwidth = {WIDTH}\nheight = {HEIGHT}\n"
+    (folder / "intrinsics.toml").write_text(f"[depth]\n{camera}[color]\n{camera.replace('50.0', '55.0')}")
+    if measured:
+        (folder / "position_z_mm.txt").write_text("2000\n" * FRAMES)
+    reason = f"depth isn't registered to color, and the true boxes are those of the {kept} image"
+    note = f"left out the {other} of a: {reason}"
+    assert vot_channels(open_source(folder)) == ((kept,), note)
+    write_sequence(open_source(folder), tmp_path / "out")
+    assert {path.name for path in (tmp_path / "out").iterdir() if path.is_dir()} == {kept}
+    tracker = "color-particle" if other == "color" else "depth-particle"
+    with pytest.raises(ValueError, match=f"has no {other}, which {tracker} needs"):
+        write_workspace(tmp_path / "ws", [tracker], [folder])
+
+
 def starts(visible: str) -> dict[int, int]:
     """The anchors of a line of 0 and 1, by frame."""
     values = anchors(np.array([mark == "1" for mark in visible]))

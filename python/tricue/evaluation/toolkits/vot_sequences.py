@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from tricue.data.depth_images import METERS_PER_MILLIMETER, DepthReader
 from tricue.data.open_source import Source
 from tricue.data.streams import Images, Stream, read_color
+from tricue.evaluation.dataset import Entry, OpenedSequence
 
 ANCHOR_INTERVAL = 50  # frames from one start of the multistart experiment to the next, as in VOT2020
 MAX_DEPTH_MILLIMETERS = 65535  # millimeters in 16 bits
@@ -26,9 +27,15 @@ _LINKABLE_READERS = {"color": read_color, "depth": DepthReader(METERS_PER_MILLIM
 def vot_channels(source: Source) -> tuple[tuple[str, ...], str]:
     """The channels, color or depth, that VOT can use, and a note about one that is left out.
 
-    Depth is left out if its size isn't the color images': the true boxes are given in color pixels.
+    VOT knows one image's pixels. Of depth that isn't registered to color the channel in whose pixels the true
+    boxes are given is left, and depth is left out if its size isn't the color images'.
     """
     there = tuple(name for name in ("color", "depth") if name in source.channels)
+    opened = OpenedSequence(Entry(source.name, Path()), source)
+    if len(there) == 2 and not opened.registered:
+        kept, other = opened.channel, "color" if opened.channel == "depth" else "depth"
+        reason = f"depth isn't registered to color, and the true boxes are those of the {kept} image"
+        return (kept,), f"left out the {other} of {source.name}: {reason}"
     sizes = [source.channels[name].size for name in there]
     if len(set(sizes)) < 2:
         return there, ""
