@@ -167,6 +167,13 @@ def test_bad_samples_are_named_and_nothing_is_written(what, break_it, message, t
     assert not out.parent.exists()
 
 
+def test_a_folder_that_is_not_there_is_told(tmp_path, capsys):
+    """A mistyped name isn't a folder that lacks its folders."""
+    nowhere = str(tmp_path / "nowhere")
+    line = failing(["skin-threshold", nowhere, "--output", str(tmp_path / "o.toml")], capsys)
+    assert line.endswith("nowhere: there is no such folder")
+
+
 def test_samples_without_masks_or_boxes_are_named(tmp_path, capsys):
     """Images alone say nothing about where the color is."""
     folder = write_masks(tmp_path / "skin", SKIN)

@@ -76,6 +76,8 @@ def _check_partners(paths: Mapping[str, Path], partners: Mapping[str, Path], exp
 
 def _required(folder: Path, names: Sequence[str]) -> Path:
     found = _subfolder(folder, names)
+    if found is None and not folder.is_dir():
+        raise ValueError(f"{folder}: there is no such folder")
     if found is None:
         raise ValueError(f"{folder}: expected the folders image and mask in it, found no {names[0]}")
     return found
