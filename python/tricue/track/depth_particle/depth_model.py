@@ -16,7 +16,7 @@ from tricue.track.depth_particle.params import DepthParticleParams
 Floats = NDArray[np.float64]
 
 SURROUND_SAMPLES = 12  # at each side of a rectangle
-NO_HISTOGRAM = np.zeros(1)
+NO_HISTOGRAM = np.zeros(1)  # where only the shares inside and around are wanted
 MIN_LIKELIHOOD = 1e-12  # in the logarithm of the linear likelihood
 
 FilterSettings = tuple[
@@ -51,10 +51,12 @@ class DepthModel(NamedTuple):
 
     def observe(self, k: Kernels, fg: Foreground, state: Floats) -> DepthObservation:
         """Compare the foreground in and around the rectangle of a state (5,) with the model."""
-        states = state[None]
-        measured = self._measure(k, fg, states)[0]
-        if self.p.histogram == "absolute":
-            measured[0] = self._absolute_distance(k, fg, states)[0]
+        p, states = self.p, state[None]
+        surround = p.margin, SURROUND_SAMPLES
+        measured = k.depth_contrast(
+            fg.depth, fg.camera, states, NO_HISTOGRAM, p.grid, surround, p.histogram_reach, p.occluder_margin
+        )[0]
+        measured[0] = self.distance(k, fg, states)[0]
         return self.observation(measured)
 
     def observation(self, measured: Floats) -> DepthObservation:
@@ -71,9 +73,10 @@ class DepthModel(NamedTuple):
 
     def distance(self, k: Kernels, fg: Foreground, states: Floats) -> Floats:
         """(N,) the distance (38) of the histograms in the rectangles of states (N, 5), in [0, 1]."""
-        if self.p.histogram == "absolute":
-            return self._absolute_distance(k, fg, states)
-        distance: Floats = self._measure(k, fg, states)[:, 0]
+        rectangles, reach = self._rectangles(fg, states)
+        margin = self.p.occluder_margin
+        measured = k.depth_distance(fg.depth, rectangles, self.histogram, grid(*self.p.grid), reach, margin)
+        distance: Floats = measured[:, 0]
         return distance
 
     def histogram_in(self, k: Kernels, fg: Foreground, state: Floats) -> Floats:
@@ -90,29 +93,6 @@ class DepthModel(NamedTuple):
         old = self.histogram
         known = bool(np.count_nonzero(old))
         return DepthModel(self.p, old + rate * (new - old) if known else new)
-
-    def _measure(self, k: Kernels, fg: Foreground, states: Floats) -> Floats:
-        """(N, 4) as the kernel depth_contrast returns it; without distance for an absolute histogram."""
-        p = self.p
-        relative = self.histogram if p.histogram == "relative" else NO_HISTOGRAM
-        measured: Floats = k.depth_contrast(
-            fg.depth,
-            fg.camera,
-            states,
-            relative,
-            p.grid,
-            (p.margin, SURROUND_SAMPLES),
-            p.histogram_reach,
-            p.occluder_margin,
-        )
-        return measured
-
-    def _absolute_distance(self, k: Kernels, fg: Foreground, states: Floats) -> Floats:
-        rectangles, reach = self._rectangles(fg, states)
-        margin = self.p.occluder_margin
-        measured = k.depth_distance(fg.depth, rectangles, self.histogram, grid(*self.p.grid), reach, margin)
-        distance: Floats = measured[:, 0]
-        return distance
 
     def _rectangles(self, fg: Foreground, states: Floats) -> tuple[Floats, float]:
         """(N, 5) rectangles in pixels, and half the histogram's range around their depths, meters."""
