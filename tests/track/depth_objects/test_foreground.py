@@ -112,6 +112,20 @@ def test_a_floor_that_holds_is_kept(kernels):
     np.testing.assert_array_equal(again, plane)
 
 
+@pytest.mark.parametrize(("share", "is_searched"), [(0.15, False), (0.25, True)])
+def test_a_floor_is_searched_where_a_fifth_of_it_is_covered(share, is_searched, kernels):
+    """While a known floor has four fifths of its points no other is looked for, which takes random numbers;
+    where it has fewer, as the camera may have moved, another is.
+    """
+    depth = hall(wall=np.inf, post=np.inf)
+    _, plane = found(kernels, depth)
+    depth[:, : int(share * depth.shape[1])] *= 0.5
+    rng = np.random.default_rng(0)
+    before = rng.bit_generator.state
+    extract_foreground(kernels, depth, CAMERA.vector, plane, rng, Params())
+    assert (rng.bit_generator.state != before) == is_searched
+
+
 def test_a_camera_that_moved_finds_its_floor_again(kernels):
     """A floor 0.4 m higher than the true one has few points, and gives way to the true one."""
     depth = hall(wall=np.inf, post=np.inf)
@@ -126,6 +140,28 @@ def test_a_known_floor_outlives_frames_without(kernels):
     for depth in (np.full((144, 176), np.nan, np.float32), np.full((144, 176), 0.6, np.float32)):
         _, kept = found(kernels, depth, plane)
         np.testing.assert_array_equal(kept, plane)
+
+
+def test_a_floor_that_is_covered_stays(kernels):
+    """Where half of the floor is covered the known one stays bit for bit, as no other has more points."""
+    depth = hall(wall=np.inf, post=np.inf)
+    _, plane = found(kernels, depth)
+    depth[:, :80] *= 0.5
+    np.testing.assert_array_equal(found(kernels, depth, plane)[1], plane)
+
+
+@pytest.mark.parametrize(
+    ("missing", "passes", "is_filled"), [(0.1, 3, True), (0.1, 0, False), (0.03, 3, False)]
+)
+def test_images_with_many_gaps_are_filled(missing, passes, is_filled, kernels):
+    """Where more of an image is gaps than max_gap_share, 6 %, small ones get the depths around them."""
+    depth = np.full((144, 176), 3.0, np.float32)
+    gaps = np.random.default_rng(0).random(depth.shape) < missing
+    depth[gaps] = np.nan
+    fg, _ = found(kernels, depth, floor=False, gap_passes=passes)
+    assert np.isfinite(fg.depth[gaps]).all() == is_filled
+    assert np.isnan(fg.depth[gaps]).all() != is_filled
+    np.testing.assert_allclose(fg.depth[np.isfinite(fg.depth)], 3.0, rtol=1e-6)
 
 
 @pytest.mark.parametrize(("near", "far"), [(0.3, 8.0), (2.5, 4.0)])

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, DepthParticleTracker, Intrinsics, reference
+from tricue.errors import TargetNotFoundError
 from tricue.track.depth_objects.floor import NO_FLOOR
 from tricue.track.depth_objects.foreground import Foreground, extract_foreground
 from tricue.track.depth_objects.objects import DISTRIBUTION_BINS, segment
@@ -125,6 +126,25 @@ def test_a_few_pixels_are_no_object(kernels):
     assert len(objects.states) == 0
 
 
+@pytest.mark.parametrize("far", [4.0, 8.0])
+@pytest.mark.parametrize("z", [2.0, 3.9])
+def test_an_object_has_an_area_at_the_far_end(far, z, kernels):
+    """The least object is one of ``min_area`` m² at ``far``: where it is nearer it has as many pixels."""
+    p = Params(min_area=0.03, far=far)
+    least = int(p.min_area * CAMERA.fx * CAMERA.fy / far**2)  # pixels
+    fewer = (least - 1) // 5
+    for rows, is_one in ((fewer, False), (fewer + 1, True)):
+        fg = drawn((Box(60, 30, 5, rows), z), wall=np.nan)
+        assert len(segment(kernels, fg, NO_FLOOR, p).states) == is_one
+
+
+@pytest.mark.parametrize(("columns", "is_one"), [(7, False), (9, True)])
+def test_an_object_has_some_pixels(columns, is_one, kernels):
+    """However small an object may be at ``far``, it has eight pixels."""
+    fg = drawn((Box(60, 30, columns, 1), NEARER), wall=np.nan)
+    assert len(segment(kernels, fg, NO_FLOOR, Params(min_area=1e-6)).states) == is_one
+
+
 @pytest.mark.parametrize("wall", [np.nan, 0.1, 9.0])
 def test_nothing_in_range_is_no_object(wall, kernels):
     """Without anything in range there are no objects, and each field has its shape."""
@@ -222,9 +242,11 @@ def test_a_person_cut_by_the_border_may_be_narrow(objects_of):
 
 
 def test_nobody_is_an_error_that_asks_for_a_box(objects_of):
-    """Without a candidate the error names the box."""
-    with pytest.raises(ValueError, match=r"^box: expected .*nobody was found"):
+    """Without a candidate the error names the box, and, where there is nothing else either, the range."""
+    with pytest.raises(TargetNotFoundError, match=r"^box: expected .*nobody was found in this frame$"):
         initialize_on_person(objects_of([person(height=0.3)]), P)
+    with pytest.raises(TargetNotFoundError, match=r"nobody was found.*, nor anything else .*0\.3 and 8 m$"):
+        initialize_on_person(objects_of([]), P)
 
 
 def test_a_box_starts_at_the_depth_of_its_object(kernels):
@@ -248,6 +270,18 @@ def test_of_an_object_that_is_cut_no_size_is_known(kernels):
     inside = Box(60, 118, 24, 20)
     for box in (head, inside):
         assert not initialize_in_box(box, segment(kernels, fg, NO_FLOOR, P), fg, P).whole.any()
+
+
+@pytest.mark.parametrize("inside", [2, 1])
+@pytest.mark.parametrize("side", range(4), ids=["left", "top", "right", "bottom"])
+def test_of_a_box_at_the_border_the_size_is_not_known(side, inside, kernels):
+    """A box on no object is whole where it is two pixels inside the image, and cut where it is nearer."""
+    sides = [60, 60, 80, 90]
+    sides[side] = [inside, inside, 176 - inside, 144 - inside][side]
+    fg = drawn(wall=3.0)
+    nothing = segment(kernels, drawn(wall=np.nan), NO_FLOOR, P)
+    whole = initialize_in_box(Box.from_xyxy(*sides), nothing, fg, P).whole
+    assert whole.tolist() == [inside == 2 or side % 2 == 1, inside == 2 or side % 2 == 0]
 
 
 def test_the_edge_of_what_was_measured_cuts(kernels):
@@ -304,6 +338,38 @@ def test_a_box_on_no_object_has_the_depth_of_its_middle(kernels):
     objects = segment(kernels, fg, NO_FLOOR, P)
     part = Box(LEFT_BOX.x + 10, LEFT_BOX.y + 10, 12, 12)
     np.testing.assert_allclose(initialize_in_box(part, objects, fg, P).state, metric(part, NEARER), rtol=1e-6)
+
+
+@pytest.mark.parametrize("box", [Box(60, 20, 12, 80), Box(20, 60, 80, 12)], ids=["tall", "wide"])
+def test_the_middle_of_a_box_is_half_of_it_along_either_side(box, kernels):
+    """A box on no object has the depth of the middle half of its columns and rows."""
+    x, y, width, height = box
+    middle = Box(x + width / 4, y + height / 4, width / 2, height / 2)
+    fg = drawn((box, 3.0), (middle, 2.0))
+    objects = segment(kernels, drawn(wall=np.nan), NO_FLOOR, P)
+    assert initialize_in_box(box, objects, fg, P).state[2] == 2.0
+
+
+@pytest.mark.parametrize(
+    "box", [Box(170, 60, 40, 40), Box(-34, 60, 40, 40), Box(60, 138, 40, 40), Box(60, -34, 40, 40)]
+)
+def test_a_box_mostly_outside_has_the_depth_of_the_nearest_pixels(box, kernels):
+    """Of a box whose middle is outside the image the pixels at that border give the depth."""
+    fg = drawn((box, 2.0), wall=3.0)
+    objects = segment(kernels, drawn(wall=np.nan), NO_FLOOR, P)
+    assert initialize_in_box(box, objects, fg, P).state[2] == 2.0
+
+
+@pytest.mark.parametrize(
+    ("wall", "by", "is_object"), [(3.0, 0.15, True), (3.0, 0.04, False), (7.0, 0.15, False)]
+)
+def test_what_stands_off_a_known_wall_is_an_object(wall, by, is_object, kernels):
+    """Somebody 15 cm in front of a wall that was seen before is an object; 4 cm, and far away, where sensors
+    are as noisy as that, 15 cm, are not enough.
+    """
+    others = np.full((144, 176), wall, np.float32)
+    fg = drawn((LEFT_BOX, wall - by), wall=wall)
+    assert len(segment(kernels, fg, NO_FLOOR, P, others=others).states) == is_object
 
 
 @pytest.mark.parametrize("size", [2, 3, 5])

@@ -89,7 +89,7 @@ def _middle_half(start: float, length: float, step: int, size: int) -> slice:
     """The pixels in the middle half of an interval, inside the image, at least one."""
     first = int((start + length / 4) // step)
     last = max(first, int((start + 3 * length / 4) // step))
-    return slice(min(max(first, 0), size - 1), max(min(last + 1, size), 1))
+    return slice(min(max(first, 0), size - 1), max(last + 1, 1))
 
 
 def _describe_range(p: DepthParticleParams) -> str:
