@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 from tricue import _core
-from tricue.track.depth_particle.matching import MAX_COST, best_match
+from tricue.track.depth_particle.matching import MAX_COST, MAX_COST_MISSED, best_match
 from tricue.track.depth_particle.motion import BodyMotion
 from tricue.track.depth_particle.signature import Signature
 
@@ -49,9 +49,10 @@ def test_too_far_off_is_no_match(by, objects_of):
     assert match(objects_of([moved(*by)])) is None
 
 
-def test_time_widens_the_region(objects_of):
+@pytest.mark.parametrize("by", [(0.8,), (0, 1.5), (0, 0, -0.8)], ids=str)
+def test_time_widens_the_region(by, objects_of):
     """What is too far off a frame later may be the target two seconds later."""
-    there = objects_of([moved(0.8)])
+    there = objects_of([moved(*by)])
     assert match(there) is None
     assert match(there, seconds=2.0) == 0
 
@@ -63,10 +64,14 @@ def test_a_stricter_limit_refuses_more(objects_of):
     assert match(there, max_cost=1.0) is None
 
 
-def test_a_small_part_is_no_target(objects_of):
-    """An object of under a quarter of the target's area isn't the target, though completed to its size."""
-    assert match(objects_of([[0, 0, 3.0, 0.2, 0.5]], [[1, 1, 1, 1]])) is None
-    assert match(objects_of([[0, 0, 3.0, 0.6, 0.85]], [[1, 1, 1, 1]])) == 0
+@pytest.mark.parametrize(("max_cost", "least"), [(MAX_COST, 0.25), (MAX_COST_MISSED, 0.45)])
+def test_a_small_part_is_no_target(max_cost, least, objects_of):
+    """An object of under a quarter of the target's area isn't the target, though completed to its size; after
+    the target was missed it takes nearly half of it.
+    """
+    for share in (0.95 * least, 1.05 * least):
+        part = objects_of([[0, 0, 3.0, 0.6, share * 1.7]], [[1, 1, 1, 1]])
+        assert match(part, max_cost=max_cost) == (0 if share > least else None)
 
 
 def test_what_is_cut_counts_as_completed(objects_of):

@@ -125,17 +125,20 @@ def test_velocity_is_learned_from_visible_positions_only():
 
 @pytest.mark.parametrize("rate", [15, 30, 60])
 def test_velocity_does_not_depend_on_the_frame_rate(rate):
-    """Somebody who walks at 1.2 m/s is learned to walk at 1.2 m/s, at 15, 30 and 60 frames/s."""
+    """Somebody who walks at 1.3 m/s, whichever way, is learned to do so, at 15, 30 and 60 frames/s."""
+    velocity = np.array([1.2, -0.3, 0.4])
     now = motion()
     for i in range(1, 4 * rate):
-        now = now.update(STATE + np.array([1.2 * i / rate, 0, 0, 0, 0]), P, 1 / rate, visible=True)
-    np.testing.assert_allclose(now.velocity, [1.2, 0, 0], rtol=1e-6, atol=1e-9)
+        there = STATE + np.pad(velocity * i / rate, (0, 2))
+        now = now.update(there, P, 1 / rate, visible=True)
+    np.testing.assert_allclose(now.velocity, velocity, rtol=1e-6, atol=1e-9)
 
 
-def test_velocity_is_limited_to_max_speed():
+@pytest.mark.parametrize("way", [(1, 0, 0), (0, -1, 0), (0, 0, 1), (0.48, 0.6, -0.64)], ids=str)
+def test_velocity_is_limited_to_max_speed(way):
     """A jump of 3 m in a frame counts as the maximum speed in its direction."""
-    far = STATE + [0, 0, 3.0, 0, 0]
-    np.testing.assert_allclose(motion().update(far, P, 0.1, visible=True).velocity, [0, 0, 1.0], rtol=1e-9)
+    jumped = motion().update(STATE + np.pad(3.0 * np.array(way), (0, 2)), P, 0.1, visible=True)
+    np.testing.assert_allclose(jumped.velocity, P.velocity_rate * P.max_speed * np.array(way), rtol=1e-9)
 
 
 def test_coasting_keeps_a_share_of_the_velocity():
@@ -181,5 +184,26 @@ def test_the_width_of_a_part_is_not_yet_known():
     head = motion(size_known=CUT).learn_size(np.array([0.8, 1.7]), np.array([True, False]), P)
     assert 0.6 < head.mean_size[0] < 0.8
     assert not head.size_known.any()
-    of_known_height = motion(size_known=np.array([False, True]))
-    assert of_known_height.learn_size(np.array([0.8, 1.0]), np.array([True, False]), P).size_known.all()
+
+
+def test_the_height_of_a_part_is_not_yet_known():
+    """Of an arm beside an occluder, visible from top to bottom, the height isn't that of the body."""
+    arm = motion(size_known=CUT).learn_size(np.array([0.2, 1.8]), np.array([False, True]), P)
+    assert 1.7 < arm.mean_size[1] < 1.8
+    assert arm.mean_size[0] == STATE[3]
+    assert not arm.size_known.any()
+
+
+@pytest.mark.parametrize("axis", [0, 1], ids=["width", "height"])
+def test_of_two_sizes_the_one_that_is_new_is_learned_fast(axis):
+    """Where one size is known, the first whole one of the other is known, too, and taken mostly at once; the
+    known one stays where it is cut, and is blended in as ever where it is whole.
+    """
+    half_known = motion(size_known=np.arange(2) != axis)
+    size = np.array([0.8, 1.9])
+    for whole in (np.arange(2) == axis, WHOLE):
+        after = half_known.learn_size(size, whole, P)
+        assert after.size_known.all()
+        share = (after.mean_size - STATE[3:]) / (size - STATE[3:])
+        assert 0.5 < share[axis] < 1
+        assert share[1 - axis] == pytest.approx(P.size_rate if whole.all() else 0)

@@ -2,6 +2,7 @@
 """Which object hides the target, where it goes, and that it is no candidate for the target."""
 
 import numpy as np
+import pytest
 from tricue.track.depth_particle.occluder import (
     MIN_OCCLUDER_STEP,
     find_occluder,
@@ -50,6 +51,17 @@ def test_the_occluder_is_on_the_line_of_sight(objects_of):
     on_the_line, at_its_side = [1.0, 0.0, 2.0, 0.5, 1.7], [2.0, 0.0, 2.0, 0.5, 1.7]
     assert find_occluder(objects_of([at_its_side, on_the_line]), aside, 0.3) == 1
     assert find_occluder(objects_of([at_its_side]), aside, 0.3) is None
+
+
+@pytest.mark.parametrize("axis", [0, 1], ids=["beside", "above or below"])
+@pytest.mark.parametrize("sense", [-1, 1])
+def test_what_reaches_the_target_as_the_camera_sees_it_covers_it(axis, sense, objects_of):
+    """An object half as far away looks twice as large: it covers the target from where their edges meet."""
+    edge = sense * EXPECTED[3 + axis] / 2 / 2
+    for by, covers in ((0.01, False), (-0.01, True)):
+        there = np.array([0.0, 0.0, 1.5, 0.2, 0.4])
+        there[axis] = edge + sense * (there[3 + axis] / 2 + by)
+        assert find_occluder(objects_of([there]), EXPECTED, 0.3) == (0 if covers else None)
 
 
 def test_what_is_hardly_nearer_covers_nothing(objects_of):

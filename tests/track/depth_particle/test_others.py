@@ -76,6 +76,9 @@ def test_a_box_is_searched_with_a_margin(step):
     """A tenth more than the box is searched, in pixels of the thinned image."""
     fg = Foreground(room()[::step, ::step], NUMBERS / step, step, (0, 0, 176 // step, 144 // step))
     assert [each * step for each in region_in(Box(60, 40, 40, 80), fg)] == [58, 36, 102, 124]
+    with_parts = Foreground(room(), NUMBERS, 1, (0, 0, 176, 144))
+    assert region_in(Box(60.5, 40.5, 40, 80), with_parts) == (58, 36, 103, 125)
+    assert region_in(Box(150, 100, 40, 80), with_parts) == (148, 96, 176, 144)
     left, top, right, bottom = region_in(Box(-40, -40, 20, 20), fg)
     assert (right - left, bottom - top) == (0, 0)
 

@@ -11,7 +11,7 @@ import pytest
 import tricue
 from tricue import DepthParticleTracker, Status, Track
 from tricue.scenes import DepthScene
-from tricue.track.depth_particle.measurement import NOT_MEASURED
+from tricue.track.depth_particle.measurement import NOT_MEASURED, Measurement
 from tricue.track.depth_particle.motion import BodyMotion
 
 Params = DepthParticleTracker.Params
@@ -145,6 +145,20 @@ def test_no_size_prior_means_none(walkers, follow):
         costs[weight] = np.ptp(prior)
     assert costs[0.0] < 1e-100
     assert costs[1.0] > 5
+
+
+def test_a_weight_multiplies_a_cost():
+    """Four times the weight of the mean size, or of the object, makes what is off cost four times as much."""
+    state = np.array([0, 0, 3, 0.6, 1.7])
+    off = np.stack([state, state + [0.05, 0.05, -0.05, 0.03, 0.1], state + [2, 0, 0, 0, 0]])
+    costs = []
+    for weight in (1.0, 4.0):
+        tracker = DepthParticleTracker(size_prior=weight)
+        measured = Measurement.create(state, weight)
+        prior = tracker._k.rectangle_prior(off, state[3:], tracker._size_deviation, *measured)
+        costs.append(prior[0] - prior)
+    assert (costs[0][1:] > 0.1).all()
+    np.testing.assert_allclose(costs[1], 4 * costs[0])
 
 
 @pytest.mark.parametrize("name", [*CHOICES, "all"])

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The options of the search for the target: the human filter, and the depth histogram in the signature."""
+"""The search for the target: its options, the human filter and the depth histogram in the signature, and who
+hides it.
+"""
 
 from dataclasses import replace
 
@@ -32,11 +34,16 @@ def beside(state, by: float, size: tuple[float, float] | None = None) -> list[fl
     return [x + by, *rest[:2], *(size or rest[2:])]
 
 
-def found(state, objects, fg=None, **choices):
-    """The state of the object that is the target; None where none is."""
+def search(state, objects, fg=None, **choices):
+    """The result of a search among objects."""
     p = replace(P, **choices)
     fg = fg or Foreground(np.full(state.shape, np.nan, np.float32), state.camera, 1, (0, 0, 176, 144))
-    target = find_target(K, state, fg, objects, state.motion.predict(p, SECONDS, 0), SECONDS, p).target
+    return find_target(K, state, fg, objects, state.motion.predict(p, SECONDS, 0), SECONDS, p)
+
+
+def found(state, objects, fg=None, **choices):
+    """The state of the object that is the target; None where none is."""
+    target = search(state, objects, fg, **choices).target
     return None if target is None else target.state.tolist()
 
 
@@ -82,3 +89,60 @@ def test_full_rectangles_are_human_where_nothing_is_too_full(objects_of):
     assert (objects.area / sizes.prod(axis=1) > 1).any()
     assert len(find_people(objects, replace(P, max_fill=1.0))) == len(sizes)
     assert len(find_people(objects, replace(P, max_fill=0.99))) == 0
+
+
+def test_who_hides_the_target_is_followed_and_is_never_it(state, objects_of):
+    """Whoever hides the target is where an object is that can have walked there, and stays where none can.
+    That object isn't the target, be it where the target is expected and of its size; another one is.
+    """
+    there, aside = beside(state, 0.0), beside(state, 0.9)
+    hidden = state._replace(missed_seconds=0.3, occluder=np.array(beside(state, -0.2)[:3]))
+    alone = search(hidden, objects_of([there]))
+    assert alone.target is None
+    np.testing.assert_array_equal(alone.occluder, there[:3])
+    np.testing.assert_array_equal(search(hidden, objects_of([aside])).occluder, hidden.occluder)
+    walked_on = hidden._replace(occluder=np.array(aside[:3]))
+    both = search(walked_on, objects_of([there, aside]))
+    np.testing.assert_array_equal(both.occluder, aside[:3])
+    assert both.target.state.tolist() == pytest.approx(there)
+    assert search(state, objects_of([there])).occluder is None
+
+
+def test_after_it_was_missed_only_what_is_alike_is_the_target(state, objects_of):
+    """What passes for a target that was seen in the last frame may be another person after it was missed."""
+    near = objects_of([beside(state, 0.4)])
+    assert found(state, near) is not None
+    assert found(state._replace(missed_seconds=SECONDS), near) is None
+
+
+@pytest.mark.parametrize(
+    ("missed", "hidden", "by", "is_found"),
+    [
+        (5.0, True, 0.3, True),
+        (5.0, True, 2.0, False),
+        (5.0, False, 2.0, True),
+        (5.0, False, 6.0, False),
+        (9.0, False, 6.0, True),
+        (100.0, False, 12.0, False),
+    ],
+)
+def test_a_lost_target_is_searched_farther_and_farther(missed, hidden, by, is_found, state, objects_of):
+    """Who is hidden comes out near by. Who is lost may be meters away, the farther, the longer ago, up to ten
+    seconds.
+    """
+    waiting = state._replace(missed_seconds=missed, hidden=hidden)
+    assert (found(waiting, objects_of([beside(state, by)])) is not None) == is_found
+
+
+@pytest.mark.parametrize("complete", [True, False])
+def test_without_completion_the_target_is_what_is_visible_of_it(complete, state, objects_of):
+    """The part of the target that is visible is completed to its size, or, without that, is the target; a
+    size that was never visible as a whole grows to it in both cases.
+    """
+    x, y, z, width, height = state.motion.state.tolist()
+    part = [x, y - 0.1 * height, z, 1.2 * width, 0.8 * height]
+    unknown = state._replace(motion=state.motion._replace(size_known=np.array([False, False])))
+    result = search(unknown, objects_of([part], [[0, 0, 0, 1]]), complete=complete)
+    assert result.target.state[4] == pytest.approx(height if complete else 0.8 * height)
+    assert result.target.whole.tolist() == [True, False]
+    np.testing.assert_allclose(result.motion.mean_size, [1.2 * width, height])

@@ -12,10 +12,12 @@ import pytest
 from numpy.typing import NDArray
 from tricue import Box, DepthParticleTracker, Frame, Intrinsics, Status, Track
 from tricue.scenes import DepthScene, crossing, walker
+from tricue.track.depth_objects.projection import project_box
 
 WITHIN = 3  # frames, until an occlusion is reported
 BACK = 5  # frames, until somebody is followed again
 HIDDEN, SEEN = 0.15, 0.5  # visible share
+ROOM = Intrinsics.from_fov(176, 144, 47.5, 39.5)
 
 LAYOUTS: dict[str, Callable[[NDArray[np.float32]], NDArray[np.generic]]] = {
     "NaN": lambda depth: depth.copy(),
@@ -325,6 +327,113 @@ def test_lost_when_gone_and_tracked_when_back(company, walkers, follow):
     back = [tracker.update(Frame(depth=scene.frames[9].depth)) for _ in range(BACK)]
     assert back[-1].status is Status.TRACKED
     assert back[-1].box.iou(scene.boxes[9]) > 0.5
+
+
+def stand(x: float, z: float, shape: str = "upright") -> Frame:
+    """A flat person, 0.5 m wide and 1.7 m tall, x meters aside and z in front, in an empty room 7 m deep. It
+    is upright, or leans, so that it fills one half of its box, below a diagonal, or is wide, 0.7 m.
+    """
+    depth = np.full((144, 176), np.float32(7.4))
+    columns, rows = (np.arange(side) + 0.5 - side / 2 for side in (176, 144))
+    right, down = np.meshgrid(columns * z / ROOM.fx - x, rows * z / ROOM.fy)
+    inside = (np.abs(right) < (0.35 if shape == "wide" else 0.25)) & (np.abs(down) < 0.85)
+    depth[inside & ((shape != "leaning") | (down / 1.7 > right / 0.5))] = z
+    return Frame(depth=depth)
+
+
+def person_at(x: float, z: float) -> Box:
+    """The box of that person."""
+    return project_box(np.array([x, 0.0, z, 0.5, 1.7]), ROOM.vector)
+
+
+def test_a_missed_target_goes_on_as_it_went():
+    """Somebody who walks at 1 m/s to the side and nearer, and then isn't there, is expected farther on that
+    way, less and less far a frame, and never nearer than anybody can be.
+    """
+    tracker = DepthParticleTracker(intrinsics=ROOM, floor=False, near=3.1, particles=500)
+    places = np.array([(-0.5 + 0.06 * i, 4.0 - 0.04 * i) for i in range(20)])
+    tracker.init(stand(*places[0]), person_at(*places[0]))
+    seen = [tracker.update(stand(*place)) for place in places[1:]]
+    empty = Frame(depth=np.full((144, 176), np.float32(7.4)))
+    missed = [tracker.update(empty) for _ in range(15)]
+    assert {track.status for track in seen} == {Status.TRACKED}
+    assert Status.TRACKED not in {track.status for track in missed}
+    steps = np.diff([track.position for track in (seen[-1], *missed)], axis=0)
+    assert steps[0] == pytest.approx([0.06, 0.0, -0.04], abs=0.02)
+    assert (np.diff(steps[:, 0]) < 0).all()
+    assert (steps[:, 0] > 0).all()
+    depths = np.array([track.depth for track in missed])
+    assert depths.min() == 3.1
+
+
+def test_the_place_of_a_missed_target_is_as_uncertain_as_its_motion():
+    """In a second who stood still may have gone position_noise meters, 0.5, to the side, less up or down."""
+    tracker = DepthParticleTracker(intrinsics=ROOM, floor=False, lost_after=9.0)
+    tracker.init(stand(0.0, 3.0), person_at(0.0, 3.0))
+    empty = Frame(depth=np.full((144, 176), np.float32(7.4)))
+    last = [tracker.update(empty) for _ in range(15)][-1]
+    x, y, z = np.sqrt(np.diag(last.covariance))
+    assert (x, z) == pytest.approx((0.5, 0.5), abs=0.05)
+    assert 0.1 < y < 0.25
+
+
+def test_who_is_hardly_covered_has_no_occluder():
+    """Of a target that isn't there any more, what covers a tenth of its place is no occluder: it is LOST."""
+    tracker = DepthParticleTracker(intrinsics=ROOM, floor=False, lost_after=0.3)
+    tracker.init(stand(0.0, 3.0), person_at(0.0, 3.0))
+    depth = np.full((144, 176), np.float32(7.4))
+    left, top, _, bottom = (round(each) for each in person_at(0.0, 3.0).xyxy)
+    depth[top:bottom, left - 20 : left + 4] = 1.5
+    tracks = [tracker.update(Frame(depth=depth)) for _ in range(8)]
+    assert tracks[-1].status is Status.LOST
+    assert tracker._state.occluder is None
+
+
+def test_who_goes_behind_furniture_comes_out_again():
+    """Furniture that was there before is no object, and hides somebody all the same: whoever goes behind it
+    is OCCLUDED, be it for longer than lost_after, and TRACKED on the other side.
+    """
+    tracker = DepthParticleTracker(intrinsics=ROOM, floor=False, lost_after=0.2)
+    tracker.init(stand(-0.9, 3.0), person_at(-0.9, 3.0))
+    left, right = (round(each) for each in person_at(0.0, 2.0).xyxy[::2])
+    statuses = []
+    for x in np.arange(-0.9, 0.9, 0.06):
+        depth = stand(x, 3.0).depth
+        depth[:, left - 2 : right + 2] = 2.0
+        statuses.append(tracker.update(Frame(depth=depth)).status)
+    assert statuses[0] is statuses[-1] is Status.TRACKED
+    assert set(statuses) == {Status.TRACKED, Status.OCCLUDED}
+    assert statuses.count(Status.OCCLUDED) > 0.2 * tracker.params.rate
+
+
+def test_shape_and_size_are_learned_from_what_is_seen_whole():
+    """Of somebody who begins to lean the position gets to the centroid again, and who is wider from some
+    frame on is known to be, within three seconds; of who is cut at the border no size is learned.
+    """
+    tracker = DepthParticleTracker(intrinsics=ROOM, floor=False, particles=500)
+    tracker.init(stand(0.3, 3.0), person_at(0.3, 3.0))
+    for _ in range(45):
+        leaning = tracker.update(stand(0.3, 3.0, "leaning"))
+    np.testing.assert_allclose(leaning.position, [0.3 - 0.5 / 6, 1.7 / 6, 3.0], atol=0.05)
+    for _ in range(45):
+        tracker.update(stand(0.3, 3.0, "wide"))
+    width, height = tracker._state.motion.mean_size
+    assert (width, height) == pytest.approx((0.7, 1.7), abs=0.05)
+    for x in np.arange(0.3, 1.3, 0.06):
+        last = tracker.update(stand(x, 3.0, "wide"))
+    assert last.status is Status.TRACKED
+    np.testing.assert_allclose(tracker._state.motion.mean_size, (width, height), atol=0.05)
+
+
+@pytest.mark.parametrize("complete", [True, False])
+def test_the_position_is_the_bodys_centroid(complete):
+    """Of somebody who leans the position is the centroid, a sixth of the box beside its center and below it;
+    without completion it is the box's center.
+    """
+    tracker = DepthParticleTracker(intrinsics=ROOM, floor=False, complete=complete)
+    position = tracker.init(stand(0.3, 3.0, "leaning"), person_at(0.3, 3.0)).position
+    expected = [0.3 - 0.5 / 6, 1.7 / 6, 3.0] if complete else [0.3, 0.0, 3.0]
+    np.testing.assert_allclose(position, expected, atol=0.03)
 
 
 def test_memory_stays_as_it_is(passing: DepthScene):
