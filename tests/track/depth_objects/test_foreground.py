@@ -92,6 +92,18 @@ def test_a_wall_is_no_floor(kernels):
     assert np.isfinite(fg.depth).all()
 
 
+@pytest.mark.parametrize(("columns", "is_floor"), [(6, False), (60, True)])
+def test_a_small_patch_is_no_floor(columns, is_floor, kernels):
+    """A patch of under 6 % of what is measured is no floor, though all of it is flat and nothing is below; a
+    quarter is one.
+    """
+    depth = hall(wall=np.inf, post=np.inf)
+    depth[:72] = 2.0
+    depth[72:, columns:] = np.nan
+    _, plane = found(kernels, depth)
+    assert plane.any() == is_floor
+
+
 @pytest.mark.parametrize("scale", [0.001, 0.005, 0.02])
 def test_what_is_too_near_is_no_floor(scale, kernels):
     """A frame of depths that are nearer than any target, such as one in another unit, leaves no floor, and

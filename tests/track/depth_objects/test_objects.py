@@ -13,7 +13,9 @@ from tricue.errors import TargetNotFoundError
 from tricue.track.depth_objects.floor import NO_FLOOR
 from tricue.track.depth_objects.foreground import Foreground, extract_foreground
 from tricue.track.depth_objects.objects import DISTRIBUTION_BINS, segment
+from tricue.track.depth_objects.projection import project_box
 from tricue.track.depth_particle.initialize import find_people, initialize_in_box, initialize_on_person
+from tricue.track.depth_particle.others import region_in
 
 Params = DepthParticleTracker.Params
 P = Params()
@@ -261,6 +263,34 @@ def test_a_box_starts_at_the_depth_of_its_object(kernels):
     np.testing.assert_allclose(
         initialize_in_box(upper, objects, fg, P).state, metric(upper, NEARER), rtol=1e-6
     )
+
+
+@pytest.mark.parametrize("side", range(4), ids=["left", "top", "right", "bottom"])
+def test_of_an_object_that_goes_on_around_the_box_the_side_is_the_boxes(side, kernels):
+    """A box on the end of a table is that end: three sides are the object's, the fourth is the box's own."""
+    end, table = [60, 40, 110, 100], [60, 40, 110, 100]
+    table[side] += -30 if side < 2 else 30
+    fg = drawn((Box.from_xyxy(*table), NEARER), wall=np.nan)
+    loose = [each + by for each, by in zip(end, (-2, -3, 2, 3), strict=True)]
+    loose[side] = end[side]
+    box = Box.from_xyxy(*loose)
+    objects = segment(kernels, fg, NO_FLOOR, P, region=region_in(box, fg))
+    found = project_box(initialize_in_box(box, objects, fg, P).state, NUMBERS)
+    np.testing.assert_allclose(found.xyxy, end, atol=1e-6)
+
+
+@pytest.mark.parametrize("resolution", [176, 88, 59])
+def test_a_box_in_a_thinned_image_is_where_it_was_given(resolution, kernels):
+    """The start is the box in the frame's pixels, and whole, however the image is thinned; so it is on a
+    surface without an object of its own.
+    """
+    p = Params(floor=False, resolution=resolution, gap_passes=0)
+    box = Box(100, 80, 60, 50)
+    for depth in (drawn((box, NEARER), wall=np.nan).depth, np.full((144, 176), 3.0, np.float32)):
+        fg, plane = extract_foreground(kernels, depth, NUMBERS, NO_FLOOR, np.random.default_rng(0), p)
+        start = initialize_in_box(box, segment(kernels, fg, plane, p), fg, p)
+        assert start.whole.all()
+        assert np.abs(np.subtract(project_box(start.state, NUMBERS), box)).max() < fg.step
 
 
 def test_of_an_object_that_is_cut_no_size_is_known(kernels):

@@ -77,6 +77,15 @@ def test_the_target_is_likelier_than_what_is_beside_it(form, kernels):
     assert model.observe(kernels, foreground(), moved(0.8)).inside == 0
 
 
+def test_what_is_wholly_unlike_is_very_unlikely(kernels):
+    """Of two rectangles whose depths have nothing in common the linear likelihood is tiny, and no error."""
+    model = DepthModel.empty(Params(likelihood="linear", histogram="absolute", contrast=0.0))
+    flat = [Foreground(np.full((144, 176), z, np.float32), CAMERA, 1, (0, 0, 176, 144)) for z in (3, 5)]
+    model = model.learn(model.histogram_in(kernels, flat[0], STATE), 1.0)
+    assert model.observe(kernels, flat[0], STATE).log_likelihood == pytest.approx(0)
+    assert -50 < model.observe(kernels, flat[1], STATE).log_likelihood < -20
+
+
 def test_a_relative_histogram_moves_with_the_target(kernels):
     """Of a target that is as much farther as its rectangle the depths are the same relative to it, and are
     others in the camera's range.

@@ -171,6 +171,15 @@ def test_a_cut_size_is_not_learned():
     assert not after.size_known.any()
 
 
+@pytest.mark.parametrize("axis", [0, 1], ids=["width", "height"])
+def test_of_known_sizes_only_the_whole_one_is_learned(axis):
+    """Where one size is cut, and both are known, the other alone is blended in."""
+    whole = np.arange(2) == axis
+    after = motion().learn_size(np.array([0.4, 1.5]), whole, P)
+    assert (after.mean_size < STATE[3:]).tolist() == whole.tolist()
+    assert after.mean_size[1 - axis] == STATE[4 - axis]
+
+
 def test_the_first_whole_size_is_learned_fast():
     """Sizes visible as a whole for the first time are known from then on, and learned mostly at once."""
     first = motion(size_known=CUT).learn_size(np.array([0.8, 1.7]), WHOLE, P)

@@ -12,6 +12,7 @@ import pytest
 from numpy.typing import NDArray
 from tricue import Box, DepthParticleTracker, Frame, Intrinsics, Status, Track
 from tricue.scenes import DepthScene, crossing, walker
+from tricue.track.depth_objects.foreground import Foreground
 from tricue.track.depth_objects.projection import project_box
 
 WITHIN = 3  # frames, until an occlusion is reported
@@ -375,6 +376,51 @@ def test_the_place_of_a_missed_target_is_as_uncertain_as_its_motion():
     x, y, z = np.sqrt(np.diag(last.covariance))
     assert (x, z) == pytest.approx((0.5, 0.5), abs=0.05)
     assert 0.1 < y < 0.25
+
+
+def test_at_the_start_a_position_is_known_to_a_centimeter():
+    """Of a target that was just given the covariance is neither 0 nor that of one that is searched."""
+    track = DepthParticleTracker(intrinsics=ROOM, floor=False).init(stand(0.0, 3.0), person_at(0.0, 3.0))
+    np.testing.assert_allclose(np.sqrt(np.diag(track.covariance)), 0.01)
+
+
+def test_what_is_usual_is_learned_slowly():
+    """Of somebody of whom a fifth is no longer measured, one frame changes the usual share by less than a
+    fifth of that; after sixty, it and the usual likelihood are those of such frames in the mean.
+    """
+    tracker = DepthParticleTracker(intrinsics=ROOM, floor=False, gap_passes=0)
+    tracker.init(stand(0.0, 3.0), person_at(0.0, 3.0))
+    depth = stand(0.0, 3.0).depth.copy()
+    depth[::5] = np.nan
+    fg = Foreground(depth, tracker._state.camera, 1, (0, 0, 176, 144))
+    usual, seen = [tracker._state.mean_inside], []
+    for _ in range(60):
+        tracker.update(Frame(depth=depth))
+        state = tracker._state
+        usual.append(state.mean_inside)
+        found = state.model.observe(tracker._k, fg, state.motion.state)
+        seen.append((found.inside, found.log_likelihood))
+    assert 0.96 < usual[1] < usual[0] == 1
+    inside, likelihood = np.mean(seen[-20:], axis=0)
+    assert state.mean_inside == pytest.approx(inside, abs=0.04)
+    assert state.mean_log_likelihood == pytest.approx(likelihood, abs=0.5)
+
+
+def test_of_who_is_partly_covered_nothing_is_learned():
+    """Somebody a fifth of whom is covered is TRACKED, and neither size, shape nor depths are learned."""
+    tracker = DepthParticleTracker(intrinsics=ROOM, floor=False)
+    tracker.init(stand(0.0, 3.0), person_at(0.0, 3.0))
+    before = tracker._state
+    depth = stand(0.0, 3.0).depth.copy()
+    left, top, _, bottom = (round(each) for each in person_at(0.0, 3.0).xyxy)
+    depth[top:bottom, left - 20 : left + 8] = 1.5
+    for _ in range(3):
+        assert tracker.update(Frame(depth=depth)).status is Status.TRACKED
+    after = tracker._state
+    np.testing.assert_array_equal(after.model.histogram, before.model.histogram)
+    np.testing.assert_array_equal(after.motion.mean_size, before.motion.mean_size)
+    np.testing.assert_array_equal(after.signature.values, before.signature.values)
+    assert after.mean_inside == before.mean_inside
 
 
 def test_who_is_hardly_covered_has_no_occluder():
