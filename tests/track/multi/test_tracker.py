@@ -59,6 +59,23 @@ def test_kinds_get_the_camera_that_they_take(workers, rendered):
             assert list(several.update(frame).values()) == expected
 
 
+def test_a_camera_alone_is_for_those_that_take_it(things):
+    """Without a rig, trackers that take a camera get it, those that take a rig or a camera, too."""
+    camera = Intrinsics.from_fov(240, 160, 50)
+    depth = np.full((160, 240), 4.0, np.float32)
+    depth[20:80, 100:130] = 2.0
+    frames = [Frame(frame.color, depth) for frame in things.frames[:3]]
+    kinds = {"fused": {"intrinsics": camera}, "depth-particle": {"intrinsics": camera}, "color-particle": {}}
+    single = [create(kind, **takes) for kind, takes in kinds.items()]
+    several = MultiTracker(intrinsics=camera)
+    for kind, tracker in zip(kinds, single, strict=True):
+        number = several.add(frames[0], (100, 20, 30, 60), kind)
+        assert several.tracks[number] == tracker.init(frames[0], (100, 20, 30, 60))
+    for frame in frames[1:]:
+        assert list(several.update(frame).values()) == [tracker.update(frame) for tracker in single]
+    assert several.tracks[1].position is not None
+
+
 def test_parameters_are_of_the_default_kind(things):
     """Those of the constructor hold for it, those of add beside and before them; seed for all."""
     frames, (box, *_) = things.frames, things.boxes
@@ -114,6 +131,8 @@ def test_without_targets_there_are_no_tracks(things):
     assert several.update(things.frames[0]) == {}
     with pytest.raises(TypeError, match="frame: expected a BGR image"):
         several.update(None)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="id: expected none, as there are no targets, got 1"):
+        several.remove(1)
 
 
 @pytest.mark.parametrize(
@@ -203,6 +222,40 @@ def test_an_error_names_its_target(workers, things):
         assert list(several.update(things.frames[1])) == [1]
 
 
+class Failing:
+    """A third party's, whose every update raises an error."""
+
+    error: Exception
+
+    def init(self, image: Any, box: Any) -> None: ...
+
+    def update(self, image: Any) -> None:
+        raise self.error
+
+
+def test_an_error_keeps_what_comes_with_its_message(things, monkeypatch):
+    """The target is named in the message alone."""
+    monkeypatch.setattr(Failing, "error", ValueError("no target", 7), raising=False)
+    several = MultiTracker(f"{__name__}:Failing")
+    several.add(things.frames[0], things.boxes[0])
+    with pytest.raises(ValueError, match="target 1: no target") as told:
+        several.update(things.frames[1])
+    assert told.value.args == ("target 1: no target", 7)
+
+
+@pytest.mark.parametrize("error", [ValueError(), KeyError(5), OSError(2, "no such file")], ids=repr)
+def test_an_error_without_a_message_stays_as_it_is(error, things, monkeypatch):
+    """One that begins with no text has none that could name its target."""
+    monkeypatch.setattr(Failing, "error", error, raising=False)
+    arguments = error.args
+    several = MultiTracker(f"{__name__}:Failing")
+    several.add(things.frames[0], things.boxes[0])
+    with pytest.raises(type(error)) as told:
+        several.update(things.frames[1])
+    assert told.value is error
+    assert error.args == arguments
+
+
 @pytest.mark.parametrize("workers", [1, 2])
 def test_threads_may_share_it(workers, things, alone, started):
     """Another thread adds and removes targets meanwhile; those that stay are followed as alone."""
@@ -282,7 +335,9 @@ def test_copies_are_independent(workers, copied, things, alone, started):
 
 @pytest.mark.parametrize("workers", [1, 2])
 def test_a_warning_is_given_once(workers, things):
-    """Depth in millimeters is told of once for all targets, at the caller's line, and not again later."""
+    """Depth in millimeters is told of once for all targets, at the caller's line, and not again later, also
+    for a target that was added later.
+    """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         millimeters = Frame(things.frames[0].color, np.full((160, 240), 2000, np.float32))
@@ -292,6 +347,8 @@ def test_a_warning_is_given_once(workers, things):
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
             on(several, 3 * [millimeters])
+            several.add(millimeters, things.boxes[0])
+            on(several, [millimeters])
         assert [str(each.message)[:28] for each in told] == ["frame.depth: expected meters"]
         assert told[0].filename == __file__
 
@@ -308,6 +365,7 @@ def test_a_warning_as_an_error_leaves_all(workers, things, alone, started):
                 several.update(millimeters)
             with pytest.raises(UserWarning, match="expected meters"):
                 several.add(millimeters, things.boxes[0])
+            assert several._targets.ids == {1, 2, 3, 4}  # nobody follows what didn't start
         assert on(several, things.frames[1:]) == alone(FUSED)
 
 

@@ -247,6 +247,24 @@ def test_an_answer_that_was_read_in_part_ends_its_worker(started, things, alone,
         assert several.update(things.frames[1]) == {number: alone(FUSED)[0][number] for number in (1, 3)}
 
 
+def test_a_frame_that_never_came_takes_nothing_back(started, things, alone, monkeypatch):
+    """Ctrl-C while a frame is copied to the workers comes before they begin with it: they stay where they
+    were, and go on with the next frame as the target of this process does.
+    """
+    expected = alone(FUSED)
+
+    def interrupted(memory, frame):
+        raise KeyboardInterrupt
+
+    with started(FUSED, workers=2) as several:
+        assert several.update(things.frames[1]) == expected[0]
+        with monkeypatch.context() as patched:
+            patched.setattr(remote_targets.FrameMemory, "write", interrupted)
+            with pytest.raises(KeyboardInterrupt):
+                several.update(things.frames[5])
+        assert several.update(things.frames[2]) == expected[1]
+
+
 def test_a_fork_is_told_to_copy(started, things):
     """A process that was forked can't talk to the workers, and says so in place of disturbing them."""
     with started(FUSED, workers=2) as several:
@@ -300,6 +318,19 @@ def test_a_third_partys_tracker_may_keep_images(workers, things):
             several.add(things.frames[0], box)
         for frame, change in zip(things.frames[1:4], expected, strict=True):
             assert [track.box[0] for track in several.update(frame).values()] == [change] * 2
+
+
+def test_who_keeps_images_may_share_a_worker(things):
+    """One third party's tracker among others in a process sees images of its own, too."""
+    change = [
+        float(np.abs(new.color.astype(int) - old.color).mean())
+        for old, new in zip(things.frames[:3], things.frames[1:4], strict=True)
+    ]
+    with MultiTracker(workers=2) as several:
+        for box, kind in zip(things.boxes, ("fused", f"{__name__}:Previous", "fused", "fused"), strict=True):
+            several.add(things.frames[0], box, kind)
+        assert [len(each.ids) for each in several._targets._parts] == [2, 2]
+        assert [several.update(frame)[2].box[0] for frame in things.frames[1:4]] == change
 
 
 def test_a_path_may_be_among_the_folders_of_modules(monkeypatch, started, things, alone):

@@ -47,16 +47,12 @@ class Targets:
         self._trackers.pop(target, None)
 
     def update(self, number: int, frame: SharedFrame) -> dict[int, Track]:
-        """Follow all targets into a frame. After an error, which names its target, none has seen it.
+        """Follow all targets into a frame. An error names its target; :meth:`undo` takes back what it left.
 
         number: of the update, by which :meth:`undo` knows it.
         """
         self._before = number, {target: vars(tracker).copy() for target, tracker in self._trackers.items()}
-        try:
-            return {target: _update(target, tracker, frame) for target, tracker in self._trackers.items()}
-        except BaseException:
-            self.undo(number)
-            raise
+        return {target: _update(target, tracker, frame) for target, tracker in self._trackers.items()}
 
     def undo(self, number: int) -> None:
         """Take an update back, if it was the last one: a tracker replaces its state, and changes none."""

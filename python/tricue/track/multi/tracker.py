@@ -114,8 +114,9 @@ class MultiTracker:
         """Follow a target no longer. ValueError for an id that isn't among :attr:`ids`."""
         with self._lock:
             if id not in self._tracks:
-                expected = ", ".join(map(str, self.ids)) or "no ids"
-                raise ValueError(f"id: expected one of {expected}, got {id!r}")
+                ids = ", ".join(map(str, self.ids))
+                expected = f"one of {ids}" if ids else "none, as there are no targets"
+                raise ValueError(f"id: expected {expected}, got {id!r}")
             with self._reporting_losses():
                 self._find_losses()
                 self._targets.remove(id)
