@@ -97,14 +97,14 @@ def test_a_drawn_room_passes(room: tuple[Image, Plane]) -> None:
     assert check_depth(gray, depth).fits[0][:4] == check.fits[0][:4]
 
 
-@pytest.mark.parametrize(("right", "down"), [(2, 0), (-2, 2), (0, -2)])
+@pytest.mark.parametrize(("right", "down"), [(2, 0), (-2, 2), (0, -2), (4, 0), (-4, 0), (0, 4)])
 def test_small_errors_pass(room: tuple[Image, Plane], right: int, down: int) -> None:
-    """It proves that one cell, as registrations leave it, isn't worth a warning."""
+    """It proves that one cell, as registrations leave it, isn't worth a warning, and two aren't yet."""
     color, depth = room
     assert check_depth(color, moved(depth, right, down)).problem == ""
 
 
-@pytest.mark.parametrize(("right", "down"), [(8, 0), (-12, 0), (0, 10), (-6, -6)])
+@pytest.mark.parametrize(("right", "down"), [(6, 0), (0, -6), (-12, 0), (0, 10), (-6, -6), (20, 0)])
 def test_shifts_are_measured(room: tuple[Image, Plane], right: int, down: int) -> None:
     """It proves that a shift is found to a cell, is said, and so is what to do."""
     color, depth = room
@@ -113,6 +113,32 @@ def test_shifts_are_measured(room: tuple[Image, Plane], right: int, down: int) -
     assert check.fits[0].error == pytest.approx(np.hypot(right, down))
     assert f"about {np.hypot(right, down):.0f} px beside" in check.problem
     assert "registration.Registration, or --calibration FILE" in check.problem
+
+
+@pytest.mark.parametrize(
+    ("height", "width", "is_checked"), [(60, 320, True), (58, 320, False), (240, 120, True), (240, 119, False)]
+)
+def test_small_images_are_not_checked(
+    room: tuple[Image, Plane], height: int, width: int, is_checked: bool
+) -> None:
+    """It proves that an image is checked from 120 cells of width and three times the largest shift in height
+    on; 160 cells are 320 pixels, and a narrow image has a cell a pixel.
+    """
+    color, depth = (each[:height, :width] for each in (room[0], moved(room[1], 12, 0)))
+    check = check_depth(color, depth)
+    assert (check.edges > 0) == (len(check.fits) > 0) == bool(check.problem) == is_checked
+
+
+@pytest.mark.parametrize(("side", "is_checked"), [(36, False), (44, True)])
+def test_a_few_edges_are_not_compared(side: int, is_checked: bool) -> None:
+    """It proves that the outline of one box, 36 pixels wide, is too little to compare, and a larger one's is
+    enough.
+    """
+    color = np.random.default_rng(0).integers(0, 256, (240, 320, 3), dtype=np.uint8)
+    depth = np.full((240, 320), 4, np.float32)
+    depth[100 : 100 + side, 100 : 100 + side] = 2
+    check = check_depth(color, depth)
+    assert (check.edges >= MIN_EDGE_CELLS) == (len(check.fits) > 0) == is_checked
 
 
 def test_a_scale_is_measured(room: tuple[Image, Plane]) -> None:
