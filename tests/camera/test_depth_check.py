@@ -116,7 +116,8 @@ def test_shifts_are_measured(room: tuple[Image, Plane], right: int, down: int) -
 
 
 @pytest.mark.parametrize(
-    ("height", "width", "is_checked"), [(60, 320, True), (58, 320, False), (240, 120, True), (240, 119, False)]
+    ("height", "width", "is_checked"),
+    [(60, 320, True), (58, 320, False), (240, 120, True), (240, 119, False)],
 )
 def test_small_images_are_not_checked(
     room: tuple[Image, Plane], height: int, width: int, is_checked: bool
@@ -141,16 +142,21 @@ def test_a_few_edges_are_not_compared(side: int, is_checked: bool) -> None:
     assert (check.edges >= MIN_EDGE_CELLS) == (len(check.fits) > 0) == is_checked
 
 
-def test_a_scale_is_measured(room: tuple[Image, Plane]) -> None:
+@pytest.mark.parametrize("scale", [0.925, 0.95, 0.975, 1.025, 1.05, 1.075])
+def test_a_scale_is_measured(room: tuple[Image, Plane], scale: float) -> None:
     """It proves that another focal length is found: depth enlarged by 1 / 0.925 fits after 0.925.
 
-    Over an image of diagonal D a scale of 1 + e moves pixels by e D / 12^1/2, root mean square.
+    Over an image of diagonal D a scale of 1 + e moves pixels by e D / 12^1/2, root mean square; a scale of
+    5 % is measured, and isn't worth a warning yet.
     """
     color, depth = room
-    check = check_depth(color, moved(depth, 0, 0, 1 / 0.925))
-    assert check.fits[1].scale == 0.925
-    assert check.fits[1].error == pytest.approx(0.075 * np.hypot(*SIZE) / np.sqrt(12), rel=0.02)
-    assert check.problem
+    check = check_depth(color, moved(depth, 0, 0, 1 / scale))
+    fit = check.fits[1]
+    by_scale = abs(1 - scale) * np.hypot(*SIZE) / np.sqrt(12)
+    assert fit.scale == scale
+    assert abs(fit.right) + abs(fit.down) <= 2  # a cell
+    assert fit.error == pytest.approx(np.linalg.norm([by_scale, fit.right, fit.down]), rel=0.02)
+    assert bool(check.problem) == (by_scale > 7)
 
 
 def blank() -> list[tuple[Image, Plane]]:

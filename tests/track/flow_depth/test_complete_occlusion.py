@@ -36,10 +36,13 @@ def behind_a_board(tracker: FlowDepthTracker, scene: WalkScene, frames: int) -> 
 
 def test_a_jump_of_the_disparity_hides_the_target(scene: WalkScene):
     """Once the disparity in the window is much larger, the target is OCCLUDED, from that frame on and as long
-    as it stays so. It moves on at its last velocity, and its depth and the box's size stay those of before.
+    as it stays so. It moves on at its last velocity, and its depth and the box's size stay those of before;
+    no pixel is the target's.
     """
     tracker = tracker_on(scene)
+    assert tracker.mask.any()
     first, *tracks = behind_a_board(tracker, scene, 8)
+    assert not tracker.mask.any()
     assert {track.status for track in (first, *tracks)} == {O}
     steps = np.diff([track.box for track in (first, *tracks)], axis=0)
     np.testing.assert_allclose(steps, np.tile(steps[0], (7, 1)), atol=1e-9)

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tricue import FlowDepthTracker, Frame, Status
+from tricue import Box, FlowDepthTracker, Frame, Intrinsics, Status, StereoRig
 
 ARRAYS = {"pair": {}, "depth camera": {"depth": True}}
 
@@ -78,6 +78,42 @@ def test_a_missed_target_gets_less_certain(followed):
         assert slow.score == 0
         drift = ((i / 15) ** 2 / 2) ** 2
         np.testing.assert_allclose(fast.covariance - slow.covariance, 3 * drift * np.eye(3), atol=1e-9)
+
+
+def test_a_missed_target_is_unknown_by_a_hundred_meters_at_most(followed):
+    """However fast it may have gone, 100 m in every direction come on top of its covariance, not more."""
+    scene, _ = followed
+    tracker = FlowDepthTracker(rig=scene.rig, acceleration_noise=1e5)
+    tracker.init(scene.frames[0], scene.boxes[0])
+    first = scene.frames[1]
+    seen = tracker.update(first)
+    blind = {"right": first.right * 0} if first.depth is None else {"depth": first.depth * np.nan}
+    for _ in range(3):
+        last = tracker.update(Frame(first.color * 0, **blind))
+        np.testing.assert_allclose(np.diag(last.covariance - seen.covariance), 100**2, rtol=0.01)
+
+
+def test_positions_are_the_same_at_every_resolution(followed):
+    """In images of half the size the target is where it was, and as uncertain; so it is in frames of twice
+    the size, whose pixels are half as large.
+    """
+    scene, _ = followed
+    frame, box, camera = scene.frames[0], scene.boxes[0], scene.rig.intrinsics
+    twice = {
+        name: np.kron(image, np.ones((2, 2, *(1,) * (image.ndim - 2)), image.dtype))
+        for name in frame.channels
+        for image in [getattr(frame, name)]
+    }
+    focal, center = 2 * np.array([camera.fx, camera.fy]), 2 * np.array([camera.cx, camera.cy]) + 0.5
+    rig = StereoRig(Intrinsics(*focal, *center, 2 * camera.width, 2 * camera.height), scene.rig.baseline)
+    large = Box(*(2 * each for each in box))
+    whole = FlowDepthTracker(rig=scene.rig).init(frame, box)
+    half = FlowDepthTracker(rig=scene.rig, resolution=80).init(frame, box)
+    double = FlowDepthTracker(rig=rig).init(Frame(**twice), large)
+    for other in (half, double):
+        np.testing.assert_allclose(other.position, whole.position, rtol=0.1, atol=0.1)
+        deviations = [np.sqrt(np.diag(each.covariance)) for each in (whole, other)]
+        np.testing.assert_allclose(deviations[1], deviations[0], rtol=0.15)
 
 
 @pytest.mark.parametrize("cues", [("flow", "disparity"), ("disparity",), ("flow",)])

@@ -133,6 +133,22 @@ def test_deviations_have_their_closed_form():
 
 
 @pytest.mark.parametrize("motion", ["velocity", "constant"])
+def test_what_is_unknown_of_who_is_away_settles(motion, kernels):
+    """However long a head is only predicted, its position is unknown by a hundred meters at most, and its
+    velocity in proportion; what is unknown of its colors grows on.
+    """
+    p, deviations = Params(motion=motion), []
+    state = initialize(VALUES, NOISE, p)
+    for _ in range(300):
+        state = predict(kernels, state, 60.0, p)
+        deviations.append(np.sqrt(np.diag(state.covariance)))
+    before, after = np.delete(deviations[199], range(3, 7)), np.delete(deviations[299], range(3, 7))
+    assert after[:3].max() == pytest.approx(100)
+    np.testing.assert_allclose(after, before, rtol=1e-3)
+    assert (deviations[299][3:7] > 1.1 * deviations[199][3:7]).all()
+
+
+@pytest.mark.parametrize("motion", ["velocity", "constant"])
 def test_a_correction_weighs_by_noise(motion, kernels):
     """Equal variances meet half way with half of it; a useless measurement changes nothing, a perfect one
     all.
