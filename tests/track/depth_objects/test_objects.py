@@ -370,12 +370,15 @@ def test_a_box_on_no_object_has_the_depth_of_its_middle(kernels):
     np.testing.assert_allclose(initialize_in_box(part, objects, fg, P).state, metric(part, NEARER), rtol=1e-6)
 
 
+@pytest.mark.parametrize("resolution", [176, 88])
 @pytest.mark.parametrize("box", [Box(60, 20, 12, 80), Box(20, 60, 80, 12)], ids=["tall", "wide"])
-def test_the_middle_of_a_box_is_half_of_it_along_either_side(box, kernels):
+def test_the_middle_of_a_box_is_half_of_it_along_either_side(box, resolution, kernels):
     """A box on no object has the depth of the middle half of its columns and rows."""
     x, y, width, height = box
     middle = Box(x + width / 4, y + height / 4, width / 2, height / 2)
-    fg = drawn((box, 3.0), (middle, 2.0))
+    p = Params(floor=False, resolution=resolution, gap_passes=0)
+    depth = drawn((box, 3.0), (middle, 2.0)).depth
+    fg, _ = extract_foreground(kernels, depth, NUMBERS, NO_FLOOR, np.random.default_rng(0), p)
     objects = segment(kernels, drawn(wall=np.nan), NO_FLOOR, P)
     assert initialize_in_box(box, objects, fg, P).state[2] == 2.0
 

@@ -156,6 +156,8 @@ def test_an_unknown_size_grows_only():
     unknown = motion(size_known=np.array([False, False]))
     np.testing.assert_array_equal(unknown.grow(np.array([0.9, 1.2])).mean_size, [0.9, 1.7])
     np.testing.assert_array_equal(motion().grow(np.array([0.9, 2.0])).mean_size, STATE[3:])
+    half_known = motion(size_known=np.array([True, False]))
+    np.testing.assert_array_equal(half_known.grow(np.array([0.9, 2.0])).mean_size, [0.6, 2.0])
 
 
 def test_a_whole_size_is_blended_in():

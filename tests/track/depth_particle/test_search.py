@@ -61,6 +61,25 @@ def test_the_human_filter_excludes_furniture(state, objects_of):
     assert found(state, alone, human_filter=True) is None
 
 
+@pytest.mark.parametrize("missed", [0.0, 0.5])
+def test_the_human_filter_changes_nothing_for_a_person(missed, state, objects_of):
+    """Who is a human candidate is the target with the filter as far away as without it."""
+    waiting = state._replace(missed_seconds=missed)
+    places = [objects_of([beside(state, by)]) for by in np.arange(0.0, 1.5, 0.03)]
+    without, with_it = (
+        [found(waiting, each, human_filter=human_filter) is not None for each in places]
+        for human_filter in (False, True)
+    )
+    assert with_it == without
+    assert 0 < sum(without) < len(places)
+
+
+def test_where_nothing_is_nothing_is_compared(state, objects_of):
+    """In a frame without objects nobody is the target, whatever the options compare."""
+    for options in ({"human_filter": True}, {"depth_signature": True}):
+        assert found(state, objects_of([]), **options) is None
+
+
 def test_the_depth_histogram_tells_two_apart(state, objects_of):
     """Of two objects of the same place and shape but for 2 cm, the farther one is the target where the depths
     in its rectangle, and not those in the nearer one's, are like the target's.
