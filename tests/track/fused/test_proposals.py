@@ -27,13 +27,21 @@ def lost(target: Target, frame: int = 0) -> LostTarget:
     return LostTarget(target, None, 20, frame)
 
 
-def red_square(width: int, height: int, x: float, y: float, side: int = 24) -> TargetObservation:
-    """A color picture with a red square around a place of a gray ground."""
+def red_squares(width: int, height: int, *places: tuple[float, float], side: int = 24) -> TargetObservation:
+    """A color picture with red squares around some places of a gray ground."""
     image = np.full((height, width, 3), GRAY, np.uint8)
-    left, top = int(x) - side // 2, int(y) - side // 2
-    image[top : top + side, left : left + side] = RED
+    for x, y in places:
+        left, top = int(x) - side // 2, int(y) - side // 2
+        image[top : top + side, left : left + side] = RED
     camera = Intrinsics.from_fov(width, height, 60)
     return TargetObservation(KERNELS, image, "color", camera, None, None)
+
+
+def model_of(observation: TargetObservation, target: Target) -> Any:
+    """What proposals need of a model that was learned of a target."""
+    window = extract_windows(observation, [target], P.context)[0]
+    appearance = SimpleNamespace(color=ColorExpert.from_window(window))
+    return SimpleNamespace(appearance=appearance, depth=None, params=P)
 
 
 @pytest.mark.parametrize("size", [(320, 240), (200, 310), (437, 151)], ids=str)
@@ -42,12 +50,26 @@ def test_the_place_of_its_colors_comes_first(size, place):
     """A target that went elsewhere is looked for where its colors are, to a few pixels of its 24."""
     width, height = size
     first = Target(width / 2, height / 2, 24.0, 24.0)
-    learned = extract_windows(red_square(width, height, first.x, first.y), [first], P.context)[0]
+    model = model_of(red_squares(width, height, (first.x, first.y)), first)
     x, y = place[0] * width, place[1] * height
-    color: Any = SimpleNamespace(color=ColorExpert.from_window(learned))
-    model: Any = SimpleNamespace(appearance=color, depth=None, params=P)
-    found = propose_windows(model, red_square(width, height, x, y), lost(first))[0].target
+    found = propose_windows(model, red_squares(width, height, (x, y)), lost(first))[0].target
     assert (found.x, found.y) == pytest.approx((x, y), abs=5)
+
+
+def test_places_of_its_colors_take_turns():
+    """Of four places with its colors each is among the first three proposals of some frame of five, and of a
+    frame's no two are nearer than the target's side.
+    """
+    first, places = Target(160.0, 120.0, 24.0, 24.0), [(60, 60), (100, 60), (250, 90), (200, 200)]
+    model = model_of(red_squares(320, 240, (first.x, first.y)), first)
+    observation = red_squares(320, 240, *places)
+    seen = set()
+    for frame in range(5):
+        found = [each.target for each in propose_windows(model, observation, lost(first, frame))[:3]]
+        for i, one in enumerate(found):
+            assert all(max(abs(one.x - each.x), abs(one.y - each.y)) >= 23 for each in found[:i])
+            seen |= {(x, y) for x, y in places if max(abs(one.x - x), abs(one.y - y)) < 5}
+    assert seen == set(places)
 
 
 @pytest.mark.parametrize("length", [0.4, 0.8])
