@@ -99,8 +99,8 @@ def main(arguments: list[str] | None = None) -> int:
         options.output.mkdir(parents=True, exist_ok=True)
     except (OSError, ValueError) as error:
         parser.error(one_line(error))
-    # by default Ctrl-C ends a process's video alone, and it would go on with the next one; what a shell runs in
-    # the background doesn't hear it
+    # By default Ctrl-C ends a process's video alone, and it would go on with the next one. What a shell runs
+    # in the background doesn't hear it.
     ignored = signal.getsignal(signal.SIGINT) is signal.SIG_IGN
     hearing = signal.SIGINT, signal.SIG_IGN if ignored else signal.SIG_DFL
     with ProcessPoolExecutor(options.jobs, None, signal.signal, hearing) as pool:

@@ -7,7 +7,6 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from functools import partial
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
@@ -165,15 +164,12 @@ def test_ctrl_c_in_a_folder(face: Scene, face_video: Path, face_box: str, tmp_pa
     options = ["--boxes", tmp_path / "boxes.csv", "--output", output, "--jobs", "1"]
     command = [sys.executable, "-u", EXAMPLES / "batch_folder.py", folder, *options]
     # Python doesn't hear Ctrl-C where its parent ignores it, as what a shell runs in the background does.
-    hear = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
-    with subprocess.Popen(
-        command,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-        preexec_fn=hear,
-    ) as running:
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    started = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+    signal.signal(signal.SIGINT, before)
+    with started as running:
         assert running.stdout is not None
         assert running.stdout.readline().startswith("a.avi: 25 frames")
         os.killpg(running.pid, signal.SIGINT)
