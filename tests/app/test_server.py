@@ -15,6 +15,7 @@ from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 from tricue import Status, Track
 from tricue.app.commands import COMMANDS
+from tricue.app.feed import state
 from tricue.app.frames import Recording
 from tricue.app.runs import Run
 from tricue.app.server import make_app
@@ -263,6 +264,28 @@ def test_page_opened_during_a_run(client: TestClient, serving: Serving) -> None:
     assert [each["type"] for each in messages] == ["times", "state", "tracks", "run"]
     assert [row[0] for row in messages[2]["tracks"]] == [3]
     assert [row[0] for row in messages[3]["tracks"]["1"]] == [10]
+
+
+def test_a_run_that_ends_while_the_state_is_read(serving: Serving, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is told as on or as ended, never as both: the page would miss its end."""
+
+    class Ending(Session):
+        """Its run ends just after it was looked at."""
+
+        @property
+        def run(self) -> Run | None:  # type: ignore[override]
+            run, self.__dict__["run"] = self.__dict__["run"], None
+            if run is not None:
+                self.last_run, self.runs = run, self.runs + 1
+            return run
+
+    serving.session.run = Run(10, 1, (), [])
+    monkeypatch.setattr(serving.session, "__class__", Ending)
+    first, then = state(serving), state(serving)
+    assert first["run"] is not None
+    assert first["ended"] is None
+    assert then["run"] is None
+    assert then["ended"]["run"] == 1
 
 
 def test_error_in_telling_is_told(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:

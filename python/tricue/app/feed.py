@@ -101,8 +101,10 @@ class _Page:
 def state(serving: Serving) -> dict[str, Any]:
     """All that a page shows but tracks: the recording, the targets, the run, what can be done."""
     session = serving.session
-    recording, history, run, job = session.recording, session.history, session.run, session.job
-    source, last = recording.source, session.last_run
+    # A run may end meanwhile. Read in this order, none is told as on and as ended at once.
+    last, ended = session.last_run, session.runs
+    run, recording, history, job = session.run, session.recording, session.history, session.job
+    source = recording.source
     return {
         "name": session.place.name,
         "frames": recording.length,
@@ -123,7 +125,7 @@ def state(serving: Serving) -> dict[str, Any]:
         "run": None if run is None else {"step": run.step, "targets": list(run.followed)},
         "ended": None
         if last is None
-        else {"run": session.runs, "frame": last.reached, "targets": list(last.followed)},
+        else {"run": ended, "frame": last.reached, "targets": list(last.followed)},
         "version": session.version,
         "video": None
         if job is None
