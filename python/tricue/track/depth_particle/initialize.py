@@ -62,7 +62,7 @@ def initialize_in_box(box: Box, objects: Objects, fg: Foreground, p: DepthPartic
         return TargetObject(state, _whole(box, fg), Signature.uniform())
     outline = _within(outlines[best], box, fg.step) if overlaps[best] >= MIN_OBJECT_IOU else box
     state = back_project_box(outline, float(objects.states[best, 2]), camera)
-    whole = np.full(2, (_whole(box, fg) & objects.whole[best]).all())
+    whole = np.full(2, (_whole(outline, fg) & objects.whole[best]).all())
     return TargetObject(state, whole, Signature.from_object(objects, best))
 
 
