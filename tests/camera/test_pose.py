@@ -138,6 +138,7 @@ def test_a_toml_file_may_have_a_pose(tmp_path: Path):
         (["pose = [1, 2, 3]"], r"rig.toml: pose: expected numbers of shape \(4, 4\)"),
         (['rotation = "north"'], "rig.toml: rotation: expected numbers"),
         (["translation = [0, 0, 0]", f"pose = {np.eye(4).tolist()}"], "rig.toml: pose: expected alone"),
+        (["translaton = [0, 0, 1]"], r"rig.toml: translaton: unknown key; did you mean translation\?"),
     ],
 )
 def test_a_bad_pose_names_the_file(lines, message, tmp_path: Path):

@@ -139,6 +139,17 @@ def test_stereo_noise_is_that_of_a_head_at_rest(still, tmp_path, capsys):
     assert text.count("# measured: tricue calibrate") == 4
 
 
+def test_a_distance_in_another_unit_is_told(still, tmp_path, capsys):
+    """Its difference from what is measured isn't noise; nothing is written."""
+    folder, out = write_pair(still, tmp_path / "pair"), tmp_path / "head.toml"
+    place = [str(folder), "--box", ",".join(map(str, still.boxes[0])), "--output", str(out)]
+    calibration = ["--calibration", str(folder / "rig.toml")]
+    line = failing(["stereo-noise", *place, *calibration, "--distance", "120"], capsys)
+    assert "--distance: expected about 1.1" in line
+    assert line.endswith("m, as the pairs measure, got 120")
+    assert not out.exists()
+
+
 @pytest.mark.parametrize(
     ("break_it", "message"),
     [

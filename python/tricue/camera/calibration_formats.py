@@ -7,6 +7,7 @@ holds another size, ImageSizeError. Errors name the file and the key: ValueError
 isn't there.
 """
 
+import difflib
 import pathlib
 import warnings
 from collections.abc import Callable, Iterable, Mapping
@@ -26,6 +27,10 @@ _OPENCV_KEYS = ("camera_matrix", "cameraMatrix", "K", "P1", "M1", "K1")
 NUMBERED_DISTORTION_KEYS = ("D{}", "distCoeffs{}", "dist_coeffs_{}", "distortion_{}")
 """Of the left camera (1) and of the right one (2): first that of OpenCV's sample stereo_calib."""
 _DISTORTION_KEYS = ("distortion_coefficients", "distCoeffs", "dist_coeffs", "dist_coeff", "distortion", "D")
+
+POSE_KEYS = ("pose", "rotation", "translation")
+LIKELY_MISSPELLED = 0.85
+"""A ratio of difflib, from which an unknown key is taken for a misspelled one."""
 
 
 class ImageSizeError(ValueError):
@@ -297,7 +302,10 @@ def _toml_camera(values: Mapping[str, Any], size: Size | None, path: PathLike) -
 
 
 def _toml_pose(values: Mapping[str, Any]) -> Pose | None:
-    given = [key for key in ("pose", "rotation", "translation") if key in values]
+    given = [key for key in POSE_KEYS if key in values]
+    for key in values.keys() - POSE_KEYS:
+        if meant := difflib.get_close_matches(key, POSE_KEYS, n=1, cutoff=LIKELY_MISSPELLED):
+            raise ValueError(f"{key}: unknown key; did you mean {meant[0]}?")
     if "pose" in given and len(given) > 1:
         raise ValueError(f"pose: expected alone, got also {given[1]}")
     if "pose" in given:

@@ -33,6 +33,9 @@ examples:
 RATES = (0.02, 0.05, 0.1, 0.2, 0.3)
 """False-positive rates at which the threshold is printed."""
 
+MAX_DISTANCE_RATIO = 1.5
+"""Between the given distance of a head and the measured one: matches on a blurred head may be off as much."""
+
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """Add the command's options to its parser."""
@@ -152,6 +155,8 @@ def _stereo_noise(options: argparse.Namespace, params: Any) -> dict[str, Any]:
         static = measure_static_head(found.prepare(source), head, found.rig, params)
     except ValueError as error:
         raise ValueError(f"{source.name}: {error}") from None
+    if options.distance is not None:
+        _check_distance(options.distance, float(static.positions[:, 2].mean()))
     measured = static.noise
     pairs = f"{static.frames} stereo pairs after the first, which gives the model"
     print(f"{source.name}: a head measured in {len(static.colors)} of {pairs}")
@@ -165,6 +170,14 @@ def _stereo_noise(options: argparse.Namespace, params: Any) -> dict[str, Any]:
         for axis, values in zip("XYZ", static.positions.T, strict=True):
             print(f"  {axis} {values.mean():8.3f} m ± {1000 * values.std(ddof=1):.1f} mm")
     return measured
+
+
+def _check_distance(given: float, measured: float) -> None:
+    """ValueError for a distance, meters, that is another one than measured: in another unit, or of another
+    head or camera. Its difference would count as noise.
+    """
+    if not 1 / MAX_DISTANCE_RATIO < given / measured < MAX_DISTANCE_RATIO:
+        raise ValueError(f"--distance: expected about {measured:.2f} m, as the pairs measure, got {given:g}")
 
 
 def _rounded(value: Any) -> Any:
