@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: MIT
 import csv
+import os
+import signal
+import subprocess
 import sys
+import time
 from dataclasses import replace
 from functools import cache, partial
 from pathlib import Path
@@ -76,6 +80,27 @@ def test_jobs_change_nothing(tmp_path, monkeypatch):
     one, two = (reproduce.run("sabeti-fig2", 2, tmp_path / str(jobs), jobs, models=models) for jobs in (1, 2))
     assert one.table.read_text() == two.table.read_text()
     assert one.summary == two.summary
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="children are counted in /proc")
+@pytest.mark.parametrize("after", [0.0, 0.3, 1.5])
+def test_ctrl_c_ends_all_processes_without_a_word(after, tmp_path):
+    """Also where they still import what they need, some seconds after they were started."""
+    hearing = "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); "
+    command = hearing + "from tricue.cli import main; sys.exit(main())"
+    options = ["reproduce", "sabeti-fig2", "--jobs", "2", "--output", str(tmp_path)]
+    child = subprocess.Popen(
+        [sys.executable, "-c", command, *options], stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+    started, deadline = Path(f"/proc/{child.pid}/task/{child.pid}/children"), time.monotonic() + 60
+    while len(started.read_text().split()) < 2 and time.monotonic() < deadline:
+        time.sleep(0.01)
+    time.sleep(after)
+    os.killpg(child.pid, signal.SIGINT)
+    _, error = child.communicate(timeout=60)
+    assert child.returncode == 130
+    assert error.splitlines()[-1] == "tricue reproduce: interrupted"
+    assert "Traceback" not in error
 
 
 def test_summary_counts_frames():

@@ -1,16 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Where tasks run: in this process, in several of this machine (joblib), on a Dask cluster. One code path."""
 
-import signal
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import FIRST_COMPLETED, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
 from itertools import islice
-from multiprocessing.resource_tracker import ensure_running
 from typing import Any, NamedTuple
 
 from tricue.errors import one_line
+from tricue.evaluation.interrupts import interrupts_later
 from tricue.evaluation.record import Record
 from tricue.evaluation.tasks import Task
 
@@ -84,7 +82,7 @@ def _run_in_pool(
     running: set[Any] = set()
     try:
         while True:
-            with _interrupts_later():
+            with interrupts_later():
                 running |= {
                     pool.submit(perform_task, index, tasks[index], perform)
                     for index in islice(left, jobs - len(running))
@@ -104,23 +102,6 @@ def _run_alone(tasks: Sequence[Task], index: int, perform: Perform, executor: An
             return next(_run_in_pool(tasks, [index], perform, pool, jobs=1))
     except BrokenProcessPool:
         return Finished(index, None, "its process was killed, twice; was there too little memory?")
-
-
-@contextmanager
-def _interrupts_later() -> Iterator[None]:
-    """Ctrl-C comes to this process afterwards, and never to one that is started here.
-
-    A terminal sends it to all. The processes would print where they were; this one ends them.
-    """
-    if not hasattr(signal, "pthread_sigmask"):  # on Windows
-        yield
-        return
-    ensure_running()  # Python 3.11 delivers the signal again when it starts this helper
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # inherited by what is started
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _run_on_cluster(tasks: Sequence[Task], perform: Perform, address: str) -> Generator[Finished, None, None]:

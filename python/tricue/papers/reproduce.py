@@ -10,6 +10,7 @@ from typing import Any
 
 from tricue.draw import figures
 from tricue.draw.writable import check_writable
+from tricue.evaluation.interrupts import end_when_interrupted, interrupts_later
 from tricue.papers.experiment import C, Case, Experiment, Maker, Models, Report, S
 from tricue.papers.moreno import experiments as moreno
 from tricue.papers.okada import experiments as okada
@@ -100,8 +101,13 @@ def _mapped(
     if jobs == 1:
         yield from map(work, tasks)
         return
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        yield from pool.map(work, tasks)
+    pool = ProcessPoolExecutor(jobs, get_context("spawn"), end_when_interrupted)
+    try:
+        with interrupts_later():  # until they have imported what they need
+            running = [pool.submit(work, task) for task in tasks]
+        yield from (each.result() for each in running)
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 def _curves(
