@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Frame, FusedTracker, Status
+from tricue.track.fused.identity import log_odds_of
 from tricue.track.fused.localize import TargetModel
 from tricue.track.fused.measure import Match
 from tricue.track.fused.memory import (
     FRAMES_APART,
     LOG_ODDS_ELSEWHERE,
-    MAX_VERIFIED_LOG_ODDS,
     Memory,
     limit_log_odds,
 )
@@ -111,28 +111,30 @@ def test_what_was_learned_since_is_verified_by_what_was_known():
     assert limited._replace(log_odds=match.log_odds) == match
 
 
-@pytest.mark.parametrize("offset", [(20, 0), (-30, 0), (0, 20), (0, -30)], ids=str)
+@pytest.mark.parametrize("offset", [(20, 0), (-24, 0), (0, 20), (0, -24)], ids=str)
 def test_a_target_seen_elsewhere_is_not_here(offset):
     """Models that see their target beside the match say so."""
     tracker = followed(1)
     match = in_doubt(match_of(tracker, picture(1, *offset)))
     assert limit_log_odds(model_of(tracker), match) == match
-    assert limit_log_odds(model_of(tracker), match._replace(target=TARGET)).log_odds == LOG_ODDS_ELSEWHERE
+    elsewhere = match._replace(right=0.0, down=0.0)
+    assert limit_log_odds(model_of(tracker), elsewhere).log_odds == LOG_ODDS_ELSEWHERE
 
 
 def test_a_match_of_high_log_odds_is_not_verified():
-    """What today's models and the first frame's are sure of stays as it is, without another window."""
+    """What has the log-odds that a missed target needs stays as it is."""
     before, today = followed(1), followed(2)
     match = match_of(today, picture(2))
-    assert match.log_odds > MAX_VERIFIED_LOG_ODDS
+    sure = log_odds_of(P.min_score_to_redetect)
+    assert match.log_odds > sure
     assert limit_log_odds(model_of(before), match) is match
-    least = match._replace(log_odds=MAX_VERIFIED_LOG_ODDS - 0.01)
+    least = match._replace(log_odds=sure - 0.01)
     assert limit_log_odds(model_of(before), least).log_odds < least.log_odds
 
 
 def test_update_asks_the_memory(monkeypatch):
     """A target that the models as they were don't know isn't TRACKED, and nothing of it is learned."""
-    monkeypatch.setattr(module, "MAX_VERIFIED_LOG_ODDS", math.inf)
+    monkeypatch.setattr(module, "log_odds_of", lambda score: math.inf)
     tracker, other = followed(1), followed(2)
     assert tracker.update(picture(1)).status is Status.TRACKED
     state = state_of(tracker)

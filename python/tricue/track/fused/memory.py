@@ -7,16 +7,15 @@ that learned it. Those from before it came don't recognize it, or see the target
 
 from typing import NamedTuple
 
-from tricue.track.fused.identity import in_any_light
+from tricue.track.fused.identity import in_any_light, log_odds_of
 from tricue.track.fused.localize import TargetModel, localize
 from tricue.track.fused.measure import Match, recognize
 from tricue.track.fused.models import ModelsByKind
-from tricue.track.fused.window import CELL_PIXELS, extract_windows
+from tricue.track.fused.window import CELL_PIXELS
 
 FRAMES_APART = 5  # from one snapshot to the next, of those that were recognized
 MAX_CELLS_OFF = 3  # from a match to where the models as they were see the target, if it is the same
 LOG_ODDS_ELSEWHERE = -5.0  # of a match that is farther off
-MAX_VERIFIED_LOG_ODDS = 4.0  # of a match; higher ones are the first frame's models' word, too
 
 
 class Memory(NamedTuple):
@@ -36,14 +35,16 @@ class Memory(NamedTuple):
 
 
 def limit_log_odds(remembered: TargetModel, match: Match) -> Match:
-    """A match in a color picture, its log-odds, unless they are high, at most those by the older models."""
-    if match.log_odds >= MAX_VERIFIED_LOG_ODDS:
+    """A match in a color picture, its log-odds at most those by the older models in the same window.
+
+    What has the log-odds that a missed target needs isn't asked for: the first frame's models are sure.
+    """
+    if match.log_odds >= log_odds_of(remembered.params.min_score_to_redetect):
         return match
-    window = extract_windows(match.observation, [match.target], remembered.params.context)[0]
-    candidate = localize(remembered, window)
-    if max(abs(candidate.right), abs(candidate.down)) > CELL_PIXELS * MAX_CELLS_OFF:
+    seen = localize(remembered, match.window)
+    if max(abs(seen.right - match.right), abs(seen.down - match.down)) > CELL_PIXELS * MAX_CELLS_OFF:
         log_odds = LOG_ODDS_ELSEWHERE
     else:
-        recognition = recognize(remembered, candidate)
+        recognition = recognize(remembered, seen)
         log_odds = in_any_light(recognition.log_odds, recognition.structure_log_odds)
     return match._replace(log_odds=min(match.log_odds, log_odds))
