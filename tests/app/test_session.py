@@ -179,6 +179,20 @@ def test_error_of_a_tracker_is_told_once(
     assert max(session.project.target(2).tracks) == FRAMES - 1
 
 
+def test_a_box_that_is_unknown_is_the_last_one(
+    video: Path, session_of: SessionOf, counting: type[Counting], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A third party's tracker may not know where a lost target is; pages and exports need numbers."""
+    unknown = Track(Box(float("nan"), 0, 1, 1), 0.0, Status.LOST)
+    monkeypatch.setattr(counting, "update", lambda *_: unknown)
+    session = session_of(video)
+    session.add(0, START, "counting")
+    run(session, 0, 1)
+    assert session.errors == []
+    assert {track.box for track in session.project.target(1).tracks.values()} == {START}
+    assert len(json.loads(EXPORTS["json"].write(session.tracked()))["tracks"]) == FRAMES
+
+
 @pytest.mark.usefixtures("counting")
 def test_undo_of_a_run(video: Path, session_of: SessionOf) -> None:
     """One undo takes back a run, the next the box, and redo brings both again."""

@@ -153,6 +153,32 @@ def test_coco_names_a_folders_images(tmp_path: Path, drift_tracker: str) -> None
     assert [each["file_name"] for each in found] == ["10.png", "11.png"]
 
 
+UNSURE = """
+import tricue
+
+class Unsure:
+    def init(self, image, box):
+        self.count = 0
+
+    def update(self, image):
+        self.count += 1
+        if self.count % 2:
+            return tricue.Track(tricue.Box(float("nan"), 0, 1, 1), 0.0, tricue.Status.LOST)
+        return tricue.Track(tricue.Box(1, 2, 8, 9), 0.5, tricue.Status.TRACKED)
+"""
+
+
+def test_a_box_that_a_third_party_does_not_know(video: Path, tmp_path: Path) -> None:
+    """A lost target without a box has its last one, of which all files can tell."""
+    (tmp_path / "theirs.py").write_text(UNSURE)
+    words = ["--tracker", f"{tmp_path}/theirs.py:Unsure", "--box", BOX, *out(tmp_path), "--trail"]
+    assert main(["track", str(video), *words]) == 0
+    rows = json.loads((tmp_path / "o.json").read_text())["tracks"]
+    assert [row["x"] for row in rows] == [20, 20, 1, 1, 1, 1]
+    assert [row["status"] == "lost" for row in rows] == [False, True, False, True, False, True]
+    assert count_frames(tmp_path / "o.avi") == 6
+
+
 @pytest.mark.parametrize("option", ["--csv", "--mot", "--coco", "--output"])
 def test_json_alone_goes_to_standard_output(
     video: Path,

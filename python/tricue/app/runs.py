@@ -13,6 +13,7 @@ from tricue.app.project import Target
 from tricue.app.trackers import make_tracker
 from tricue.camera.frame import Frame
 from tricue.data.prefetch import prefetch
+from tricue.track.base.adapter import with_known_numbers
 from tricue.track.base.track import Status, Track, Tracker
 
 Direction = Literal[1, -1]
@@ -104,9 +105,12 @@ class Follower:
         tracker, before = following[target.id], time.perf_counter()
         try:
             if number == run.start:
-                track = tracker.init(frame, target.tracks[number].box)
+                last = target.tracks[number].box
+                track = tracker.init(frame, last)
             else:
+                last = self._paused[target.id].last.box
                 track = tracker.update(frame)
+            track = with_known_numbers(track, last)
         except Exception as error:  # whatever a third party's tracker raises
             del following[target.id]
             self._paused.pop(target.id, None)

@@ -10,6 +10,7 @@ from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.cli.outputs import Step
 from tricue.errors import TargetNotFoundError
+from tricue.track.base import adapter
 from tricue.track.base.track import Status, Track, Tracker
 from tricue.track.multi.tracker import MultiTracker
 
@@ -94,6 +95,21 @@ def steps_of_targets(
             clock.tracking, clock.updates = clock.tracking + seconds, clock.updates + 1
         if tracks:
             yield Step(index, frame, next(iter(tracks.values())), seconds, tracks=tracks)
+
+
+def with_known_numbers(found: Iterable[Step]) -> Iterator[Step]:
+    """The steps, with what files and pictures can tell of third parties' tracks: see
+    :func:`tricue.track.base.adapter.with_known_numbers`.
+    """
+    last: dict[int, Box] = {}
+    for step in found:
+        tracks = {
+            target: adapter.with_known_numbers(track, last.get(target, track.box))
+            for target, track in step.targets.items()
+        }
+        last |= {target: track.box for target, track in tracks.items()}
+        several = None if step.tracks is None else tracks
+        yield step._replace(track=next(iter(tracks.values())), tracks=several)
 
 
 @contextmanager

@@ -19,7 +19,7 @@ from tricue.cli.outputs import STANDARD_OUTPUT, CsvOutput, JsonLines, JsonOutput
 from tricue.cli.progress import Progress
 from tricue.cli.signals import catch_signals
 from tricue.cli.starts import in_options, start_hint
-from tricue.cli.steps import RunClock, steps, steps_of_targets
+from tricue.cli.steps import RunClock, steps, steps_of_targets, with_known_numbers
 from tricue.cli.track_options import EXAMPLES, add_options
 from tricue.cli.track_preparation import TrackRun, prepare
 from tricue.cli.track_report import not_started, plot, report, require_all_started
@@ -46,7 +46,7 @@ def run(options: argparse.Namespace) -> int:
         else:
             targets = files.enter_context(run.targets)
             found = steps_of_targets(targets, frames, run.boxes, clock, run.first)
-        for step in map(run.known, _with_start_hint(found, run, clock)):
+        for step in with_known_numbers(map(run.known, _with_start_hint(found, run, clock))):
             if not tracks:  # only now: a run that never starts leaves the files of an earlier one alone
                 outputs.extend(map(files.enter_context, _outputs(options, run)))
             for output in outputs:

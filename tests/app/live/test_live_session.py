@@ -8,7 +8,7 @@ from pathlib import Path
 
 import cv2
 import pytest
-from tricue import Box, Status
+from tricue import Box, Status, Track
 
 from tests.app.conftest import START
 from tests.app.live import conftest as live_conftest
@@ -146,6 +146,19 @@ def test_a_tracker_that_breaks_ends_alone(studio: Studio, monkeypatch: pytest.Mo
     assert [each.stopped for each in studio.session.targets] == [False, True]
     assert studio.session.recent[-1].tracks[2].status is Status.LOST
     assert abs(place(studio).x - START.x - level(number)) < 3
+
+
+def test_a_box_that_is_unknown_is_the_last_one(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that a lost target without a box, as a third party's may be, stays where it was seen last."""
+    studio.begin()
+    studio.session.add(0, list(START), "fused")
+    unknown = Track(Box(float("nan"), 0, 1, 1), 0.0, Status.LOST)
+    monkeypatch.setattr(studio.session.targets[0].tracker, "update", lambda _: unknown)
+    studio.session.record()
+    studio.shows(3)
+    assert place(studio) == START
+    assert studio.session.errors == []
+    assert studio.session.recorder is not None
 
 
 def test_what_is_recorded(studio: Studio, tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from tricue import Box, Frame, Status, Track, create
 from tricue.errors import MissingChannelError
-from tricue.track.base.adapter import adapt_class
+from tricue.track.base.adapter import adapt_class, with_known_numbers
 from tricue.track.base.frame_image import FrameImage
 
 PIXELS = np.arange(40 * 60 * 3, dtype=np.uint8).reshape(40, 60, 3)
@@ -110,6 +110,19 @@ def test_nonsense(answer, message) -> None:
     tracker.init(PIXELS, FIRST)
     with pytest.raises(ValueError, match=message):
         tracker.update(PIXELS)
+
+
+def test_numbers_that_are_not_known() -> None:
+    """It proves what files and pictures get where a third party's track has numbers that aren't finite, and
+    that any other track is left as it is.
+    """
+    whole = Track(Box(*OTHER), 0.5, Status.TRACKED, np.ones(3), np.eye(3), 1.0)
+    assert with_known_numbers(whole, Box(*FIRST)) is whole
+    place, covariance = np.full(3, np.inf), np.full((3, 3), np.nan)
+    unknown = Track(Box(1, float("nan"), 3, 4), 0.0, Status.LOST, place, covariance, np.nan)
+    assert with_known_numbers(unknown, Box(*FIRST)) == Track(Box(*FIRST), 0.0, Status.LOST)
+    plain = Track(Box(*OTHER), 0.5, Status.TRACKED, (1.0, 2.0, 3.0))  # type: ignore[arg-type]
+    assert np.array_equal(with_known_numbers(plain, Box(*FIRST)).position, [1.0, 2.0, 3.0])
 
 
 def test_a_seed_is_for_those_who_take_one() -> None:

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import tricue
 from tricue.scenes import WalkScene, head
+from tricue.track.base.adapter import adapt_class
 from tricue.track.base.track import Tracker
 
 BRIGHT = np.full((20, 30, 3), 200, np.uint8)
@@ -27,6 +28,20 @@ def test_only_lost_is_not_ok(drift: Tracker, value: int, ok: bool) -> None:
     tracker = tricue.as_opencv(drift)
     tracker.init(BRIGHT, (1, 2, 8, 9))
     assert tracker.update(np.full_like(BRIGHT, value))[0] is ok
+
+
+def test_a_box_that_is_unknown_is_the_last_one() -> None:
+    """A third party's tracker may not know where a lost target is; whole numbers are wanted all the same."""
+
+    class Unsure:
+        def init(self, image: object, box: object) -> None: ...
+
+        def update(self, image: object) -> tricue.Track:
+            return tricue.Track(tricue.Box(float("nan"), 0, 1, 1), 0.0, tricue.Status.LOST)
+
+    tracker = tricue.as_opencv(adapt_class(Unsure)())
+    tracker.init(BRIGHT, (1, 2, 8, 9))
+    assert tracker.update(BRIGHT) == (False, (1, 2, 8, 9))
 
 
 def test_init_starts_again(drift: Tracker) -> None:

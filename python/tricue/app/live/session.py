@@ -23,6 +23,7 @@ from tricue.data.live import Health, Live
 from tricue.data.source import Source
 from tricue.errors import one_line
 from tricue.export.table import TableForm
+from tricue.track.base.adapter import with_known_numbers
 from tricue.track.base.track import Status, Track, Tracker
 
 KEPT = 900  # frames whose tracks pages that come later are told
@@ -235,7 +236,8 @@ class LiveSession:
         """Show a tracker the frames that it hasn't seen; an error ends it alone."""
         for number, frame in [] if followed.stopped else self._backlog.since(followed.at):
             try:
-                followed.track = self._measured(followed.tracker.update(frame))
+                track = self._measured(followed.tracker.update(frame))
+                followed.track = with_known_numbers(track, followed.track.box)
             except Exception as error:  # whatever a third party's tracker raises
                 followed.stopped = True
                 followed.track = replace(followed.track, status=Status.LOST)
@@ -295,7 +297,7 @@ class LiveSession:
             raise ValueError(f"frame: expected the number of a frame that is shown, got {number!r:.40}")
         frame = self._backlog.get(number)
         tracker = make_tracker(target.tracker, self.source, self._cameras, self.seed)
-        track = self._measured(tracker.init(frame, box))
+        track = with_known_numbers(self._measured(tracker.init(frame, box)), box)
         self._followed[target.id] = Followed(target, tracker, track, number)
         self._backlog.hold(target.id, number)
         if self.phase == "paused":  # the picture stays, so its tracks are told anew

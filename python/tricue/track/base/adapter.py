@@ -72,6 +72,25 @@ def check_track(track: Any, method: str) -> Track:
     return replace(track, box=box)
 
 
+def with_known_numbers(track: Track, last: Box) -> Track:
+    """The track with finite numbers alone, which files and pictures need.
+
+    Where a third party's box of a lost target is unknown, it is the ``last`` one; a position, covariance or
+    depth that isn't finite is None; a position that is a tuple becomes an array.
+    """
+    known: dict[str, Any] = {} if all(map(math.isfinite, track.box)) else {"box": last}
+    for name in ("position", "covariance"):
+        value = getattr(track, name)
+        array = None if value is None else np.asarray(value, np.float64)
+        if array is not None and not np.isfinite(array).all():
+            array = None
+        if array is not value:
+            known[name] = array
+    if track.depth is not None and not math.isfinite(track.depth):
+        known["depth"] = None
+    return replace(track, **known) if known else track
+
+
 def is_of_cv2(tracker: Any) -> bool:
     """Whether it is one of cv2's own trackers."""
     return type(tracker).__module__.partition(".")[0] == "cv2"

@@ -3,6 +3,7 @@
 
 from tricue.camera.box import BoxLike
 from tricue.camera.frame import FrameLike
+from tricue.track.base.adapter import with_known_numbers
 from tricue.track.base.track import Status, Track, Tracker
 
 
@@ -19,7 +20,8 @@ class OpenCVTracker:
 
     def update(self, image: FrameLike) -> tuple[bool, tuple[int, int, int, int]]:
         """Whether the target is still tracked (False if lost), and its box in whole pixels."""
-        self._track = self.tracker.update(image)
+        track = self.tracker.update(image)
+        self._track = track if self._track is None else with_known_numbers(track, self._track.box)
         return self._track.status is not Status.LOST, self._track.box.as_int()
 
     def getTrackingScore(self) -> float:  # noqa: N802 (as cv2 names it)
