@@ -2,13 +2,16 @@
 """A camera in work: a box belongs to the frame it was drawn in, trackers catch up, recordings are whole."""
 
 import csv
+import errno
 import json
 import warnings
 from pathlib import Path
+from types import SimpleNamespace
 
 import cv2
 import pytest
 from tricue import Box, Status, Track
+from tricue.draw.video import count_frames
 
 from tests.app.conftest import START
 from tests.app.live import conftest as live_conftest
@@ -215,6 +218,24 @@ def test_a_recording_is_finished_at_the_end(studio: Studio) -> None:
     wait(lambda: studio.device.closed >= studio.device.opened)
     studio.session.start()  # too late
     assert studio.device.opened == studio.device.closed
+
+
+def test_a_table_that_cannot_be_finished(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that a disk that is full is told, and that the other files of the recording are finished."""
+    studio.begin()
+    studio.session.record()
+    studio.shows(3)
+    recorder = studio.session.recorder
+
+    def full(_text: str) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(recorder, "_json", SimpleNamespace(write=full, close=recorder._json.close))
+    studio.session.stop_recording()
+    assert studio.session.errors == ["not recorded: No space left on device"]
+    assert recorder._csv.closed
+    assert not recorder._thread.is_alive()
+    assert count_frames(recorder.files[2]) > 0
 
 
 def test_a_folder_that_cannot_be_written(studio: Studio, tmp_path: Path) -> None:

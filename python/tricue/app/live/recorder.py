@@ -6,7 +6,7 @@ import io
 import json
 import threading
 from collections.abc import Iterable, Sequence
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from queue import Full, Queue
 from typing import Any, NamedTuple, TextIO
@@ -79,15 +79,16 @@ class Recorder:
             self._waiting.put_nowait(VideoFrame(seconds, frame, tracks))
 
     def close(self) -> None:
-        """Finish the files."""
+        """Finish the files, each of them even where another can't be. OSError where a table can't."""
         told = [
             {"id": each.id, "name": each.name, "tracker": each.tracker} for each in self._targets.values()
         ]
-        self._json.write(f'\n ],\n "targets": {json.dumps(told, ensure_ascii=False)}\n}}\n')
-        self._json.close()
-        self._csv.close()
-        self._waiting.put(None)
-        self._thread.join()
+        with ExitStack() as finishing:
+            finishing.callback(self._thread.join)
+            finishing.callback(self._waiting.put, None)
+            finishing.callback(self._csv.close)
+            finishing.callback(self._json.close)
+            self._json.write(f'\n ],\n "targets": {json.dumps(told, ensure_ascii=False)}\n}}\n')
 
     def _put_rows(self, rows: Iterable[Iterable[Any]]) -> None:
         text = io.StringIO()
