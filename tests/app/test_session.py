@@ -267,6 +267,14 @@ def test_run_that_cannot_be_is_refused(
     assert session.run is None
 
 
+def test_no_targets_are_not_all(video: Path, session_of: SessionOf) -> None:
+    """Without a list all are followed; an empty one names none."""
+    session = session_of(video)
+    session.add(0, START, "fused")
+    with pytest.raises(ValueError, match="draw one around a target"):
+        session.track(0, 1, [])
+
+
 @pytest.mark.usefixtures("counting")
 def test_trackers_are_those_that_fit(video: Path, session_of: SessionOf) -> None:
     """Color alone has no tracker that needs depth or a pair; each tells what it follows."""

@@ -77,11 +77,17 @@ def delete_target(project: Project, number: int) -> Project:
     return replace(project, targets=tuple(each for each in project.targets if each is not gone))
 
 
-def rename_target(project: Project, number: int, name: Any) -> Project:
-    """The target by another name, of 1 to MAX_NAME characters."""
+def checked_name(name: Any) -> str:
+    """A target's name with single spaces; ValueError for none, or one of more than MAX_NAME characters."""
     words = " ".join(name.split()) if isinstance(name, str) else ""
     if not 0 < len(words) <= MAX_NAME:
         raise ValueError(f"name: expected 1 to {MAX_NAME} characters, got {name!r:.100}")
+    return words
+
+
+def rename_target(project: Project, number: int, name: Any) -> Project:
+    """The target by another name, of 1 to MAX_NAME characters."""
+    words = checked_name(name)
     return _changed(project, number, lambda target: replace(target, name=words))
 
 

@@ -11,6 +11,7 @@ from tricue.app.exports import boxed_channel, picture
 from tricue.app.frames import Recording
 from tricue.app.local_server import Served
 from tricue.app.session import Session
+from tricue.app.trackers import default_tracker
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.draw.canvas import Image
@@ -29,8 +30,7 @@ class Serving(Served):
 
     def __post_init__(self) -> None:
         self.frame_lock = threading.Lock()
-        known = self.session.trackers
-        self.tracker = self.tracker or ("fused" if "fused" in known else next(iter(known), ""))
+        self.tracker = self.tracker or default_tracker(self.session.trackers)
 
     @contextmanager
     def recording(self) -> Iterator[Recording]:

@@ -171,7 +171,7 @@ class Session:
             self.pause()
             self._check_video()
             present = self.history.present
-            chosen = [present.target(each) for each in targets] if targets else list(present.targets)
+            chosen = present.targets if targets is None else [present.target(each) for each in targets]
             able = [each for each in chosen if self._follower.can_start(each, frame, step)]
             if not able:
                 who = chosen[0].name if len(chosen) == 1 else "any target" if chosen else "a target"

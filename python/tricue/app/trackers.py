@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The trackers for what a source has: which there are, and a new one as it suits the source."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from tricue.data.source import Source
@@ -12,6 +12,11 @@ from tricue.track.base.track import Tracker
 def fitting_trackers(source: Source) -> dict[str, str]:
     """The trackers that run on the source's channels, and what each follows."""
     return {name: traits(name).follows for name in names() if traits(name).best(source.channels) is not None}
+
+
+def default_tracker(fitting: Collection[str]) -> str:
+    """Which of the fitting trackers a page offers first; "" where there is none."""
+    return "fused" if "fused" in fitting else next(iter(fitting), "")
 
 
 def make_tracker(name: str, source: Source, cameras: Mapping[str, Any], seed: int) -> Tracker:

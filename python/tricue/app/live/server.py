@@ -19,6 +19,7 @@ from tricue.app.exports import picture
 from tricue.app.feed import as_row
 from tricue.app.live.session import LiveSession, Shown
 from tricue.app.local_server import Served
+from tricue.app.trackers import default_tracker
 from tricue.app.web import OwnPagesOnly, answer, as_json, attached, bound, jpeg, page_of, talk, tell
 
 INTERVAL = 0.04  # seconds between what a page is told
@@ -58,7 +59,7 @@ def state(serving: LiveServing) -> dict[str, Any]:
         "channels": [] if session.source is None else list(session.source.channels),
         "fps": 0 if session.source is None else session.source.fps,
         "trackers": known,
-        "tracker": serving.tracker or ("fused" if "fused" in known else next(iter(known), "")),
+        "tracker": serving.tracker or default_tracker(known),
         "folder": str(session.folder),
         "recording": session.recorder is not None,
         "recorded": [path.name for path in session.recorded],

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from tricue.app.frames import image_of
 from tricue.app.live.backlog import Backlog
 from tricue.app.live.recorder import Recorder
-from tricue.app.project import MAX_NAME, Target
+from tricue.app.project import Target, checked_name
 from tricue.app.trackers import fitting_trackers, make_tracker
 from tricue.camera.box import Box, as_box
 from tricue.camera.frame import Frame
@@ -277,9 +277,7 @@ class LiveSession:
 
     def rename(self, target: Any, name: Any) -> None:
         """Call a target something else."""
-        words = " ".join(name.split()) if isinstance(name, str) else ""
-        if not 0 < len(words) <= MAX_NAME:
-            raise ValueError(f"name: expected 1 to {MAX_NAME} characters, got {name!r:.100}")
+        words = checked_name(name)
         with self._lock:
             followed = self._get(target)
             followed.target = replace(followed.target, name=words)
