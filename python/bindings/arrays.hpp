@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "base/arrays.hpp"
@@ -110,6 +112,13 @@ inline ImageView gray_image(const py::object& object, const char* name) {
     return byte_image(object, name, "a uint8 gray image (H, W)");
 }
 
+/// BGR, or gray.
+inline ImageView any_image(const py::object& object, const char* name) {
+    const bool gray =
+        py::isinstance<py::array>(object) && py::reinterpret_borrow<py::array>(object).ndim() == 2;
+    return gray ? gray_image(object, name) : color_image(object, name);
+}
+
 inline PlaneView plane_view(const py::object& object, const char* name, const char* expected) {
     const auto array = packed_rows<float>(object, name, expected);
     return {static_cast<const float*>(array.data()), image_side(array, 0, name), image_side(array, 1, name),
@@ -198,6 +207,23 @@ inline Bgr bgr(const py::object& object, const char* name) {
         throw py::value_error(std::string(name) + ": expected " + expected + ", got " + describe(array));
     const auto* data = contiguous<std::uint8_t>(array, name);
     return {data[0], data[1], data[2]};
+}
+
+/// x0, y0, x1, y1, pixels.
+using RegionTuple = std::tuple<int, int, int, int>;
+
+inline Region region_of(const RegionTuple& corners) {
+    const auto [x0, y0, x1, y1] = corners;
+    return {x0, y0, x1, y1};
+}
+
+inline std::optional<Region> region_of(const std::optional<RegionTuple>& corners) {
+    if (!corners) return {};
+    return region_of(*corners);
+}
+
+inline RegionTuple tuple_of(const Region& region) {
+    return {region.x0, region.y0, region.x1, region.y1};
 }
 
 /// Factors of blue, green and red.

@@ -23,7 +23,6 @@ namespace tricue::bindings {
 namespace {
 
 using Corners = std::tuple<double, double, double, double>;
-using Box = std::tuple<int, int, int, int>;
 using Bytes = Array<std::uint8_t>;
 
 PlaneView plane(const py::object& object, const char* name) {
@@ -102,13 +101,12 @@ std::tuple<Bytes, Array<float>> target_pixels_arrays(const std::vector<Array<flo
     return {give(std::move(target.mask)), give(std::move(target.posterior))};
 }
 
-std::tuple<Box, std::int64_t, Bytes> temporal_window_arrays(const Bytes& mask, int neighbors, double share,
-                                                            double trim) {
+std::tuple<RegionTuple, std::int64_t, Bytes> temporal_window_arrays(const Bytes& mask, int neighbors,
+                                                                    double share, double trim) {
     const auto set = mask_view(mask, "mask");
     auto window = unlocked(std::ptrdiff_t{set.rows} * set.cols,
                            [&] { return temporal_window(set, neighbors, share, trim); });
-    const auto& box = window.box;
-    return {Box{box.x0, box.y0, box.x1, box.y1}, window.count, give(std::move(window.mask))};
+    return {tuple_of(window.box), window.count, give(std::move(window.mask))};
 }
 
 using Counts = Array<std::int64_t>;
@@ -208,7 +206,7 @@ std::tuple<Array<double>, Array<double>, Array<double>> target_model_arrays(
 
 using Seen = std::tuple<Counts, Counts, Counts, Array<double>, Counts>;
 
-std::tuple<Box, std::int64_t, Bytes, Seen, double> observe_target_arrays(
+std::tuple<RegionTuple, std::int64_t, Bytes, Seen, double> observe_target_arrays(
     const std::vector<Array<float>>& planes, const Array<double>& densities,
     const std::vector<std::pair<double, double>>& ranges, const Array<double>& alternatives,
     const Corners& window, const Corners& candidate, double threshold,
@@ -244,16 +242,16 @@ std::tuple<Box, std::int64_t, Bytes, Seen, double> observe_target_arrays(
                           });
     auto& [kept, counts, occluded] = found;
     return {
-        Box{kept.box.x0, kept.box.y0, kept.box.x1, kept.box.y1}, kept.count, give(std::move(kept.mask)),
+        tuple_of(kept.box), kept.count, give(std::move(kept.mask)),
         Seen{give(std::move(counts.pixels)), give(std::move(counts.targets)),
              give(std::move(counts.readings)), give(std::move(counts.mean)), give(std::move(counts.similar))},
         occluded};
 }
 
-std::tuple<Box, std::int64_t> target_outline_numbers(const Bytes& mask, const Array<float>& disparity,
-                                                     const Array<double>& corners, const Place& place,
-                                                     const Counts& of_blocks, double target,
-                                                     double tolerance) {
+std::tuple<RegionTuple, std::int64_t> target_outline_numbers(const Bytes& mask, const Array<float>& disparity,
+                                                             const Array<double>& corners, const Place& place,
+                                                             const Counts& of_blocks, double target,
+                                                             double tolerance) {
     const auto set = mask_view(mask, "mask");
     const auto distances = plane(disparity, "disparity");
     const BlockGrid grid = grid_of(corners, place);
@@ -262,7 +260,7 @@ std::tuple<Box, std::int64_t> target_outline_numbers(const Bytes& mask, const Ar
         return target_outline(set, distances, grid, numbers, static_cast<float>(target),
                               static_cast<float>(tolerance));
     });
-    return {Box{found.box.x0, found.box.y0, found.box.x1, found.box.y1}, found.count};
+    return {tuple_of(found.box), found.count};
 }
 
 Bytes block_mask_array(const Array<double>& blocks, int height, int width) {

@@ -17,7 +17,6 @@
 namespace tricue::bindings {
 namespace {
 
-using Corners = std::tuple<int, int, int, int>;
 using Triple = std::tuple<int, int, int>;
 
 ColorSpace color_space(const Triple& bins, int chroma) {
@@ -31,12 +30,11 @@ Array<double> image_mean_array(const Array<std::uint8_t>& image, int step) {
                          [&] { return image_mean(view, step); }));
 }
 
-Array<std::uint16_t> color_bins_arrays(const Array<std::uint8_t>& image, const Corners& region,
+Array<std::uint16_t> color_bins_arrays(const Array<std::uint8_t>& image, const RegionTuple& region,
                                        const Triple& bins, int chroma, int step,
                                        const std::optional<Array<double>>& gains) {
     const auto view = color_image(image, "image");
-    const auto [x0, y0, x1, y1] = region;
-    const Region corners{x0, y0, x1, y1};
+    const Region corners = region_of(region);
     const ColorSpace space = color_space(bins, chroma);
     const auto light = gains ? std::optional(channel_gains(*gains)) : std::nullopt;
     return give(unlocked(work_in(corners.clipped(view)),
@@ -45,8 +43,8 @@ Array<std::uint16_t> color_bins_arrays(const Array<std::uint8_t>& image, const C
 
 BinsView bins_image(const Array<std::uint16_t>& bins) {
     const auto array = require<std::uint16_t>(bins, "bins", 2, "uint16 bins (H, W)");
-    return {contiguous<std::uint16_t>(array, "bins"), static_cast<int>(array.shape(0)),
-            static_cast<int>(array.shape(1))};
+    return {contiguous<std::uint16_t>(array, "bins"), image_side(array, 0, "bins"),
+            image_side(array, 1, "bins")};
 }
 
 /// Without a mask a view without data.

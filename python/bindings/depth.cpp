@@ -36,11 +36,10 @@ Bytes changed_depth_arrays(const Array<float>& depth, const Array<float>& before
 }
 
 Array<float> remember_depth_arrays(const Array<float>& depth, const Array<float>& before,
-                                   std::tuple<int, int, int, int> region, double z, double reach) {
+                                   const RegionTuple& region, double z, double reach) {
     const auto view = depth_image(depth, "depth");
     const auto old = depth_image(before, "before");
-    const auto [x0, y0, x1, y1] = region;
-    const Region place{x0, y0, x1, y1};
+    const Region place = region_of(region);
     return give(unlocked(pixels(view), [&] { return remember_depth(view, old, place, z, reach); }));
 }
 
@@ -85,7 +84,7 @@ Array<float> fill_gaps_arrays(const Array<float>& depth, double gap, double slop
     return give(unlocked(pixels(view), [&] { return fill_gaps(view, gap, slope, ragged, passes); }));
 }
 
-std::tuple<Array<float>, Array<double>, std::tuple<int, int, int, int>> find_foreground_arrays(
+std::tuple<Array<float>, Array<double>, RegionTuple> find_foreground_arrays(
     const Array<float>& depth, int step, std::tuple<double, double, double, int> gaps,
     const Array<double>& camera, const Array<double>& plane, std::pair<double, int> floor,
     std::tuple<double, double, double> space, double margin) {
@@ -99,10 +98,7 @@ std::tuple<Array<float>, Array<double>, std::tuple<int, int, int, int>> find_for
     auto found = unlocked(pixels(view), [&] {
         return find_foreground(view, step, filled, lens, ground, {floor.first, floor.second}, within, margin);
     });
-    const Region& measured = found.measured;
-    return {give(std::move(found.depth)),
-            give(std::move(found.support)),
-            {measured.x0, measured.y0, measured.x1, measured.y1}};
+    return {give(std::move(found.depth)), give(std::move(found.support)), tuple_of(found.measured)};
 }
 
 Eigen::Map<const Triples> index_triples(const Array<std::int64_t>& triples) {

@@ -157,17 +157,12 @@ std::tuple<Array<double>, Array<bool>, Array<double>, Array<double>> complete_bo
             give(std::move(body.signature))};
 }
 
-Region region_of(const std::tuple<int, int, int, int>& sides) {
-    const auto [x0, y0, x1, y1] = sides;
-    return {x0, y0, x1, y1};
-}
-
 std::tuple<Array<double>, Array<bool>, Array<float>, Array<float>> segment_depth_arrays(
     const Array<float>& depth, const Array<float>& before, std::pair<double, double> noise,
-    std::tuple<int, int, int, int> region, const Array<double>& camera, const Array<double>& plane,
-    std::tuple<int, int, int, int> measured, std::tuple<double, double, int> levels,
-    std::pair<double, double> edges, std::pair<double, double> density, int min_area,
-    std::tuple<int, double, double, double> cut, std::pair<double, double> standing) {
+    const RegionTuple& region, const Array<double>& camera, const Array<double>& plane,
+    const RegionTuple& measured, std::tuple<double, double, int> levels, std::pair<double, double> edges,
+    std::pair<double, double> density, int min_area, std::tuple<int, double, double, double> cut,
+    std::pair<double, double> standing) {
     const auto meters = depth_image(depth, "depth");
     const SearchedPixels searched{region_of(region), depth_image(before, "before"), noise.first,
                                   noise.second};

@@ -10,14 +10,7 @@ namespace tricue::bindings {
 namespace {
 
 using Bytes = Array<std::uint8_t>;
-using Rectangle = std::optional<std::tuple<int, int, int, int>>;
 using Planes = std::tuple<Array<float>, Array<float>, Array<float>, Array<float>>;
-
-std::optional<Region> part(const Rectangle& rectangle) {
-    if (!rectangle) return {};
-    const auto [x0, y0, x1, y1] = *rectangle;
-    return Region{x0, y0, x1, y1};
-}
 
 std::ptrdiff_t work(const ImageView& frame, const std::optional<Region>& region) {
     return region ? work_in(*region) : std::ptrdiff_t{frame.rows} * frame.cols;
@@ -33,19 +26,19 @@ Planes give_planes(FlowPlanes&& flow) {
 }
 
 Planes gradient_flow_arrays(const Bytes& previous, const Bytes& current, double sigma, double min_angle,
-                            double min_contrast, const Rectangle& rectangle) {
+                            double min_contrast, const std::optional<RegionTuple>& corners) {
     const auto before = gray_image(previous, "previous"), now = gray_image(current, "current");
-    const auto region = part(rectangle);
+    const auto region = region_of(corners);
     return give_planes(unlocked(work(now, region), [&] {
         return gradient_flow(before, now, sigma, {min_angle, min_contrast}, region);
     }));
 }
 
 Planes pyramid_flow_arrays(const Bytes& previous, const Bytes& current, double sigma, int levels,
-                           double min_angle, double min_contrast, const Rectangle& rectangle, int pool,
-                           double max_step) {
+                           double min_angle, double min_contrast, const std::optional<RegionTuple>& corners,
+                           int pool, double max_step) {
     const auto before = gray_image(previous, "previous"), now = gray_image(current, "current");
-    const auto region = part(rectangle);
+    const auto region = region_of(corners);
     return give_planes(unlocked(work(now, region), [&] {
         return pyramid_flow(before, now, sigma, {levels, pool, max_step}, {min_angle, min_contrast}, region);
     }));

@@ -14,9 +14,7 @@ namespace {
 using Bytes = Array<std::uint8_t>;
 
 Bytes sample_windows_arrays(const Bytes& image, const Array<double>& windows, int rows, int columns) {
-    const bool gray =
-        py::isinstance<py::array>(image) && py::reinterpret_borrow<py::array>(image).ndim() == 2;
-    const auto view = gray ? gray_image(image, "image") : color_image(image, "image");
+    const auto view = any_image(image, "image");
     const auto each = states(windows, "windows");
     const auto work = work_of(each.rows(), rows, columns);
     auto samples = unlocked(work, [&] { return sample_windows(view, each, rows, columns); });

@@ -14,7 +14,6 @@ namespace tricue::bindings {
 namespace {
 
 using Bytes = Array<std::uint8_t>;
-using Corners = std::tuple<int, int, int, int>;
 
 Bytes skin_reference_arrays(const Bytes& patch) {
     const auto view = color_image(patch, "patch");
@@ -29,11 +28,10 @@ Array<std::int16_t> skin_boundary_arrays(const Bytes& image, const Bytes& refere
 }
 
 Array<double> skin_moments_arrays(const Bytes& image, const Bytes& reference, double threshold,
-                                  const Corners& region) {
+                                  const RegionTuple& region) {
     const auto view = color_image(image, "image");
     const auto color = bgr(reference, "reference");
-    const auto [x0, y0, x1, y1] = region;
-    const Region corners{x0, y0, x1, y1};
+    const Region corners = region_of(region);
     return give(unlocked(std::ptrdiff_t{view.rows} * view.cols,
                          [&] { return skin_moments(view, color, threshold, corners); }));
 }

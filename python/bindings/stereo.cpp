@@ -17,20 +17,12 @@ namespace tricue::bindings {
 namespace {
 
 using Bytes = Array<std::uint8_t>;
-using Rectangle = std::tuple<int, int, int, int>;
 
-/// BGR, or gray.
-ImageView any_image(const Bytes& image, const char* name) {
-    const bool color = py::isinstance<py::array>(image) && py::cast<py::array>(image).ndim() == 3;
-    return color ? color_image(image, name) : gray_image(image, name);
-}
-
-Array<float> sad_disparity_arrays(const Bytes& left, const Bytes& right, const Rectangle& region,
+Array<float> sad_disparity_arrays(const Bytes& left, const Bytes& right, const RegionTuple& region,
                                   bool ellipse, int first, int last, int window, int uniqueness,
                                   bool prefilter, int tolerance) {
     const auto view = gray_image(left, "left"), other = gray_image(right, "right");
-    const auto [x0, y0, x1, y1] = region;
-    const StereoRegion part{{x0, y0, x1, y1}, ellipse};
+    const StereoRegion part{region_of(region), ellipse};
     const StereoMatching matching{window, uniqueness, prefilter, tolerance};
     return give(unlocked(work_in(part.place),
                          [&] { return sad_disparity(view, other, part, {first, last}, matching); }));
@@ -64,10 +56,9 @@ std::tuple<Array<float>, Array<float>> gradient_disparity_arrays(const Bytes& le
                                                                  double disparity, int levels, double sigma,
                                                                  int radius, double min_reliability,
                                                                  double max_residual, double max_step,
-                                                                 const std::optional<Rectangle>& region) {
+                                                                 const std::optional<RegionTuple>& region) {
     const auto view = gray_image(left, "left"), other = gray_image(right, "right");
-    const auto [x0, y0, x1, y1] = region.value_or(Rectangle{0, 0, view.cols, view.rows});
-    const Region part{x0, y0, x1, y1};
+    const Region part = region_of(region.value_or(RegionTuple{0, 0, view.cols, view.rows}));
     const GradientMatching matching{levels, sigma, radius, min_reliability, max_residual, max_step};
     auto found =
         unlocked(work_in(part), [&] { return gradient_disparity(view, other, disparity, matching, part); });
@@ -88,15 +79,10 @@ Bytes rectify_verged_arrays(const Bytes& right, double angle, double focal,
     return give(std::move(turned), shape);
 }
 
-Bytes reduce_gray_arrays(const Bytes& image, int step, const std::optional<Rectangle>& region) {
+Bytes reduce_gray_arrays(const Bytes& image, int step, const std::optional<RegionTuple>& region) {
     const auto view = any_image(image, "image");
-    std::optional<Region> part;
-    std::ptrdiff_t work = std::ptrdiff_t{view.rows} * view.cols;
-    if (region) {
-        const auto [x0, y0, x1, y1] = *region;
-        part = Region{x0, y0, x1, y1};
-        work = work_in(*part, step, step);
-    }
+    const auto part = region_of(region);
+    const auto work = part ? work_in(*part, step, step) : std::ptrdiff_t{view.rows} * view.cols;
     return give(unlocked(work, [&] { return reduce_gray(view, step, part); }));
 }
 
@@ -104,14 +90,13 @@ using Gains = std::tuple<double, double, double>;
 using Triple = std::tuple<int, int, int>;
 
 std::tuple<Array<std::uint16_t>, Bytes> head_cells_arrays(const Bytes& left, const Bytes& right,
-                                                          const Rectangle& region, int step,
+                                                          const RegionTuple& region, int step,
                                                           const Triple& bins, int chroma,
                                                           const std::optional<Gains>& gains, double expected,
                                                           double tolerance, int fill, int first, int last,
                                                           int window, int uniqueness, bool prefilter) {
     const auto view = color_image(left, "left"), other = any_image(right, "right");
-    const auto [x0, y0, x1, y1] = region;
-    const Region part{x0, y0, x1, y1};
+    const Region part = region_of(region);
     const auto [first_axis, second_axis, third_axis] = bins;
     const ColorSpace space{{first_axis, second_axis, third_axis}, chroma};
     std::array<double, 3> given{};
@@ -126,12 +111,11 @@ std::tuple<Array<std::uint16_t>, Bytes> head_cells_arrays(const Bytes& left, con
 }
 
 std::tuple<double, int, int> ellipse_disparity_arrays(const Bytes& left, const Bytes& right,
-                                                      const Rectangle& region, int first, int last,
+                                                      const RegionTuple& region, int first, int last,
                                                       int window, int uniqueness, bool prefilter,
                                                       bool subpixel, bool median, double tolerance) {
     const auto view = any_image(left, "left"), other = any_image(right, "right");
-    const auto [x0, y0, x1, y1] = region;
-    const Region part{x0, y0, x1, y1};
+    const Region part = region_of(region);
     const StereoMatching matching{window, uniqueness, prefilter, -1};
     const DisparityStatistic statistic{subpixel, median, static_cast<float>(tolerance)};
     const auto found = unlocked(work_in(part), [&] {
