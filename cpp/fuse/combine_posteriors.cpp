@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "fuse/combine_posteriors.hpp"
 
-#include <string>
-
 #include "base/check.hpp"
 #include "base/simd.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cues/color/color_ranks.hpp"
 
+#include <array>
 #include <vector>
 
 #include "base/check.hpp"

@@ -2,7 +2,6 @@
 // Ranks are integer counts, n r(l): ties and borders of intervals are then exact, and n cancels.
 #include "cues/color/rank_sections.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstdlib>
 

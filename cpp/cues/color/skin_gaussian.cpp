@@ -2,7 +2,6 @@
 #include "cues/color/skin_gaussian.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include "base/check.hpp"

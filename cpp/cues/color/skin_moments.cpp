@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
-#include <cstdlib>
 
 #include "base/overlapping_blocks.hpp"
 #include "base/simd.hpp"

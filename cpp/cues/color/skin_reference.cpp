@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cues/color/skin_reference.hpp"
 
+#include <array>
 #include <vector>
 
 #include "base/check.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cues/depth/changed_depth.hpp"
 
-#include <cmath>
-
 #include "base/check.hpp"
 #include "base/overlapping_blocks.hpp"
 #include "base/simd.hpp"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cues/color/detail/rank_maps.hpp"
 
-#include <cstdlib>
+#include <array>
+#include <cmath>
+#include <type_traits>
 
 #include "base/check.hpp"
 #include "base/simd.hpp"
