@@ -31,8 +31,9 @@ ValueRange range_of(const ExpectedPeak& peak, int bins) {
 
 void require_former(const FormerModel& before, std::size_t count, int bins) {
     require_shape(before.densities, static_cast<Index>(count), bins, "before");
-    if (before.lows.size() != count || before.peaks.size() != count)
-        refuse("before", std::to_string(count) + " lows and peaks", std::to_string(before.lows.size()));
+    for (const std::size_t given : {before.lows.size(), before.peaks.size()})
+        if (given != count)
+            refuse("before", std::to_string(count) + " lows and peaks", std::to_string(given));
 }
 
 void require_arguments(const std::vector<CueMap>& maps, const std::vector<ExpectedPeak>& expected,

@@ -185,6 +185,7 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ),
     ({"before": (np.zeros((3, 5)), [0.0] * 3, [0.0] * 3)}, "before: expected"),
     ({"before": (np.zeros((3, BINS)), [0.0] * 2, [0.0] * 3)}, "before: expected 3 lows and peaks, got 2"),
+    ({"before": (np.zeros((3, BINS)), [0.0] * 3, [0.0] * 2)}, "before: expected 3 lows and peaks, got 2"),
     ({"window": (0.0, np.inf, 1.0, 1.0)}, "window: expected finite corners"),
 ]
 

@@ -122,8 +122,9 @@ def _require(
         require_numbers(blocks[0], blocks[3], "trusted")
     if before is not None:
         require_shape("before", before[0], (len(maps), rules[0]))
-        if not len(before[1]) == len(before[2]) == len(maps):
-            refuse("before", f"{len(maps)} lows and peaks", len(before[1]))
+        for numbers in before[1:]:
+            if len(numbers) != len(maps):
+                refuse("before", f"{len(maps)} lows and peaks", len(numbers))
 
 
 def _require_maps(maps: Sequence[tuple[Plane, Plane]]) -> None:
