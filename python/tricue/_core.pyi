@@ -1399,7 +1399,8 @@ def head_cells(
     Args:
         left: uint8 (H, W, 3) BGR, rectified, at least one pixel
         right: uint8 (H, W, 3) BGR, or gray (H, W), of the same size
-        region: (x0, y0, x1, y1), cells, sides of 1 to 16384; may reach over the image's edge
+        region: (x0, y0, x1, y1), cells, sides of 1 to 16384, and of at most 32768 pixels; may reach
+            over the image's edge
         step: side of a cell, pixels, 1 to 1024 and to the smaller side of the image
         bins: (n_0, n_1, n_2), as color_bins takes them
         chroma: as color_bins takes it

@@ -32,7 +32,7 @@ struct HeadCells {
 ///
 /// @param left uint8 (H, W, 3) BGR, rectified, at least one pixel
 /// @param right uint8 (H, W, 3) BGR, or gray (H, W), of the same size
-/// @param region (x0, y0, x1, y1), cells, sides of 1 to 16384; may reach over the image's edge
+/// @param region (x0, y0, x1, y1), cells, sides of 1 to 16384, and of at most 32768 pixels; may reach over the image's edge
 /// @param step side of a cell, pixels, 1 to 1024 and to the smaller side of the image
 /// @param bins (n_0, n_1, n_2), as color_bins takes them
 /// @param chroma as color_bins takes it
