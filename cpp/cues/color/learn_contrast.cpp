@@ -34,7 +34,7 @@ Floats seen_histogram(EllipseSampler& sampler, const double* ellipse, FloatsRef 
     return seen;
 }
 
-constexpr double UNSEEN = 0.0;  // P(target) of a color that neither side has
+constexpr double kUnseen = 0.0;  // P(target) of a color that neither side has
 
 }  // namespace
 
@@ -46,7 +46,7 @@ ColorContrast learn_contrast(const ImageView& image, VectorRef ellipse, const Wi
     require_histograms(target, surround, rate, rare);
     return learn_histograms(seen_histogram(inside, ellipse.data(), target),
                             seen_histogram(around, ellipse.data(), surround), target, surround, rate, rare,
-                            UNSEEN);
+                            kUnseen);
 }
 
 }  // namespace tricue

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
@@ -119,7 +118,7 @@ void require_arguments(const ImageView& patch, const PlaneView& other, const Lea
         if (!(number >= 0.0 && number <= 1.0)) refuse(name, "a number in [0, 1]", number);
 }
 
-constexpr double UNSEEN = 0.5;  // P(target) of a color that neither side has: it tells nothing
+constexpr double kUnseen = 0.5;  // P(target) of a color that neither side has: it tells nothing
 
 }  // namespace
 
@@ -129,7 +128,7 @@ ColorContrast learn_patch_colors(const ImageView& patch, const PlaneView& other,
     require_histograms(target, surround, rate, rare);
     const PixelCounts counts(patch, other, pixels, bits_of_cube(target, "target"));
     return learn_histograms(counts.own.shares(target.rows()), counts.around.shares(target.rows()), target,
-                            surround, rate, rare, UNSEEN);
+                            surround, rate, rare, kUnseen);
 }
 
 }  // namespace tricue

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/check.hpp"
@@ -31,7 +30,7 @@ JoinedObjects one_object(const ObjectFeatures& objects, Index index) {
 }
 
 /// The box around all of them as the camera sees them, at the depth z.
-JoinedObjects unite(const ObjectFeatures& objects, const std::vector<Index>& pieces, double z) {
+JoinedObjects combine(const ObjectFeatures& objects, const std::vector<Index>& pieces, double z) {
     std::array<double, 2> first, last, centroid{};
     std::array<bool, 4> cut{};
     first.fill(HUGE_VAL);
@@ -87,7 +86,7 @@ JoinedObjects join_pieces(const ObjectFeatures& objects, Index index, const Expe
             !(share_inside(piece, expected.state, limits.region) > limits.inside))
             continue;
         own.push_back(i);
-        const JoinedObjects joined = unite(objects, own, z);
+        const JoinedObjects joined = combine(objects, own, z);
         const bool fits = joined.state[3] <= limits.joined * std::max(size[0], body.state[3]) &&
                           joined.state[4] <= limits.joined * std::max(size[1], body.state[4]);
         if (fits && misfit(joined.state, size) < misfit(body.state, size))

@@ -16,7 +16,6 @@
 namespace tricue {
 namespace {
 
-constexpr float kUnmeasured = std::numeric_limits<float>::infinity();
 constexpr float kMaxFloat = std::numeric_limits<float>::max();
 constexpr int kMaxPasses = 1000;
 

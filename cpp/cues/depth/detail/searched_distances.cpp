@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "cues/depth/detail/searched_distances.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
-#include <limits>
 
 #include "base/depth_pixels.hpp"
 #include "base/overlapping_blocks.hpp"
 #include "base/simd.hpp"
 #include "cues/depth/depth_components.hpp"
+#include "cues/depth/detail/depth_rows.hpp"
 
 namespace tricue {
 namespace {
-
-constexpr float kUnmeasured = std::numeric_limits<float>::infinity();
 
 constexpr int kBlock = 64;  ///< pixels, so that loops over them have no remainder
 /// Of an image's pixels an eighth or fewer are searched, before a camera that doesn't move.

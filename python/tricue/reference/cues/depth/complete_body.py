@@ -38,11 +38,11 @@ def complete_body(
     (size, known), (region, inside, joined_size, depth) = mean_size, pieces
     require_expected(expected, size)
     z = measured[index, 2]
-    body, own = _unite(measured, cut, [index], z), [index]
+    body, own = _combine(measured, cut, [index], z), [index]
     for i, piece in enumerate(measured):
         if i == index or not abs(piece[2] - z) < depth or not _share_inside(piece, expected, region) > inside:
             continue
-        joined = _unite(measured, cut, [*own, i], z)
+        joined = _combine(measured, cut, [*own, i], z)
         fits = (joined.state[3:] <= joined_size * np.maximum(size, body.state[3:])).all()
         if fits and _misfit(joined, size) < _misfit(body, size):
             body, own = joined, [*own, i]
@@ -60,7 +60,7 @@ class _Joined(NamedTuple):
     shift: Floats
 
 
-def _unite(measured: Floats, cut: Flags, pieces: list[int], z: float) -> _Joined:
+def _combine(measured: Floats, cut: Flags, pieces: list[int], z: float) -> _Joined:
     """The box around all of them as the camera sees them, at the depth z."""
     each = measured[pieces]
     if len(pieces) == 1:
