@@ -66,14 +66,22 @@ void require_size(VectorRef values, Eigen::Index size, const char* name) {
         refuse(name, "shape (" + std::to_string(size) + ",)", "(" + std::to_string(values.size()) + ",)");
 }
 
-void require_shape(StatesRef values, Eigen::Index rows, Eigen::Index cols, const char* name) {
-    if (values.rows() != rows || values.cols() != cols)
-        refuse(name, "shape " + shape_text(rows, cols), shape_text(values.rows(), values.cols()));
+void require_shape(Eigen::Index rows, Eigen::Index cols, Eigen::Index expected_rows,
+                   Eigen::Index expected_cols, const char* name) {
+    if (rows != expected_rows || cols != expected_cols)
+        refuse(name, "shape " + shape_text(expected_rows, expected_cols), shape_text(rows, cols));
 }
 
-void require_same_shape(const PlaneView& values, const PlaneView& other, const char* name) {
-    if (values.rows != other.rows || values.cols != other.cols)
-        refuse(name, "shape " + shape_text(other.rows, other.cols), shape_text(values.rows, values.cols));
+void require_shape(StatesRef values, Eigen::Index rows, Eigen::Index cols, const char* name) {
+    require_shape(values.rows(), values.cols(), rows, cols, name);
+}
+
+void require_region(const Region& region, int rows, int cols) {
+    const auto [x0, y0, x1, y1] = region;
+    if (0 <= x0 && x0 <= x1 && x1 <= cols && 0 <= y0 && y0 <= y1 && y1 <= rows) return;
+    const auto text = [](int number) { return std::to_string(number); };
+    refuse("region", "x0, y0, x1, y1 in order, within " + text(cols) + " x " + text(rows),
+           "(" + text(x0) + ", " + text(y0) + ", " + text(x1) + ", " + text(y1) + ")");
 }
 
 void require_finite(VectorRef values, const char* name) {

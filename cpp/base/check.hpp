@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/arrays.hpp"
-#include "base/plane_view.hpp"
+#include "base/region.hpp"
 
 namespace tricue {
 
@@ -18,9 +18,17 @@ void require_count(int count, int least, int most, const char* name);
 void require_rows(Eigen::Index rows, Eigen::Index count, const char* name);
 void require_size(VectorRef values, Eigen::Index size, const char* name);
 void require_shape(StatesRef values, Eigen::Index rows, Eigen::Index cols, const char* name);
-void require_same_shape(const PlaneView& values, const PlaneView& other, const char* name);
+void require_shape(Eigen::Index rows, Eigen::Index cols, Eigen::Index expected_rows,
+                   Eigen::Index expected_cols, const char* name);
 void require_finite(VectorRef values, const char* name);
 void require_finite(StatesRef values, const char* name);
+void require_region(const Region& region, int rows, int cols);  ///< corners in order, within an image
+
+/// Of two views, of images, planes or bins.
+template <typename Values, typename Other>
+void require_same_shape(const Values& values, const Other& other, const char* name) {
+    require_shape(values.rows, values.cols, other.rows, other.cols, name);
+}
 
 /// Square, finite, without a negative variance, and symmetric to 1e-9 of its greatest variance.
 void require_covariance(StatesRef values, Eigen::Index size, const char* name);

@@ -45,9 +45,4 @@ Rays find_rays(VectorRef camera, const DepthView& depth) {
     return {find_slopes(depth.cols, camera[0], camera[2]), find_slopes(depth.rows, camera[1], camera[3])};
 }
 
-void require_mask(const ImageView& mask, const DepthView& depth) {
-    if (mask.rows != depth.rows || mask.cols != depth.cols)
-        refuse("mask", "shape " + shape_text(depth.rows, depth.cols), shape_text(mask.rows, mask.cols));
-}
-
 }  // namespace tricue

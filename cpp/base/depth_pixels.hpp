@@ -8,7 +8,6 @@
 
 #include "base/arrays.hpp"
 #include "base/depth_view.hpp"
-#include "base/image_view.hpp"
 #include "base/simd.hpp"
 
 namespace tricue {
@@ -40,8 +39,5 @@ void require_camera(VectorRef camera);
 /// @throws std::invalid_argument unless it is a table of measured objects as depth_components returns it: (C, 7), finite, widths,
 /// heights and depths above 0
 void require_object_table(StatesRef table);
-
-/// @throws std::invalid_argument unless the mask has the depth image's shape
-void require_mask(const ImageView& mask, const DepthView& depth);
 
 }  // namespace tricue

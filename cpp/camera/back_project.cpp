@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/check.hpp"
+#include "base/depth_pixels.hpp"
 
 namespace tricue {
 namespace {
@@ -33,10 +34,7 @@ BackProjection back_project(StatesRef measurements, StatesRef variances, VectorR
     const Eigen::Index count = measurements.rows();
     require_shape(measurements, count, 3, "measurements");
     require_variances(variances, count);
-    require_size(camera, 4, "camera");
-    require_finite(camera, "camera");
-    require_positive(camera[0], "fx");
-    require_positive(camera[1], "fy");
+    require_camera(camera);
     require_positive(baseline, "baseline");
 
     const bool shared = variances.cols() == 3;

@@ -19,7 +19,7 @@ struct BackProjection {
 /// @param measurements float64 (N, 3): u, v and d = u - u_right, pixels; (0, 0) is the center of the left image's first pixel
 /// @param variances float64 (3,): those of u, v, d, independent, for all measurements; or (N, 3, 3): a covariance S for each;
 ///     pixels²
-/// @param camera float64 (4,): fx, fy, cx, cy, pixels
+/// @param camera float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
 /// @param baseline b, meters
 /// @throws std::invalid_argument on other shapes, a focal length or baseline that is not above 0, or invalid variances
 /// Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.2 and figure 2, which their (9) approximates.

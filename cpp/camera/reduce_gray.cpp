@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <string>
 
 #include "base/check.hpp"
 #include "base/gray_cells.hpp"
@@ -16,12 +15,7 @@ GrayImage reduce_gray(const ImageView& image, int step, const std::optional<Regi
     if (step < 1 || step > most) refuse("step", "1 to the image's smaller side", step);
     GrayCells source(image, step);
     const auto [x0, y0, x1, y1] = region.value_or(Region{0, 0, source.cols(), source.rows()});
-    if (x0 < 0 || x0 > x1 || x1 > source.cols() || y0 < 0 || y0 > y1 || y1 > source.rows()) {
-        const auto text = [](int number) { return std::to_string(number); };
-        refuse("region",
-               "x0, y0, x1, y1 in order, within " + text(source.cols()) + " x " + text(source.rows()),
-               "(" + text(x0) + ", " + text(y0) + ", " + text(x1) + ", " + text(y1) + ")");
-    }
+    require_region({x0, y0, x1, y1}, source.rows(), source.cols());
     GrayImage cells(source.rows(), source.cols());
     if (region) cells.setZero();
     const auto width = static_cast<std::size_t>(x1 - x0);

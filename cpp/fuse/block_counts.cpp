@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "fuse/block_counts.hpp"
 
-#include <string>
 #include <vector>
 
 #include "base/check.hpp"
@@ -12,11 +11,7 @@ namespace tricue {
 
 BlockCounts block_counts(const ImageView& mask, const PlaneView& disparity, StatesRef blocks, float expected,
                          float tolerance) {
-    const auto shape = [](int rows, int cols) {
-        return "(" + std::to_string(rows) + ", " + std::to_string(cols) + ")";
-    };
-    if (mask.rows != disparity.rows || mask.cols != disparity.cols)
-        refuse("mask", "shape " + shape(disparity.rows, disparity.cols), shape(mask.rows, mask.cols));
+    require_same_shape(mask, disparity, "mask");
     require_shape(blocks, blocks.rows(), 4, "blocks");
     std::vector<Region> parts;
     for (Eigen::Index i = 0; i < blocks.rows(); ++i) {

@@ -7,6 +7,9 @@
 
 namespace tricue {
 
+/// Of a block's pixels: with fewer disparities their mean says nothing.
+constexpr double kMinMeasuredShare = 0.2;
+
 /// What N blocks hold.
 struct BlockCounts {
     Indices pixels;    ///< int64 (N,): pixels of each block that are in the image

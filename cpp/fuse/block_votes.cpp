@@ -6,13 +6,12 @@
 #include <string>
 
 #include "base/check.hpp"
+#include "fuse/block_counts.hpp"
 
 namespace tricue {
 namespace {
 
 constexpr std::int64_t kOther = 0, kTarget = 1, kOccluded = 2, kTrustedFrames = 3;
-constexpr double kMinMeasuredShare =
-    0.2;  // of a block's pixels: with fewer disparities their mean doesn't count
 
 void require_arguments(const BlockVotes& blocks, const BlockObservations& seen) {
     const Eigen::Index count = blocks.states.size();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/check.hpp"
 #include "base/simd.hpp"
 #include "fuse/detail/correlation_checks.hpp"
 #include "fuse/detail/plane_fourier.hpp"
@@ -53,7 +54,7 @@ CorrelationFilter correlation_train(const FloatStack& cells, ComplexesRef label,
                                     const ComplexStack& numerator, FloatsRef denominator, double rate) {
     require_cells(cells);
     require_rate(rate);
-    require_plane("label", label.rows(), label.cols(), cells.rows, cells.cols / 2 + 1);
+    require_shape(label.rows(), label.cols(), cells.rows, cells.cols / 2 + 1, "label");
     require_filter("numerator", numerator, cells);
     require_denominator(denominator, cells);
     CorrelationFilter filter{Complexes(cells.planes * cells.rows, numerator.cols),

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "base/check.hpp"
@@ -71,10 +70,8 @@ float greatest_near(const FloatStack& responses, int filter, Eigen::Index row, E
 void require_arguments(const FloatStack& responses, FloatsRef contrast, const EvidenceWeights& weights) {
     if (responses.planes < 1 || responses.rows < 1 || responses.cols < 1)
         refuse("responses", "at least one filter and cell", "none");
-    if (contrast.size() > 0 && (contrast.rows() != responses.rows || contrast.cols() != responses.cols))
-        refuse("contrast",
-               "shape (" + std::to_string(responses.rows) + ", " + std::to_string(responses.cols) + ")",
-               "(" + std::to_string(contrast.rows()) + ", " + std::to_string(contrast.cols()) + ")");
+    if (contrast.size() > 0)
+        require_shape(contrast.rows(), contrast.cols(), responses.rows, responses.cols, "contrast");
     if (!std::isfinite(weights.filter)) refuse("filter_weight", "a finite number", weights.filter);
     if (!std::isfinite(weights.contrast)) refuse("contrast_weight", "a finite number", weights.contrast);
 }

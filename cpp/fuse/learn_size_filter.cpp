@@ -55,8 +55,8 @@ SizeFilter learn_size_filter(const ImageView& patch, PlacesRef places, FloatsRef
     const FloatStack cells = numbers.view();
     const int rows = cells.rows;
     require_filter("first_numerator", first.numerator, cells);
-    require_plane("first_denominator", first.denominator.rows(), first.denominator.cols(), rows,
-                  cells.cols / 2 + 1);
+    require_shape(first.denominator.rows(), first.denominator.cols(), rows, cells.cols / 2 + 1,
+                  "first_denominator");
     CorrelationFilter filter = correlation_train(cells, label, learned.numerator, learned.denominator, rate);
     const auto share = static_cast<float>(first_weight);
     const Floats factors = find_factors(filter.denominator, first.denominator, share, ridge);

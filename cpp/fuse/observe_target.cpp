@@ -11,8 +11,6 @@
 namespace tricue {
 namespace {
 
-constexpr double kMinMeasuredShare = 0.2;  // of a block's pixels: with fewer disparities nothing is concluded
-
 /// The share of the target's blocks in the image whose mean disparity is above the occluder's.
 double occluded_share(const BlockCounts& counts, BlockNumbers states, double occluder) {
     std::int64_t mine = 0, hidden = 0;
@@ -38,8 +36,7 @@ TargetObservation observe_target(const std::vector<Cue>& cues, const TargetPlace
     TemporalWindow window = temporal_window(view(found), clean.neighbors, clean.share, clean.trim);
     const Floats none = Floats::Constant(disparity ? 0 : rows, cols, std::numeric_limits<float>::quiet_NaN());
     const PlaneView disparities = disparity.value_or(PlaneView{none.data(), rows, cols, cols});
-    if (disparities.rows != rows || disparities.cols != cols)
-        refuse("disparity", "the shape of planes", "another");
+    require_shape(disparities.rows, disparities.cols, rows, cols, "disparity");
     BlockCounts counts =
         count_blocks(view(window.mask), disparities, block_pixels(grid, rows, cols),
                      static_cast<float>(limits.target), static_cast<float>(limits.tolerance));

@@ -199,8 +199,8 @@ private:
 Complexes regularized_filter(const FloatStack& cells, FloatsRef mask, ComplexesRef label,
                              const ComplexStack& previous, double temporal_weight, double penalty) {
     require_cells(cells);
-    require_plane("mask", mask.rows(), mask.cols(), cells.rows, cells.cols);
-    require_plane("label", label.rows(), label.cols(), cells.rows, cells.cols / 2 + 1);
+    require_shape(mask.rows(), mask.cols(), cells.rows, cells.cols, "mask");
+    require_shape(label.rows(), label.cols(), cells.rows, cells.cols / 2 + 1, "label");
     require_filter("previous", previous, cells);
     require_not_negative(temporal_weight, "temporal_weight");
     require_positive(penalty, "penalty");

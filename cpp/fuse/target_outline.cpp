@@ -28,8 +28,7 @@ void keep_near(const std::uint8_t* __restrict mask, const float* __restrict disp
 
 TemporalWindow target_outline(const ImageView& mask, const PlaneView& disparity, const BlockGrid& grid,
                               BlockNumbers states, float target, float tolerance) {
-    if (mask.rows != disparity.rows || mask.cols != disparity.cols)
-        refuse("mask", "the shape of disparity", "another");
+    require_same_shape(mask, disparity, "mask");
     require_numbers(grid, states, "states");
     const std::vector<Region> blocks = block_pixels(grid, mask.rows, mask.cols);
     std::vector<Region> own;

@@ -2,7 +2,6 @@
 #include "fuse/weighted_histogram.hpp"
 
 #include <limits>
-#include <string>
 #include <vector>
 
 #include "base/check.hpp"
@@ -34,14 +33,6 @@ void keep_weights(const float* __restrict weights, const std::uint8_t* __restric
         });
 }
 
-void require_shape(int rows, int cols, const PlaneView& values, const char* name) {
-    const auto shape = [](int height, int width) {
-        return "(" + std::to_string(height) + ", " + std::to_string(width) + ")";
-    };
-    if (rows != values.rows || cols != values.cols)
-        refuse(name, "shape " + shape(values.rows, values.cols), shape(rows, cols));
-}
-
 /// Adds a row's weights to the tables of `size` bins; the last bin is for values without one.
 void add_row(const std::vector<std::int32_t>& bin, const std::vector<float>& weight, std::size_t size,
              double* sums) {
@@ -54,8 +45,8 @@ void add_row(const std::vector<std::int32_t>& bin, const std::vector<float>& wei
 
 Vector weighted_histogram(const PlaneView& values, const PlaneView& weights, const Rectangle& region,
                           const ValueRange& range, const ImageView& mask) {
-    require_shape(weights.rows, weights.cols, values, "weights");
-    if (mask.data != nullptr) require_shape(mask.rows, mask.cols, values, "mask");
+    require_same_shape(weights, values, "weights");
+    if (mask.data != nullptr) require_same_shape(mask, values, "mask");
     require_range(range);
     const Region visible = rectangle_pixels(region, values.rows, values.cols, "region");
     const int cols = visible.x1 - visible.x0;

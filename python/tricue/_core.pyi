@@ -60,7 +60,7 @@ def back_project(
             image's first pixel
         variances: float64 (3,): those of u, v, d, independent, for all measurements; or (N, 3, 3): a
             covariance S for each; pixels²
-        camera: float64 (4,): fx, fy, cx, cy, pixels
+        camera: float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
         baseline: b, meters
 
     Returns:

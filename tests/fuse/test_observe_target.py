@@ -143,7 +143,7 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"densities": np.zeros((2, BINS))}, "densities: expected"),
     ({"alternatives": np.full((3, BINS + 1), 1 / BINS)}, "alternatives: expected"),
     ({"ranges": RANGES[:2]}, "ranges: expected as many as planes, got 2"),
-    ({"disparity": np.zeros((H, W + 1), np.float32)}, "disparity: expected the shape of planes"),
+    ({"disparity": np.zeros((H, W + 1), np.float32)}, rf"disparity: expected shape \({H}, {W}\)"),
     ({"threshold": 0.0}, "threshold: expected"),
     ({"clean": (9, 0.2, 0.02)}, "neighbors: expected 0 to 8"),
     ({"window": (0.0, 0.0, np.nan, 1.0)}, "window: expected finite corners"),

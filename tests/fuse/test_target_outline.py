@@ -61,7 +61,7 @@ def test_another_disparity_is_not_the_targets(kernels: Kernels) -> None:
 
 
 BAD: list[tuple[dict[str, Any], str]] = [
-    ({"mask": np.zeros((H, W + 1), np.uint8)}, "mask: expected the shape of disparity"),
+    ({"mask": np.zeros((H, W + 1), np.uint8)}, rf"mask: expected shape \({H}, {W}\), got \({H}, {W + 1}\)"),
     ({"states": np.zeros(5, np.int64)}, "states: expected 4 numbers, got 5"),
     ({"place": (1.0, 0.0, np.nan, 0.0, 0.0)}, "corners: expected finite numbers"),
 ]

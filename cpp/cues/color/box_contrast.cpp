@@ -2,7 +2,6 @@
 #include "cues/color/box_contrast.hpp"
 
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "base/check.hpp"
@@ -43,8 +42,7 @@ private:
 
 void require_arguments(const PlaneView& plane, const FramedBox& box, double around) {
     if (plane.rows < 2 || plane.cols < 2 || plane.rows % 2 != 0 || plane.cols % 2 != 0)
-        refuse("plane", "even sides of at least 2",
-               "(" + std::to_string(plane.rows) + ", " + std::to_string(plane.cols) + ")");
+        refuse("plane", "even sides of at least 2", shape_text(plane.rows, plane.cols));
     require_positive(box.width, "width");
     require_positive(box.height, "height");
     if (!(box.outer > 1.0 && std::isfinite(box.outer))) refuse("outer", "a finite number above 1", box.outer);

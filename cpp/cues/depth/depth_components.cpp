@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 #include <vector>
 
@@ -246,8 +245,7 @@ std::vector<ComponentCounts> count_components(const PixelRuns& runs, const Group
 
 void require_arguments(const ImageView& labels, const DepthView& depth, const Signature& signature,
                        int min_area) {
-    if (labels.rows != depth.rows || labels.cols != depth.cols)
-        refuse("labels", "shape " + shape_text(depth.rows, depth.cols), shape_text(labels.rows, labels.cols));
+    require_same_shape(labels, depth, "labels");
     require_not_negative(signature.near, "near");
     if (!(signature.far > signature.near && std::isfinite(signature.far)))
         refuse("far", "a finite number above near", signature.far);

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "base/check.hpp"
@@ -33,8 +32,20 @@ Offsets part_centers(int n) {
     return places;
 }
 
+std::size_t places_inside(const Places& places) {
+    return static_cast<std::size_t>(places.rows) * static_cast<std::size_t>(places.columns);
+}
+
+std::size_t places_around(const Places& places) {
+    return 4 * static_cast<std::size_t>(places.along);
+}
+
 /// Depths, 0 outside the image, and more zeros, as RelativeHistogram wants them.
 struct DepthSamples {
+    explicit DepthSamples(const Places& places)
+        : inside(RelativeHistogram::padded(places_inside(places))),
+          around(RelativeHistogram::padded(places_around(places))) {}
+
     std::vector<float> inside, around;
 };
 
@@ -143,10 +154,6 @@ private:
     Axis x_, y_;
 };
 
-void require_count(int count, const char* name) {
-    if (count < 1 || count > kMaxSamples) refuse(name, "1 to " + std::to_string(kMaxSamples), count);
-}
-
 void require_states(StatesRef states) {
     require_shape(states, states.rows(), 5, "states");
     require_finite(states, "states");
@@ -156,21 +163,13 @@ void require_states(StatesRef states) {
 
 void require_arguments(VectorRef camera, const DepthModel& model, const Places& places, double nearer) {
     require_camera(camera);
-    require_count(places.rows, "rows");
-    require_count(places.columns, "columns");
-    require_count(places.along, "along");
+    require_count(places.rows, 1, kMaxSamples, "rows");
+    require_count(places.columns, 1, kMaxSamples, "columns");
+    require_count(places.along, 1, kMaxSamples, "along");
     if (!(places.margin >= 1.0 && std::isfinite(places.margin)))
         refuse("margin", "a finite number of at least 1", places.margin);
     require_model(model.histogram);
     require_nearer(nearer);
-}
-
-std::size_t places_inside(const Places& places) {
-    return static_cast<std::size_t>(places.rows) * static_cast<std::size_t>(places.columns);
-}
-
-std::size_t places_around(const Places& places) {
-    return 4 * static_cast<std::size_t>(places.along);
 }
 
 }  // namespace
@@ -188,8 +187,7 @@ RectangleContrast::RectangleContrast(const DepthView& depth, VectorRef camera, c
                                      const Places& places, double nearer) {
     require_arguments(camera, model, places, nearer);
     const std::size_t inside = places_inside(places), around = places_around(places);
-    const DepthSamples samples{std::vector<float>(RelativeHistogram::padded(inside)),
-                               std::vector<float>(RelativeHistogram::padded(around))};
+    const DepthSamples samples(places);
     const RelativeHistogram histogram(model.histogram.size(), model.reach, inside);
     parts_.reset(new Parts{GridReader(depth, places), camera, model, nearer, static_cast<double>(inside),
                            static_cast<double>(around), std::vector<DepthSamples>(kBatch, samples),
@@ -235,12 +233,9 @@ States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states
 
 Vector depth_shares(const DepthView& depth, VectorRef camera, const double* state, const Places& places,
                     double z, double reach, Eigen::Index levels) {
-    const auto inner = static_cast<std::size_t>(places.rows) * static_cast<std::size_t>(places.columns);
-    const auto outer = 4 * static_cast<std::size_t>(places.along);
-    DepthSamples samples{std::vector<float>(RelativeHistogram::padded(inner)),
-                         std::vector<float>(RelativeHistogram::padded(outer))};
+    DepthSamples samples(places);
     GridReader(depth, places).read(project(camera, state), samples);
-    RelativeHistogram histogram(levels, reach, inner);
+    RelativeHistogram histogram(levels, reach, places_inside(places));
     histogram.count(samples.inside.data(), z);
     return histogram.shares();
 }

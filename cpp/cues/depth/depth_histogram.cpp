@@ -48,7 +48,7 @@ void require_levels(const DepthLevels& levels) {
 }
 
 Vector depth_histogram(const DepthView& depth, const ImageView& mask, const DepthLevels& levels) {
-    require_mask(mask, depth);
+    require_same_shape(mask, depth, "mask");
     require_levels(levels);
     const auto bins = static_cast<std::size_t>(levels.count) + 1;
     std::vector<std::int64_t> counts(kTables * bins);

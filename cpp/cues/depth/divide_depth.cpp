@@ -40,7 +40,7 @@ void divide_row(const float* __restrict depth, const std::uint8_t* __restrict ma
 }  // namespace
 
 Labels divide_depth(const DepthView& depth, const ImageView& mask, VectorRef dividers) {
-    require_mask(mask, depth);
+    require_same_shape(mask, depth, "mask");
     require_dividers(dividers);
     std::vector<float> floats;
     for (const double s : dividers) floats.push_back(round_up_to_float(s));

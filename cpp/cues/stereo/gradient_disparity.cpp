@@ -29,9 +29,7 @@ void require_between(double value, double least, double most, const char* name, 
 
 void require_arguments(const ImageView& left, const ImageView& right, double predicted,
                        const GradientMatching& matching, const Region& region) {
-    const auto size = [](const ImageView& image) {
-        return "(" + std::to_string(image.rows) + ", " + std::to_string(image.cols) + ")";
-    };
+    const auto size = [](const ImageView& image) { return shape_text(image.rows, image.cols); };
     if (left.rows < 1 || left.cols < 1) refuse("left", "at least one pixel", "none");
     if (size(left) != size(right)) refuse("right", "the left image's shape " + size(left), size(right));
     require_between(matching.levels, 1, 6, "levels", "1 to 6");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "fuse/detail/correlation_checks.hpp"
 
-#include <cmath>
 #include <string>
 
 #include "base/check.hpp"
@@ -39,14 +38,8 @@ void require_filter(const char* name, const ComplexStack& filter, const FloatSta
                shape_text(filter.planes, filter.rows, filter.cols));
 }
 
-void require_plane(const char* name, Eigen::Index rows, Eigen::Index cols, int expected_rows,
-                   int expected_cols) {
-    if (rows != expected_rows || cols != expected_cols)
-        refuse(name, "shape " + shape_text(expected_rows, expected_cols), shape_text(rows, cols));
-}
-
 void require_denominator(FloatsRef denominator, const FloatStack& cells) {
-    require_plane("denominator", denominator.rows(), denominator.cols(), cells.rows, cells.cols / 2 + 1);
+    require_shape(denominator.rows(), denominator.cols(), cells.rows, cells.cols / 2 + 1, "denominator");
 }
 
 void require_rate(double rate) {

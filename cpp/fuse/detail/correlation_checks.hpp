@@ -12,8 +12,6 @@ void require_cells(const FloatStack& cells);
 void require_filters(const FilterStack& filters, const FloatStack& cells);
 /// One filter for such cells.
 void require_filter(const char* name, const ComplexStack& filter, const FloatStack& cells);
-void require_plane(const char* name, Eigen::Index rows, Eigen::Index cols, int expected_rows,
-                   int expected_cols);
 /// One plane of such spectra.
 void require_denominator(FloatsRef denominator, const FloatStack& cells);
 void require_rate(double rate);

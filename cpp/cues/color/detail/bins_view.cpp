@@ -29,11 +29,7 @@ void require_bins(const BinsView& bins, std::ptrdiff_t size) {
 }
 
 void require_mask(const ImageView& mask, const BinsView& bins) {
-    const auto shape = [](int rows, int cols) {
-        return "(" + std::to_string(rows) + ", " + std::to_string(cols) + ")";
-    };
-    if (mask.data != nullptr && (mask.rows != bins.rows || mask.cols != bins.cols))
-        refuse("mask", "shape " + shape(bins.rows, bins.cols), shape(mask.rows, mask.cols));
+    if (mask.data != nullptr) require_same_shape(mask, bins, "mask");
 }
 
 }  // namespace tricue

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cues/motion/detail/flow_planes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -12,7 +13,7 @@ namespace {
 constexpr int kMaxSide = 16384;
 
 std::string size(const ImageView& image) {
-    return "(" + std::to_string(image.rows) + ", " + std::to_string(image.cols) + ")";
+    return shape_text(image.rows, image.cols);
 }
 
 }  // namespace
@@ -24,15 +25,7 @@ void require_frames(const ImageView& previous, const ImageView& current,
         refuse("previous", "at most 16384 pixels a side", size(previous));
     if (size(current) != size(previous))
         refuse("current", "the previous frame's shape " + size(previous), size(current));
-    if (!region) return;
-    const auto [x0, y0, x1, y1] = *region;
-    const auto ordered = [](int begin, int end, int limit) {
-        return 0 <= begin && begin <= end && end <= limit;
-    };
-    if (ordered(x0, x1, current.cols) && ordered(y0, y1, current.rows)) return;
-    const auto text = [](int number) { return std::to_string(number); };
-    refuse("region", "x0, y0, x1, y1 in order, within " + text(current.cols) + " x " + text(current.rows),
-           "(" + text(x0) + ", " + text(y0) + ", " + text(x1) + ", " + text(y1) + ")");
+    if (region) require_region(*region, current.rows, current.cols);
 }
 
 void require_minima(const FlowMinima& minima) {

@@ -46,17 +46,10 @@ struct EllipseRows {
     }
 };
 
-void require_between(int value, int least, int most, const char* name) {
-    if (value < least || value > most)
-        refuse(name, std::to_string(least) + " to " + std::to_string(most), value);
-}
-
 void require_arguments(const CellPair& pair, const StereoRegion& region, const DisparityRange& range,
                        const StereoMatching& matching) {
     const auto& [left, right, step] = pair;
-    const auto size = [](const ImageView& image) {
-        return "(" + std::to_string(image.rows) + ", " + std::to_string(image.cols) + ")";
-    };
+    const auto size = [](const ImageView& image) { return shape_text(image.rows, image.cols); };
     if (left.rows < 1 || left.cols < 1) refuse("left", "at least one pixel", "none");
     if (size(left) != size(right)) refuse("right", "the left image's shape " + size(left), size(right));
     if (step < 1 || step > std::min(left.rows, left.cols))
@@ -73,7 +66,7 @@ void require_arguments(const CellPair& pair, const StereoRegion& region, const D
     const int widest = matching.prefilter ? 31 : 15;
     if (matching.window < 1 || matching.window > widest || matching.window % 2 == 0)
         refuse("window", "an odd number, 1 to " + std::to_string(widest), matching.window);
-    require_between(matching.uniqueness, 0, 100, "uniqueness");
+    require_count(matching.uniqueness, 0, 100, "uniqueness");
 }
 
 /// Matches the part of a region inside the left image, `visible`, not empty, row by row. Each candidate lies in the right image for at

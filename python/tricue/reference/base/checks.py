@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the twins refuse, in the words of the native kernels."""
 
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,7 @@ def require_count(name: str, count: int, least: int, most: int) -> None:
         refuse(name, f"{least} to {most}", count)
 
 
-def require_shape(name: str, values: Floats, shape: tuple[int, ...]) -> None:
+def require_shape(name: str, values: NDArray[Any], shape: tuple[int, ...]) -> None:
     """Refuse any other shape."""
     if values.shape != shape:
         refuse(name, f"shape {shape}", values.shape)

@@ -45,15 +45,3 @@ def require_table(table: NDArray[np.float64]) -> None:
                 refuse("table", "sizes above 0", float(size))
         if not depth > 0:
             refuse("table", "depths above 0", float(depth))
-
-
-def require_same_shape(name: str, values: Depth, depth: Depth) -> None:
-    """Refuse a depth image of another shape."""
-    if values.shape != depth.shape:
-        refuse(name, f"shape {depth.shape}", values.shape)
-
-
-def require_mask(mask: NDArray[np.uint8], depth: Depth) -> None:
-    """Refuse a mask of another shape than the depth image's."""
-    if mask.shape != depth.shape:
-        refuse("mask", f"shape {depth.shape}", mask.shape)

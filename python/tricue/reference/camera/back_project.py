@@ -4,7 +4,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.base.checks import refuse, require_covariance, require_finite, require_shape
+from tricue.reference.base.checks import refuse, require_covariance, require_shape
+from tricue.reference.base.depth_pixels import require_camera
 
 Floats = NDArray[np.float64]
 
@@ -26,12 +27,10 @@ def back_project(
         noises = variances
     for noise in noises:
         require_covariance("variances", noise, 3)
-    require_shape("camera", camera, (4,))
-    require_finite("camera", camera)
+    require_camera(camera)
     fx, fy, cx, cy = camera
-    for name, value in (("fx", fx), ("fy", fy), ("baseline", baseline)):
-        if not 0 < value < np.inf:
-            refuse(name, "a finite number above 0", float(value))
+    if not 0 < baseline < np.inf:
+        refuse("baseline", "a finite number above 0", float(baseline))
 
     points, covariances = np.full((count, 3), np.nan), np.full((count, 3, 3), np.nan)
     for i, (u, v, d) in enumerate(measurements):

@@ -4,11 +4,13 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.base.checks import refuse, require_shape
+from tricue.reference.base.checks import require_shape
 from tricue.reference.fuse.detail.rectangle_pixels import rectangle_pixels
 
 Counts = NDArray[np.int64]
 Floats = NDArray[np.float64]
+
+MIN_MEASURED_SHARE = 0.2  # of a block's pixels: with fewer disparities their mean says nothing
 
 
 def block_counts(
@@ -19,8 +21,7 @@ def block_counts(
     tolerance: float = 0.0,
 ) -> tuple[Counts, Counts, Counts, Floats, Counts]:
     """Counts the pixels of one block at a time."""
-    if mask.shape != disparity.shape:
-        refuse("mask", f"shape {disparity.shape}", mask.shape)
+    require_shape("mask", mask, disparity.shape)
     require_shape("blocks", blocks, (len(blocks), 4))
     pixels, targets, readings, similar = (np.zeros(len(blocks), np.int64) for _ in range(4))
     mean = np.full(len(blocks), np.nan)

@@ -5,6 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.reference.base.checks import refuse
+from tricue.reference.fuse.block_counts import MIN_MEASURED_SHARE
 
 Counts = NDArray[np.int64]
 Flags = NDArray[np.bool_]
@@ -12,7 +13,6 @@ Floats = NDArray[np.float64]
 
 OTHER, TARGET, OCCLUDED = 0, 1, 2
 TRUSTED_FRAMES = 3
-MIN_MEASURED_SHARE = 0.2
 
 
 def block_votes(

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.reference.base.checks import refuse, require_shape
-from tricue.reference.fuse.block_counts import block_counts
+from tricue.reference.fuse.block_counts import MIN_MEASURED_SHARE, block_counts
 from tricue.reference.fuse.detail.block_grid import Place, placed, require_numbers
 from tricue.reference.fuse.detail.rectangle_pixels import Rectangle
 from tricue.reference.fuse.target_pixels import target_pixels
@@ -16,8 +16,6 @@ from tricue.reference.fuse.temporal_window import temporal_window
 Plane = NDArray[np.float32]
 Floats = NDArray[np.float64]
 Counts = NDArray[np.int64]
-
-MIN_MEASURED_SHARE = 0.2  # of a block's pixels: with fewer disparities nothing is concluded from them
 
 
 def observe_target(
@@ -47,8 +45,8 @@ def observe_target(
         planes, list(densities), ranges, window, candidate, threshold, list(alternatives)
     )
     box, count, kept = temporal_window(found, *clean)
-    if disparity is not None and disparity.shape != kept.shape:
-        refuse("disparity", "the shape of planes", "another")
+    if disparity is not None:
+        require_shape("disparity", disparity, kept.shape)
     distances = np.full(kept.shape, np.nan, np.float32) if disparity is None else disparity
     target, tolerance, occluder = limits
     pixels, targets, readings, mean, similar = block_counts(

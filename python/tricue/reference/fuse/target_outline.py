@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.base.checks import refuse
+from tricue.reference.base.checks import require_shape
 from tricue.reference.fuse.block_mask import block_mask
 from tricue.reference.fuse.detail.block_grid import Place, placed, require_numbers
 from tricue.reference.fuse.temporal_window import temporal_window
@@ -20,8 +20,7 @@ def target_outline(
     tolerance: float,
 ) -> tuple[tuple[int, int, int, int], int]:
     """Combines masks, and boxes what is left."""
-    if mask.shape != disparity.shape:
-        refuse("mask", "the shape of disparity", "another")
+    require_shape("mask", mask, disparity.shape)
     require_numbers(corners, states, "states")
     mine = block_mask(placed(corners, place)[states == 1], *mask.shape)
     near = np.abs(disparity - np.float32(target)) < np.float32(tolerance)

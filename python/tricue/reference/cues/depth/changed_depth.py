@@ -4,15 +4,14 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.base.checks import refuse
-from tricue.reference.base.depth_pixels import require_same_shape
+from tricue.reference.base.checks import refuse, require_shape
 
 Depth = NDArray[np.float32]
 
 
 def changed_depth(depth: Depth, before: Depth, noise: float, slope: float) -> NDArray[np.uint8]:
     """Compares all pixels at once; no comparison with NaN holds."""
-    require_same_shape("before", before, depth)
+    require_shape("before", before, depth.shape)
     for name, value in (("noise", noise), ("slope", slope)):
         if not 0 <= value < np.inf:
             refuse(name, "a finite number, not negative", float(value))

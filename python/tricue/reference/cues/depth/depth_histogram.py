@@ -4,15 +4,15 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.base.checks import refuse
-from tricue.reference.base.depth_pixels import has_depth, require_mask
+from tricue.reference.base.checks import refuse, require_shape
+from tricue.reference.base.depth_pixels import has_depth
 
 
 def depth_histogram(
     depth: NDArray[np.float32], mask: NDArray[np.uint8], near: float, far: float, levels: int
 ) -> NDArray[np.float64]:
     """Counts the levels of the pixels under the mask with bincount."""
-    require_mask(mask, depth)
+    require_shape("mask", mask, depth.shape)
     if not np.isfinite(near):
         refuse("near", "a finite number", float(near))
     if not (np.isfinite(far) and far > near):

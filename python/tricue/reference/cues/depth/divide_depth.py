@@ -4,15 +4,15 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.base.checks import refuse, require_finite
-from tricue.reference.base.depth_pixels import has_depth, require_mask
+from tricue.reference.base.checks import refuse, require_finite, require_shape
+from tricue.reference.base.depth_pixels import has_depth
 
 
 def divide_depth(
     depth: NDArray[np.float32], mask: NDArray[np.uint8], dividers: NDArray[np.float64]
 ) -> NDArray[np.uint8]:
     """Masks one division at a time."""
-    require_mask(mask, depth)
+    require_shape("mask", mask, depth.shape)
     if not 2 <= dividers.size <= 256:
         refuse("dividers", "2 to 256 numbers", dividers.size)
     require_finite("dividers", dividers)

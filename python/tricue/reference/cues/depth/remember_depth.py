@@ -4,8 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.base.checks import refuse
-from tricue.reference.base.depth_pixels import require_same_shape
+from tricue.reference.base.checks import refuse, require_shape
 
 Depth = NDArray[np.float32]
 
@@ -16,7 +15,7 @@ def remember_depth(
     """Copies the image, and puts back what the target hides."""
     if before.shape == (0, 0):
         before = np.full(depth.shape, np.nan, np.float32)
-    require_same_shape("before", before, depth)
+    require_shape("before", before, depth.shape)
     if not np.isfinite(z):
         refuse("z", "a finite number", float(z))
     if not 0 <= reach < np.inf:
