@@ -283,11 +283,18 @@ def test_a_missing_baseline_is_told(folders, tmp_path, monkeypatch):
         ("cv2:legacy.TrackerMOSSE", "cv2:legacy.TrackerMOSSE", "cv2:legacy.TrackerMOSSE"),
         ("trax:/usr/bin/theirs --x=1:2 3", "trax:theirs", "trax:/usr/bin/theirs --x=1:2 3"),
         ("theirs=trax:./theirs --x=1", "theirs", "trax:./theirs --x=1"),
+        ("trax:'/my programs/theirs' --x=1", "trax:theirs", "trax:'/my programs/theirs' --x=1"),
     ],
 )
 def test_names_and_places(text, name, place):
     """It proves which part is the name in tables, and which says where the tracker is."""
     assert split_name(text) == (name, place)
+
+
+def test_a_program_needs_a_command():
+    """It proves that a place without the rest is told in words."""
+    with pytest.raises(ValueError, match="trax: expected a command after it, got none"):
+        tracker_specs(("trax:",), {})
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from tricue.evaluation.foreign.process import (
     ended_by_another_limit,
 )
 from tricue.evaluation.safe_tracker import SafeTracker
+from tricue.evaluation.toolkits.trax_client import command_words
 from tricue.evaluation.tracker_spec import Make, SequenceInfo, TrackerSpec
 from tricue.track.base import registry
 from tricue.track.base.traits import Traits
@@ -114,13 +115,15 @@ def is_foreign(text: str) -> bool:
 
 
 def split_name(text: str) -> tuple[str, str]:
-    """The name and the place of a tracker; files with their whole paths."""
+    """The name and the place of a tracker; files with their whole paths. ValueError for a program without a
+    command.
+    """
     match = _NAMED.fullmatch(text)
     given, place = (match[1].strip(), match[2]) if match else ("", text)
     if ":" not in place:
         return place, registry.location(place)
     if place.startswith(TRAX):
-        return given or TRAX + Path(place.removeprefix(TRAX).split()[0]).name, place
+        return given or TRAX + Path(command_words(place.removeprefix(TRAX))[0]).name, place
     file, _, attribute = place.rpartition(":")
     if file.endswith(".py") and not place.startswith(CV2):
         path = Path(file).resolve()
