@@ -7,12 +7,15 @@ import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import cv2
 import numpy as np
 import pytest
 import tricue
 from tricue import Box, Frame, Status, Track
+from tricue.evaluation.toolkits import trax_server
 from tricue.evaluation.toolkits.trax_server import (
     EMPTY_BOX,
     Answer,
@@ -325,6 +328,19 @@ def test_a_session_survives_a_start_but_no_bad_frame(images: Path) -> None:
         assert session.start(frame_of(images, 1, "depth"), Box(*[math.nan] * 4)) == Answer(EMPTY_BOX, 0)
     with pytest.raises(ValueError, match="channel depth"):
         session.start(frame_of(images, 1), Box(20, 20, 30, 30))
+
+
+def test_an_error_of_any_class_names_the_files(images: Path) -> None:
+    """It proves that the reason reaches the client, also of a class that isn't made from a text alone."""
+
+    class Broken:
+        def follow(self, frame: Frame) -> Answer:
+            raise UnicodeDecodeError("utf-8", b"x", 0, 1, "invalid start byte")
+
+    image = SimpleNamespace(path=lambda: str(images / "color" / "1.png"))
+    request: Any = SimpleNamespace(image={"color": image}, objects=(), type="frame")
+    with pytest.raises(RuntimeError, match=r"1\.png: .*invalid start byte"):
+        trax_server._reply(request, Broken())  # type: ignore[arg-type]
 
 
 def test_a_tracker_that_prints_stays_off_the_protocol(images: Path, scene: WalkScene) -> None:

@@ -195,7 +195,7 @@ def _reply(request: Any, session: TraxSession) -> Any:
             else session.follow(frame)
         )
     except Errors as error:
-        raise type(error)(f"{' and '.join(map(str, paths.values()))}: {error}") from None
+        raise RuntimeError(f"{' and '.join(map(str, paths.values()))}: {error}") from error
     return trax.Rectangle.create(*answer.box), {"confidence": answer.confidence}
 
 
