@@ -2,13 +2,17 @@
 """TraX programs as trackers: our own server, and programs that don't behave."""
 
 import sys
+from contextlib import closing
 
+import cv2
 import numpy as np
 import pytest
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame
 from tricue.evaluation.dataset import find_entries
 from tricue.evaluation.foreign.spec import foreign_spec
 from tricue.evaluation.tasks import RESTARTS, Task, perform
-from tricue.evaluation.toolkits.trax_client import command_words
+from tricue.evaluation.toolkits.trax_client import TraxProgram, command_words
 from tricue.evaluation.tracker_spec import TrackerSpec
 
 pytest.importorskip("trax")
@@ -98,6 +102,34 @@ def test_confidences_are_any_finite_numbers(there, tmp_path, confidence, score):
     record = perform(Task(foreign_spec(f"trax:{sys.executable} {script}", {}, LIMIT), there))
     assert record.error == ""
     np.testing.assert_array_equal(record.run.scores, score)
+
+
+def test_depth_goes_in_millimeters(tmp_path):
+    """It proves that what wasn't measured, or doesn't fit, is 0 for the program, and never far away."""
+    script, seen = tmp_path / "sees.py", tmp_path / "seen.png"
+    script.write_text(
+        "import shutil, trax\n"
+        "server = trax.Server(['rectangle'], ['path'], ['depth'], 'sees')\n"
+        "while (request := server.wait()).type != trax.TraxStatus.QUIT:\n"
+        "    if request.objects: region = request.objects[0][0]\n"
+        f"    shutil.copy(request.image['depth'].path(), {str(seen)!r})\n"
+        "    server.status([(region, {})])\n"
+    )
+    depth = np.array([[1.2344] * 5 + [65.535, 70.0, np.inf, np.nan, -1.0]], np.float32)
+    program = TraxProgram(f"{sys.executable} {script}")
+    with closing(program):
+        program.init(Frame(depth=depth), Box(0, 0, 1, 1))
+    assert cv2.imread(str(seen), cv2.IMREAD_UNCHANGED).tolist() == [[1234] * 5 + [65535, 0, 0, 0, 0]]
+
+
+def test_an_image_that_cannot_be_written_is_an_error(tmp_path, monkeypatch):
+    """It proves that a program isn't asked about the image before, which would still be there."""
+    script = tmp_path / "waits.py"
+    script.write_text("import trax; trax.Server(['rectangle'], ['path'], ['color'], 'waits').wait()\n")
+    monkeypatch.setattr(cv2, "imwrite", lambda *_: False)
+    program = TraxProgram(f"{sys.executable} {script}")
+    with closing(program), pytest.raises(OSError, match=r"color\.bmp: can't be written"):
+        program.init(Frame(np.zeros((4, 4, 3), np.uint8)), Box(0, 0, 1, 1))
 
 
 def test_words_of_a_command():

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue.data.open_source import open_source
-from tricue.evaluation.toolkits import vot_sequences
+from tricue.evaluation.toolkits.millimeters import to_millimeters
 from tricue.evaluation.toolkits.vot_sequences import anchors, vot_channels, write_sequence
 from tricue.evaluation.toolkits.vot_workspace import check_python, write_workspace
 
@@ -146,7 +146,7 @@ def test_a_written_sequence_is_the_recording(layout: str, tmp_path: Path) -> Non
 def test_depth_that_has_no_millimeters_is_not_measured(tmp_path: Path) -> None:
     """It proves that what 16 bits can't hold, too far or too near, becomes 0, and the rest is rounded."""
     meters = np.array([[0.0004, 0.0006, 65.535, 65.536, np.nan, np.inf, 1.2344, -1.0]], np.float32)
-    assert vot_sequences._millimeters(meters).tolist() == [[0, 1, 65535, 0, 0, 0, 1234, 0]]
+    assert to_millimeters(meters).tolist() == [[0, 1, 65535, 0, 0, 0, 1234, 0]]
 
 
 def test_the_files_of_a_sequence(tmp_path: Path) -> None:

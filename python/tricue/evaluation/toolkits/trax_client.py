@@ -20,11 +20,11 @@ import numpy as np
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
+from tricue.evaluation.toolkits.millimeters import to_millimeters
 from tricue.evaluation.toolkits.trax_server import MISSING_EXTRA, bounding_box
 from tricue.track.base.track import Status, Track
 
 PATIENCE = 2.0  # seconds that a program gets to quit
-MILLIMETERS = 1000.0  # of a meter, in the protocol's depth images
 CHANNELS = ("color", "depth")
 MAX_HASHED = 1 << 28  # bytes of a file that tells a program's version
 
@@ -83,12 +83,13 @@ class TraxProgram:
             frame.require(channel)
             image = getattr(frame, channel)
             if channel == "depth":
-                image = np.nan_to_num(MILLIMETERS * image).clip(0, 65535).round().astype(np.uint16)
+                image = to_millimeters(image)
             if "path" not in self._connection.formats:
                 images[channel] = trax.MemoryImage.create(np.ascontiguousarray(image))
                 continue
             path = Path(self._folder.name) / f"{channel}.{'png' if channel == 'depth' else 'bmp'}"
-            cv2.imwrite(str(path), image)
+            if not cv2.imwrite(str(path), image):
+                raise OSError(f"{path}: can't be written")
             images[channel] = trax.FileImage.create(str(path))
         return images
 

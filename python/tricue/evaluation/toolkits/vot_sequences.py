@@ -16,9 +16,9 @@ from tricue.data.depth_images import METERS_PER_MILLIMETER, DepthReader
 from tricue.data.open_source import Source
 from tricue.data.streams import Images, Stream, read_color
 from tricue.evaluation.dataset import Entry, OpenedSequence
+from tricue.evaluation.toolkits.millimeters import to_millimeters
 
 ANCHOR_INTERVAL = 50  # frames from one start of the multistart experiment to the next, as in VOT2020
-MAX_DEPTH_MILLIMETERS = 65535  # millimeters in 16 bits
 ABSENT = "nan,nan,nan,nan"
 _SUFFIXES = {".jpg": ".jpg", ".jpeg": ".jpg", ".png": ".png"}  # the toolkit's name of images that it reads
 _LINKABLE_READERS = {"color": read_color, "depth": DepthReader(METERS_PER_MILLIMETER)}
@@ -122,7 +122,7 @@ def _write_channel(stream: Stream, name: str, folder: Path) -> tuple[str, int]:
         return suffix, count
     for count, (_, image) in enumerate(stream, 1):
         path = folder / f"{count:08}.png"
-        if not cv2.imwrite(str(path), _millimeters(image) if name == "depth" else image):
+        if not cv2.imwrite(str(path), to_millimeters(image) if name == "depth" else image):
             raise OSError(f"{path}: can't be written")
     return ".png", count
 
@@ -143,12 +143,6 @@ def _link(path: Path, link: Path) -> None:
         link.symlink_to(path.resolve())
     except (NotImplementedError, OSError):  # a file system without links, Windows without the right to
         shutil.copyfile(path, link)
-
-
-def _millimeters(depth: NDArray[np.float32]) -> NDArray[np.uint16]:
-    """Meters as 16-bit millimeters; 0, not measured, if they don't fit."""
-    units = np.rint(1000 * depth.astype(np.float64))
-    return np.where((units > 0) & (units <= MAX_DEPTH_MILLIMETERS), units, 0).astype(np.uint16)
 
 
 def _write_lines(path: Path, lines: Iterable[object]) -> None:
