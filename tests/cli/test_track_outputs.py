@@ -179,6 +179,20 @@ def test_a_box_that_a_third_party_does_not_know(video: Path, tmp_path: Path) -> 
     assert count_frames(tmp_path / "o.avi") == 6
 
 
+def test_a_third_party_that_names_no_channel(
+    video: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Its own words are told, without advice about a channel that it doesn't name."""
+    (tmp_path / "theirs.py").write_text(
+        "from tricue.errors import MissingChannelError\n"
+        "class Picky:\n"
+        "    def init(self, image, box): raise MissingChannelError('no thermal image')\n"
+        "    def update(self, image): pass\n"
+    )
+    error = error_of(capsys, str(video), "--box", BOX, "--tracker", f"{tmp_path}/theirs.py:Picky")
+    assert error.endswith("no thermal image")
+
+
 @pytest.mark.parametrize("option", ["--csv", "--mot", "--coco", "--output"])
 def test_json_alone_goes_to_standard_output(
     video: Path,

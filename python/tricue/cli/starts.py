@@ -78,7 +78,7 @@ def start_hint(error: ValueError, source: Source, tracker: Tracker) -> str:
             "depth": "; ".join(("", "give its depth images with --depth FOLDER", *source.notes)),
             "right": "; give the right camera's images with --right PLACE",
             "color": f"; --tracker {depth_tracker()} tracks in depth",
-        }[error.channel]
+        }.get(error.channel, "")  # a third party may leave it out
     return ""
 
 
