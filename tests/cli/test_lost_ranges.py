@@ -37,6 +37,7 @@ def test_a_target_that_is_never_lost_has_none() -> None:
 def test_many_ranges_are_counted() -> None:
     """It proves that a line stays a line."""
     assert str(ranges([TRACKED, LOST] * 9)).endswith("16 (0:01.60) and 3 more ranges")
+    assert str(ranges([TRACKED, LOST] * 7)).endswith("16 (0:01.60) and 1 more range")
 
 
 def test_times_are_those_of_a_clock() -> None:

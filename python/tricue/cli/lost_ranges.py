@@ -40,7 +40,8 @@ class LostRanges:
             return ""
         more = len(self.ranges) - SHOWN
         shown = ", ".join(map(_text, self.ranges[:SHOWN]))
-        return f"lost in frames {shown}{f' and {more} more ranges' if more > 0 else ''}"
+        rest = f" and {more} more range{'s' if more > 1 else ''}" if more > 0 else ""
+        return f"lost in frames {shown}{rest}"
 
 
 def clock_time(seconds: float) -> str:
