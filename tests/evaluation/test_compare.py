@@ -125,3 +125,9 @@ def test_nothing_in_common_is_told(tmp_path, capsys):
     one, other = write(tmp_path / "one", a=OLD), write(tmp_path / "other", b=OLD)
     assert main(["compare", str(one), str(other)]) == 2
     assert "a tracker and a sequence that both have" in capsys.readouterr().err
+
+
+def test_a_number_that_an_older_evaluation_lacks_is_told(folders, capsys):
+    """It is in no row of both, and that is no crash."""
+    assert main(["compare", *map(str, folders), "--number", "true_positive"]) == 2
+    assert "that both have, with true_positive, got none" in capsys.readouterr().err

@@ -89,7 +89,8 @@ def compare_folders(old: Path, new: Path, number: str = "auc") -> Comparison:
         if common:
             changes.append(_change(key, common, recordings, BETTER[number]))
     if not changes:
-        raise ValueError(f"{old}, {new}: expected a tracker and a sequence that both have, got none")
+        both = f"a tracker and a sequence that both have, with {number}"
+        raise ValueError(f"{old}, {new}: expected {both}, got none")
     notes = _only(before["rows"], after["rows"])
     tested = [each.recordings for each in changes if not math.isnan(each.adjusted)]
     adjusted = holm([each.adjusted for each in changes])
@@ -142,7 +143,7 @@ def _values(content: Mapping[str, Any], number: str) -> dict[tuple[str, str, str
     for protocol in content.get("protocols", [ONE_PASS]):
         kinds = {order.name for order in orders(protocol)}
         for row in content["rows"]:
-            if row.get("run", ONE_PASS) in kinds and row[number] is not None:
+            if row.get("run", ONE_PASS) in kinds and row.get(number) is not None:
                 key = row["group"], protocol, row["tracker"]
                 found.setdefault(key, {}).setdefault(row["sequence"], []).append(row[number])
     return {
