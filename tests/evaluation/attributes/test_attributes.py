@@ -185,6 +185,15 @@ def test_they_are_measured_once(tmp_path, monkeypatch):
     assert len(calls) == 2
 
 
+def test_attributes_that_cannot_be_stored_are_an_error(tmp_path):
+    """A full disk isn't taken for a sequence that can't be read: measured attributes never vanish."""
+    opened = otb(tmp_path / "made", [[61, 51, 24, 24]] * 4)
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / FOLDER).write_text("no folder")
+    with pytest.raises(FileExistsError):
+        measure_all([opened], tmp_path / "out")
+
+
 def test_results_by_attribute(folders, tmp_path):
     """A line per attribute that a sequence has and tracker; over frames alone it is those frames' AUC."""
     evaluation = evaluate(folders, tmp_path, Options(("still-box",), restarts=False))

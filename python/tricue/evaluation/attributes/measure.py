@@ -78,19 +78,27 @@ def measure_all(
 ) -> dict[str, SequenceAttributes]:
     """By sequence's name; what is in an evaluation's folder is read, what isn't is measured and stored.
 
-    A sequence that can't be read is left out. on_progress: called with the number of finished sequences.
+    A sequence that can't be read is left out; OSError where its attributes can't be stored. on_progress:
+    called with the number of finished sequences.
     """
     found = {}
     for done, each in enumerate(opened, 1):
-        with suppress(OSError, ValueError):  # its runs say why
-            found[each.entry.name] = _stored(each, folder / FOLDER)
+        name = each.entry.name
+        path = folder / FOLDER / f"{re.sub(r'[^A-Za-z0-9._-]', _escaped, name)}.json"
+        fingerprint = hashlib.sha256(f"{each.digest}\n{_code_digest()}".encode()).hexdigest()
+        if (stored := _stored(path, fingerprint)) is not None:
+            found[name] = stored
+        else:
+            with suppress(OSError, ValueError):  # its runs say why
+                found[name] = measure(each)
+            if name in found:
+                _store(path, fingerprint, name, found[name])
         on_progress(done)
     return found
 
 
-def _stored(opened: OpenedSequence, folder: Path) -> SequenceAttributes:
-    path = folder / f"{re.sub(r'[^A-Za-z0-9._-]', _escaped, opened.entry.name)}.json"
-    fingerprint = hashlib.sha256(f"{opened.digest}\n{_code_digest()}".encode()).hexdigest()
+def _stored(path: Path, fingerprint: str) -> SequenceAttributes | None:
+    """What an earlier evaluation has stored; None where there is nothing, or of another fingerprint."""
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
         if content["fingerprint"] == fingerprint:
@@ -98,17 +106,19 @@ def _stored(opened: OpenedSequence, folder: Path) -> SequenceAttributes:
             return SequenceAttributes({key: np.array(each, np.float64) for key, each in stored})
     except (OSError, ValueError, KeyError, TypeError):
         pass  # missing, cut off, or of another version
-    found = measure(opened)
+    return None
+
+
+def _store(path: Path, fingerprint: str, name: str, found: SequenceAttributes) -> None:
     values = {
         key: [None if math.isnan(value) else value for value in each.tolist()]
         for key, each in found.values.items()
     }
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_suffix(f".{os.getpid()}.part")
-    text = json.dumps({"fingerprint": fingerprint, "sequence": opened.entry.name, "values": values})
+    text = json.dumps({"fingerprint": fingerprint, "sequence": name, "values": values})
     part.write_text(f"{text}\n", encoding="utf-8")
     part.replace(path)
-    return found
 
 
 def _escaped(found: re.Match[str]) -> str:
