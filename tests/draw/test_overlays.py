@@ -119,6 +119,13 @@ def test_flat_depth_is_drawn(value: float) -> None:
     assert depth_overlay(flat, track()).shape == (480, 640, 3)
 
 
+def test_the_range_of_a_wall_can_be_drawn() -> None:
+    """It proves that other frames can be drawn in its range, as a report's are."""
+    wall = np.full((48, 64), 2.0, np.float32)
+    near, far = depth_range(wall) or (0.0, 0.0)
+    assert depth_picture(wall + 1, near, far).shape == (48, 64, 3)
+
+
 def test_scattered_depth_has_a_range() -> None:
     """It proves that depth measured in a few pixels only still has its own range."""
     depth = np.full((480, 640), np.nan, np.float32)

@@ -53,8 +53,7 @@ class Serving(Served):
                         ranges.append(span)
         if not ranges:
             return None
-        near = min(low for low, _ in ranges)
-        return near, max([near + 0.01, *(high for _, high in ranges)])
+        return min(low for low, _ in ranges), max(high for _, high in ranges)
 
     def picture(self, frame: Frame, channel: str | None = None) -> Image:
         """A channel of a frame as :func:`tricue.app.exports.picture` gives it, depth in one range for all."""

@@ -250,7 +250,7 @@ class VideoOutput:
         now = depth_range(depth) or self._range or (0.0, 1.0)
         before = self._range or now
         near, far = (b + RANGE_SMOOTHING * (n - b) for b, n in zip(before, now, strict=True))
-        self._range = near, max(far, near + 0.01)  # a flat wall has an empty range
+        self._range = near, far
         return self._range
 
     def __enter__(self) -> "VideoOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)

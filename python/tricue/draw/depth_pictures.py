@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from tricue.draw.canvas import Image
 
+MIN_RANGE = 0.01  # meters
 _DEPTH_COLORMAP = cv2.COLORMAP_CIVIDIS  # even in lightness, and readable with red-green color blindness
 
 
@@ -29,7 +30,10 @@ def depth_picture(depth: NDArray[np.float32], near: float | None = None, far: fl
 
 
 def depth_range(depth: NDArray[np.float32]) -> tuple[float, float] | None:
-    """The 2nd and the 98th percentile of the measured depths, meters; None where nothing was measured."""
+    """The 2nd and the 98th percentile of the measured depths, meters; None where nothing was measured.
+
+    That of a flat wall is MIN_RANGE wide, so that it can be drawn.
+    """
     rows, columns = (max(1, n // 120) for n in depth.shape)  # some ten thousand pixels suffice
     sample = depth[::rows, ::columns]
     measured = sample[np.isfinite(sample)]
@@ -38,4 +42,4 @@ def depth_range(depth: NDArray[np.float32]) -> tuple[float, float] | None:
     if measured.size == 0:
         return None
     low, high = np.percentile(measured, [2, 98])
-    return float(low), float(high)
+    return float(low), max(float(high), float(low) + MIN_RANGE)

@@ -45,7 +45,6 @@ def _depth(depth: NDArray[np.float32]) -> tuple[NDArray[np.uint8], Html]:
     if found is None:
         return depth_picture(depth), Html("")
     near, far = found
-    far = max(far, near + 1e-3)
     width, height = SCALE_SIZE
     ramp = np.repeat(np.linspace(near, far, height, dtype=np.float32)[:, None], width, axis=1)
     column = "display:inline-flex;flex-direction:column;align-items:flex-start"

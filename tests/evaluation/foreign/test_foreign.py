@@ -337,8 +337,8 @@ def test_a_tracker_of_depth_pictures():
 
     spec = odd("Still")
     assert spec.unsupported_reason(Depth()) == ""
-    shown = spec.view(Depth())(Frame(depth=np.arange(1.0, 73.0).reshape(8, 9)))
-    assert shown.channels == ("color",)
+    for depth in (np.arange(1.0, 73.0).reshape(8, 9), np.full((8, 9), 2.0)):  # also of a wall
+        assert spec.view(Depth())(Frame(depth=depth)).channels == ("color",)
 
 
 def test_processes_are_gone_afterwards(there):

@@ -53,11 +53,9 @@ def _pictures(frames: list[Frame], channel: str) -> list[Any]:
     """The images in whose pixels the boxes are; depth in the range of the first one."""
     if channel != "depth":
         return [frame.color for frame in frames]
-    near, far = next((depth_range(frame.depth) for frame in frames if frame.depth is not None), None) or (
-        0,
-        1,
-    )
-    return [depth_picture(frame.depth, near, far) for frame in frames if frame.depth is not None]
+    depths = [frame.depth for frame in frames if frame.depth is not None]
+    near, far = (depth_range(depths[0]) if depths else None) or (0, 1)
+    return [depth_picture(depth, near, far) for depth in depths]
 
 
 def _picture(
