@@ -19,9 +19,7 @@ from tricue.evaluation.foreign.host import from_plain
 from tricue.evaluation.foreign.worker import PATIENCE
 from tricue.track.base.track import Track
 
-LOADING_LIMIT = (
-    60.0  # seconds to start a process and to make a tracker in it, where the time limit is shorter
-)
+LOADING_LIMIT = 60.0  # seconds to start a process and make a tracker in it, where the limit is shorter
 MAX_OUTPUT = 2000  # bytes of what a tracker prints that are kept, the last ones
 MAX_LINE = 200  # characters of it that are told
 

@@ -11,9 +11,7 @@ from tricue.kernels import Kernels
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.prepared_pair import Ellipse, Image, PreparedPair
 
-FILL_WINDOW = (
-    7  # cells, side of the square by which gaps in the disparity are filled, as in hair of one color
-)
+FILL_WINDOW = 7  # cells, side of the square that fills gaps in the disparity, as in hair of one color
 
 
 class SearchRegion(NamedTuple):
