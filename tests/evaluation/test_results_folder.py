@@ -124,7 +124,7 @@ def test_vot_with_confidences(tmp_path, there, found, experiment):
     np.testing.assert_allclose(record.run.boxes, expected, atol=1e-4)
     np.testing.assert_allclose(record.run.scores, [1, *np.arange(1, FRAMES) / 100])
     assert [index for index, each in enumerate(record.run.statuses) if each is Status.LOST] == [5]
-    assert record.error == "1 frames without a box"
+    assert record.error == "1 frame without a box"
     assert record.run.frames_per_second == pytest.approx(4)
 
 
@@ -138,6 +138,16 @@ def test_vots_confidences_are_any_numbers(tmp_path, folders, found):
     assert {each.row.tracker for each in evaluation.results} == {"still-box", "theirs"}
     (theirs,) = [each for each in evaluation.results if each.row.tracker == "theirs"]
     assert theirs.scored.scores.tolist() == [1, *range(-2, -FRAMES, -1), 1]
+
+
+def test_bytes_that_are_no_text_are_no_confidences(tmp_path, there, found):
+    """It proves that a damaged companion file ends no evaluation: what it doesn't tell is unknown."""
+    place = tmp_path / "longterm" / "there"
+    write_lines(place / "there_001.txt", lines(found))
+    told = b"0.5\n" * (FRAMES - 1) + b"\xff\xfe\n"
+    (place / "there_001_confidence.value").write_bytes(told)
+    (record,), *_ = results_spec(f"theirs={tmp_path}").read(there)
+    assert record.run.scores.tolist() == [0.5] * (FRAMES - 1) + [1]
 
 
 @pytest.mark.parametrize(

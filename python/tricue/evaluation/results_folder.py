@@ -310,7 +310,8 @@ def _record(
         seconds,
     )
     missing = int((~found[starts[0] : told.stop]).sum())
-    return Record(run, tuple(starts), f"{missing} frames without a box" if missing else "")
+    trouble = f"{missing} frame{'s' if missing > 1 else ''} without a box" if missing else ""
+    return Record(run, tuple(starts), trouble)
 
 
 def _read_scores(path: Path, scores: Array) -> Array:
@@ -326,6 +327,7 @@ def _read_values(path: Path, name: str, frames: int) -> Array | None:
     place = path.with_name(f"{path.stem}_{name}.value")
     if not place.is_file():
         return None
-    values = [next(iter(_numbers(line)), np.nan) for line in place.read_text(encoding="utf-8").splitlines()]
+    text = place.read_text(encoding="utf-8", errors="replace")
+    values = [next(iter(_numbers(line)), np.nan) for line in text.splitlines()]
     values = [np.nan] * (len(values) == frames - 1) + values
     return np.array(values[:frames], dtype=np.float64) if len(values) >= frames else None
