@@ -39,6 +39,10 @@ def test_latex_has_the_numbers(evaluation, tmp_path):
         rows = [line for line in table.split(r"\end{tabular}")[0].splitlines() if line.endswith(r"\\")]
         assert {row.count(" & ") for row in rows} == {columns - 1}
     assert text.count("{") == text.count("}")
+    assert "7 sequences of the group ``color''." in text
+    (one, *_) = evaluation.opened
+    alone = dataclasses.replace(evaluation, opened=(one,), attributes={})
+    assert "1 sequence of the group" in write_latex(alone, tmp_path / "one.tex").read_text()
 
 
 def test_latex_compiles(evaluation, tmp_path):

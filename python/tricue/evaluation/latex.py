@@ -124,7 +124,7 @@ def _number(value: float) -> str:
 
 def _caption(evaluation: Evaluation, group: str) -> str:
     count = sum(each.group == group for each in evaluation.opened)
-    return f"{count} sequences of the group ``{escape(group)}''."
+    return f"{count} sequence{'s' if count != 1 else ''} of the group ``{escape(group)}''."
 
 
 def _told(found: Comparison) -> str:
