@@ -157,6 +157,18 @@ def test_boxes_are_arrays_and_init_starts_again(drift: Tracker) -> None:
         np.testing.assert_array_equal(box, [3.5, 2, 8, 9])
 
 
+def test_a_lost_target_keeps_its_last_box() -> None:
+    """It proves that a third party's target of unknown place, of NaN, doesn't make a sequence's mean one."""
+
+    class Unsure(Recorder):
+        def update(self, frame: NDArray[np.uint8]) -> Track:
+            return Track(Box(*[float("nan")] * 4), 0.0, tricue.Status.LOST)
+
+    adapted, image = as_got10k(Unsure()), Image.new("RGB", (64, 48))  # type: ignore[arg-type]
+    adapted.init(image, np.array([1.0, 2, 3, 4]))
+    assert adapted.update(image).tolist() == [1, 2, 3, 4]
+
+
 def test_misuse_is_named() -> None:
     """It proves that what is no tracker is refused, and one that needs depth says so when it is started."""
     with pytest.raises(TypeError, match=r"^tracker: expected a tricue tracker, got str"):

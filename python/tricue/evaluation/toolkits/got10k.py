@@ -12,6 +12,8 @@ got10k provides color images only: a tracker that needs another channel raises a
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.camera.box import Box, as_box
+from tricue.track.base.adapter import with_known_numbers
 from tricue.track.base.track import Tracker
 
 try:
@@ -36,14 +38,20 @@ class Got10kTracker(_Got10kTracker):  # type: ignore[misc]  # got10k has no type
         # Ours are seeded: got10k needn't repeat them.
         super().__init__(name=name, is_deterministic=True)
         self.tracker = tracker
+        self._box = Box(0, 0, 0, 0)
 
     def init(self, image: Image, box: NDArray[np.float64]) -> None:
         """Start, or start again, on the box."""
+        self._box = as_box(box)
         self.tracker.init(_bgr(image), box)
 
     def update(self, image: Image) -> NDArray[np.float64]:
-        """The box in the next image, (4,), not rounded."""
-        return np.array(self.tracker.update(_bgr(image)).box, dtype=np.float64)
+        """The box in the next image, (4,), not rounded.
+
+        Of a lost target without a box it is the last one: with NaN the sequence's mean would be NaN.
+        """
+        self._box = with_known_numbers(self.tracker.update(_bgr(image)), self._box).box
+        return np.array(self._box, dtype=np.float64)
 
 
 def as_got10k(tracker: Tracker, name: str | None = None) -> Got10kTracker:
