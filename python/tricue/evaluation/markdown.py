@@ -85,12 +85,12 @@ def unmarked(pairs: int) -> str:
     return f"None is marked: of so few recordings no p of {count} can be under 0.05 by Holm."
 
 
-def interval_text(found: Comparison, tracker: str, better: int = 1, digits: int = 2) -> str:
+def interval_text(found: Comparison, tracker: str) -> str:
     """The ends of a tracker's interval, with a * if it is among the best; "-" where nothing can be told."""
     _, low, high = found.means[tracker]
     if math.isnan(low):
         return "-"
-    return f"[{low:.{digits}f}, {high:.{digits}f}]{' *' if tracker in found.leaders(better) else ''}"
+    return f"[{low:.2f}, {high:.2f}]{' *' if tracker in found.leaders() else ''}"
 
 
 def _protocol_table(group: str, compared: Mapping[str, Comparison]) -> str:

@@ -18,6 +18,9 @@ from tricue import kernels
 LOWEST_SKIN_THRESHOLD = -1.0
 """That trackers take; a curve's last threshold is below it, so that all pixels are above."""
 
+LOW, HIGH = -255, 255
+"""Of the scores."""
+
 Image = NDArray[np.uint8]
 Mask = NDArray[np.bool_]
 
@@ -49,16 +52,16 @@ class Roc:
         return float(self.thresholds[last]), float(self.tpr[last])
 
 
-def roc(pairs: Iterable[tuple[NDArray[np.integer], Mask]], low: int = -255, high: int = 255) -> Roc:
-    """The curve over pairs of an integer score map, values in [low, high], and its boolean mask."""
-    counts = np.zeros((2, high - low + 1), dtype=np.int64)
+def roc(pairs: Iterable[tuple[NDArray[np.integer], Mask]]) -> Roc:
+    """The curve over pairs of an integer score map, values in [LOW, HIGH], and its boolean mask."""
+    counts = np.zeros((2, HIGH - LOW + 1), dtype=np.int64)
     for scores, mask in pairs:
-        counts += _histograms(scores, mask, low, high)
+        counts += _histograms(scores, mask)
     if not counts.sum(axis=1).all():
         raise ValueError("masks: expected pixels of both classes")
     above = np.cumsum(counts[:, ::-1], axis=1) / counts.sum(axis=1, keepdims=True)
     fpr, tpr = np.hstack([np.zeros((2, 1)), above])
-    return Roc(fpr, tpr, np.arange(high, low - 2, -1, dtype=np.float64))
+    return Roc(fpr, tpr, np.arange(HIGH, LOW - 2, -1, dtype=np.float64))
 
 
 def skin_roc(
@@ -74,7 +77,7 @@ def skin_roc(
     as they have no such patch.
     """
     curve = roc(_scored(images, masks, reference, kernel_set))
-    return Roc(curve.fpr, curve.tpr, curve.thresholds / 255.0)
+    return Roc(curve.fpr, curve.tpr, curve.thresholds / HIGH)
 
 
 def _scored(
@@ -94,7 +97,7 @@ def _scored(
             )
 
 
-def _histograms(scores: NDArray[np.integer], mask: Mask, low: int, high: int) -> NDArray[np.int64]:
+def _histograms(scores: NDArray[np.integer], mask: Mask) -> NDArray[np.int64]:
     """How often each score occurs, (2, levels): outside the mask, and within it."""
     if mask.dtype != np.bool_ or mask.shape != scores.shape:
         raise ValueError(
@@ -102,7 +105,7 @@ def _histograms(scores: NDArray[np.integer], mask: Mask, low: int, high: int) ->
         )
     if not np.issubdtype(scores.dtype, np.integer):
         raise TypeError(f"scores: expected integers, got {scores.dtype}")
-    if scores.size and not low <= scores.min() <= scores.max() <= high:
-        raise ValueError(f"scores: expected values in [{low}, {high}], got [{scores.min()}, {scores.max()}]")
-    levels = scores.astype(np.int64) - low
-    return np.stack([np.bincount(levels[mask == side], minlength=high - low + 1) for side in (False, True)])
+    if scores.size and not LOW <= scores.min() <= scores.max() <= HIGH:
+        raise ValueError(f"scores: expected values in [{LOW}, {HIGH}], got [{scores.min()}, {scores.max()}]")
+    levels = scores.astype(np.int64) - LOW
+    return np.stack([np.bincount(levels[mask == side], minlength=HIGH - LOW + 1) for side in (False, True)])

@@ -53,9 +53,9 @@ def write_csv(
                 writer.writerow([curve.model, curve.scene, curve.seed, frame, *cells])
 
 
-def csv_number(value: float, digits: int = 4) -> str:
+def csv_number(value: float) -> str:
     """A number of a CSV; empty for NaN."""
-    return "" if np.isnan(value) else f"{value:.{digits}f}"
+    return "" if np.isnan(value) else f"{value:.4f}"
 
 
 def number(value: float, digits: int) -> str:

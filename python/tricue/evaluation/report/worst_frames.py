@@ -12,8 +12,8 @@ _SPACINGS = 8
 """Two of them are at least the run's length over this apart."""
 
 
-def worst_frames(run: ScoredRun, count: int = MAX_WORST_FRAMES) -> list[int]:
-    """The first frame and at most ``count`` worst ones, ascending, counted from the run's start.
+def worst_frames(run: ScoredRun) -> list[int]:
+    """The first frame and at most MAX_WORST_FRAMES worst ones, ascending, counted from the run's start.
 
     The worst frames have the lowest overlaps, of equal ones the earliest. A frame without the target counts
     as overlap 0 if its status is TRACKED. They are an eighth of the run apart, so that one loss doesn't take
@@ -23,7 +23,7 @@ def worst_frames(run: ScoredRun, count: int = MAX_WORST_FRAMES) -> list[int]:
     spacing = max(2, len(overlaps) // _SPACINGS)
     chosen = [0]
     for index in np.argsort(overlaps, kind="stable").tolist():
-        if len(chosen) > count or np.isnan(overlaps[index]):
+        if len(chosen) > MAX_WORST_FRAMES or np.isnan(overlaps[index]):
             break
         if min(abs(index - other) for other in chosen) >= spacing:
             chosen.append(index)
