@@ -14,7 +14,7 @@ namespace tricue {
 /// @param first, second float32 (H, W), p and q, of one shape; in [0, 1]
 /// @returns float32 (H, W)
 /// @throws std::invalid_argument on planes of different shapes
-/// Source: Okada, Shirai, Miura 1996, (10), for the two classes target and rest.
+/// Source: Okada, Shirai, Miura 1996, equations (11) and (12), for the two classes target and rest.
 Floats combine_posteriors(const PlaneView& first, const PlaneView& second);
 
 }  // namespace tricue

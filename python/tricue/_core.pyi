@@ -454,7 +454,7 @@ def combine_posteriors(
     Raises:
         ValueError: on planes of different shapes
 
-    Source: Okada, Shirai, Miura 1996, (10), for the two classes target and rest.
+    Source: Okada, Shirai, Miura 1996, equations (11) and (12), for the two classes target and rest.
     """
 
 def complete_body(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""One step of the particle filter, section III: resample, propose (30), weigh (2), estimate (31)."""
+"""One step of the particle filter, section III: resample, propose (30), weigh by (2) and (31), estimate."""
 
 from typing import Any
 
