@@ -33,7 +33,7 @@ _RESULT_SOURCES = (
     *(f"evaluation/{name}.py" for name in ("tasks", "dataset", "frame_views", "one_pass", "restarts")),
     *(f"evaluation/{name}.py" for name in ("tracker_spec", "safe_tracker", "baselines", "foreign/*")),
     *(f"evaluation/{name}.py" for name in ("metrics", "record")),
-    *(f"evaluation/toolkits/{name}.py" for name in ("trax_client", "trax_server")),
+    *(f"evaluation/toolkits/{name}.py" for name in ("trax_client", "trax_server", "millimeters")),
 )
 """What a run depends on: all that this module and ``foreign`` import, whose files are named here so that what
 only scores a run may change. ``protocols`` counts for its own runs (:meth:`Task.fingerprint`).
