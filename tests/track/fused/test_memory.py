@@ -132,6 +132,16 @@ def test_a_match_of_high_log_odds_is_not_verified():
     assert limit_log_odds(model_of(before), least).log_odds < least.log_odds
 
 
+@pytest.mark.parametrize("level", [0, 90])
+def test_nothing_is_no_target(level):
+    """In a picture without texture no place is the target's, however little is known of it yet."""
+    tracker = FusedTracker()
+    tracker.init(picture(1), TARGET.box)
+    flat = Frame(np.full((240, 320, 3), level, np.uint8))
+    statuses = [tracker.update(flat).status for _ in range(4)]
+    assert statuses == 2 * [Status.OCCLUDED] + 2 * [Status.LOST]
+
+
 def test_update_asks_the_memory(monkeypatch):
     """A target that the models as they were don't know isn't TRACKED, and nothing of it is learned."""
     monkeypatch.setattr(module, "log_odds_of", lambda score: math.inf)

@@ -86,10 +86,15 @@ def localize(model: TargetModel, window: Window) -> Candidate:
 
 def recenter(model: TargetModel, candidate: Candidate) -> Candidate:
     """The candidate itself, or localized again in a window around it, if it was near its window's edge."""
-    if max(abs(candidate.right), abs(candidate.down)) <= CELL_PIXELS * MAX_PEAK_CELLS:
+    if not is_near_edge(candidate.right, candidate.down):
         return candidate
     observation = candidate.window.observation
     return localize(model, extract_windows(observation, [candidate.target], model.params.context)[0])
+
+
+def is_near_edge(right: float, down: float) -> bool:
+    """Whether a place so many patch pixels from a window's center is too near its edge to be seen well."""
+    return max(abs(right), abs(down)) > CELL_PIXELS * MAX_PEAK_CELLS
 
 
 def clamp_to_image(target: Target, window: Window) -> Target:

@@ -8,10 +8,10 @@ that learned it. Those from before it came don't recognize it, or see the target
 from typing import NamedTuple
 
 from tricue.track.fused.identity import in_any_light, log_odds_of
-from tricue.track.fused.localize import TargetModel, localize
+from tricue.track.fused.localize import TargetModel, is_near_edge, localize
 from tricue.track.fused.measure import Match, recognize
 from tricue.track.fused.models import ModelsByKind
-from tricue.track.fused.window import CELL_PIXELS
+from tricue.track.fused.window import CELL_PIXELS, extract_windows
 
 FRAMES_APART = 5  # from one snapshot to the next, of those that were recognized
 MAX_CELLS_OFF = 3  # from a match to where the models as they were see the target, if it is the same
@@ -37,12 +37,17 @@ class Memory(NamedTuple):
 def limit_log_odds(remembered: TargetModel, match: Match) -> Match:
     """A match in a color picture, its log-odds at most those by the older models in the same window.
 
-    What has the log-odds that a missed target needs isn't asked for: the first frame's models are sure.
+    What has the log-odds that a missed target needs isn't asked for: the first frame's models are sure. A
+    match that is near its window's edge even after it was localized again, as in a window without any
+    texture, has to be seen in a window of its own.
     """
-    if match.log_odds >= log_odds_of(remembered.params.min_score_to_redetect):
+    p, window, right, down = remembered.params, match.window, match.right, match.down
+    if match.log_odds >= log_odds_of(p.min_score_to_redetect):
         return match
-    seen = localize(remembered, match.window)
-    if max(abs(seen.right - match.right), abs(seen.down - match.down)) > CELL_PIXELS * MAX_CELLS_OFF:
+    if is_near_edge(right, down):
+        window, right, down = extract_windows(match.observation, [match.target], p.context)[0], 0.0, 0.0
+    seen = localize(remembered, window)
+    if max(abs(seen.right - right), abs(seen.down - down)) > CELL_PIXELS * MAX_CELLS_OFF:
         log_odds = LOG_ODDS_ELSEWHERE
     else:
         recognition = recognize(remembered, seen)
