@@ -206,6 +206,18 @@ def test_a_position_does_without_intrinsics():
         PanTilt().command(track_at(0, 0), 0.0, 0.0)
 
 
+def test_a_track_without_position_changes_nothing():
+    """The next command is as if there had been none such, its time included."""
+    ahead = Track(Box(0, 0, 5, 5), 1.0, TRACKED, np.array([0.2, 0.0, 2.0]))
+    heads = PanTilt(), PanTilt()
+    for head in heads:
+        head.command(ahead, 0.0, 0.0, timestamp=0.0)
+    with pytest.raises(ValueError, match="track: expected a position"):
+        heads[0].command(track_at(0, 0), 0.0, 0.0, timestamp=0.9)
+    first, second = (head.command(ahead, 0.01, 0.0, timestamp=1.0) for head in heads)
+    assert first == second
+
+
 @pytest.mark.parametrize(
     ("wrong", "error"),
     [

@@ -100,21 +100,24 @@ class PanTilt:
 
         pan, tilt: the head's angles when the frame was taken, radians; without them the last command counts
         as done. timestamp: of the frame, seconds. ValueError for a track without a position where there are
-        no intrinsics, and for numbers that aren't finite.
+        no intrinsics, and for numbers that aren't finite; the next command is as if there had been none such.
         """
         now = None if timestamp is None else finite(timestamp, "timestamp", "seconds")
         given = (self._last.pan if pan is None else pan), (self._last.tilt if tilt is None else tilt)
         angles = np.array([finite(given[0], "pan", "radians"), finite(given[1], "tilt", "radians")])
+        # All that may raise an error comes before anything changes.
+        seen = track.status is Status.TRACKED and bool(track.score)
+        direction = self._direction(track, angles) if seen else None
         interval = validation.elapsed(self._now, now, self.rate)
         self._now = (self._now or 0.0) + interval if now is None else now
-        if track.status is Status.LOST:
+        if direction is not None:
+            self._measure(direction, interval)
+            speeds = self._speeds(angles, interval)
+        elif track.status is Status.LOST:
             self._target, self._velocity = None, np.zeros(2)
             speeds = np.zeros(2)
-        elif track.status is Status.OCCLUDED or not track.score:
-            speeds = self.velocity_gain * self._velocity
         else:
-            self._measure(self._direction(track, angles), interval)
-            speeds = self._speeds(angles, interval)
+            speeds = self.velocity_gain * self._velocity
         return self._limited(speeds, angles, interval)
 
     def _direction(self, track: Track, angles: np.ndarray) -> np.ndarray:
