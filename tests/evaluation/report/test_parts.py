@@ -4,6 +4,7 @@ import dataclasses
 import html
 import math
 import re
+from types import SimpleNamespace
 
 import cv2
 import numpy as np
@@ -18,6 +19,7 @@ from tricue.evaluation.report.columns import COLUMNS, best, with_numbers
 from tricue.evaluation.report.markup import Html, joined, number, tag
 from tricue.evaluation.report.plot_styles import line_styles
 from tricue.evaluation.report.plots import Group
+from tricue.evaluation.report.sequences import worst_first
 from tricue.evaluation.report.summary import summary_table
 from tricue.evaluation.report.worst_frames import MAX_WORST_FRAMES, worst_frames
 from tricue.evaluation.rows import ScoredRun
@@ -48,6 +50,20 @@ def test_text_and_attributes_are_escaped(text, value):
     assert inner
     assert inner[1] == html.escape(value)
     assert inner[2] == html.escape(text)
+
+
+def test_sequences_of_which_nothing_is_known_are_last():
+    """Without a frame that counts the AUC is NaN, which no other number is above or below."""
+    aucs = {"a": 0.9, "b": NAN, "c": 0.2, "d": NAN, "e": 0.5}
+    evaluation = SimpleNamespace(
+        opened=[SimpleNamespace(entry=SimpleNamespace(name=name)) for name in aucs],
+        one_pass=[
+            SimpleNamespace(row=SimpleNamespace(sequence=name, tracker="t", auc=auc))
+            for name, auc in aucs.items()
+        ],
+        trackers=[SimpleNamespace(name="t", ours=True)],
+    )
+    assert [each.opened.entry.name for each in worst_first(evaluation)] == ["c", "e", "a", "b", "d"]
 
 
 def test_html_is_left_as_it_is():

@@ -39,13 +39,13 @@ class RankedSequence(NamedTuple):
 
 
 def worst_first(evaluation: Evaluation) -> list[RankedSequence]:
-    """All sequences, by the AUC of the leader on each."""
+    """All sequences, by the AUC of the leader on each; last those where it is NaN, as nothing is known."""
     by_sequence: dict[str, dict[str, list[RunResult]]] = {each.entry.name: {} for each in evaluation.opened}
     for each in evaluation.one_pass:
         by_sequence[each.row.sequence].setdefault(each.row.tracker, []).append(each)
     ours = {each.name for each in evaluation.trackers if each.ours}
     ranked = [_ranked(each, by_sequence[each.entry.name], ours) for each in evaluation.opened]
-    return sorted(ranked, key=lambda each: (each.auc, each.opened.entry.name))
+    return sorted(ranked, key=lambda each: (math.isnan(each.auc), each.auc, each.opened.entry.name))
 
 
 def sequences(
