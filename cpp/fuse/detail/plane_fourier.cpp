@@ -30,6 +30,14 @@ void interleave(const float* __restrict one, const float* __restrict two, std::s
     }
 }
 
+TRICUE_MULTIVERSION
+void widen(const float* __restrict plane, std::size_t n, float* __restrict pairs) {
+    for (std::size_t i = 0; i < n; ++i) {
+        pairs[2 * i] = plane[i];
+        pairs[2 * i + 1] = 0.0F;
+    }
+}
+
 /// A and B from a row of Z = A + i B and the mirrored row: for real planes A(-u, -v) is the conjugate of A(u, v).
 TRICUE_MULTIVERSION
 void separate_spectra(const float* __restrict z, const float* __restrict mirror, int half,
@@ -100,9 +108,17 @@ void PlaneFourier::transform(const float* one, const float* two, float* one_re, 
         if (two != one) small_->transform(two, two_re, two_im, margins);
         return;
     }
+    const int half = this->half();
+    if (two == one) {
+        widen(one, pairs_.size(), as_floats(pairs_.data()));
+        transform_plane(pairs_, rows_, cols_, 0, spectrum_);
+        for (std::ptrdiff_t u = 0; u < rows_; ++u)
+            deinterleave(as_floats(spectrum_.data() + u * cols_), 1.0F, static_cast<std::size_t>(half),
+                         one_re + u * half, one_im + u * half);
+        return;
+    }
     interleave(one, two, pairs_.size(), as_floats(pairs_.data()));
     transform_plane(pairs_, rows_, cols_, 0, spectrum_);
-    const int half = this->half();
     std::vector<Complex> mirror(static_cast<std::size_t>(half));
     for (int u = 0; u < rows_; ++u) {
         const Complex *row = spectrum_.data() + std::ptrdiff_t{u} * cols_,
