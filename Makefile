@@ -4,9 +4,6 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
-SANITIZED := build/sanitized
-LEVELS := build/levels
-TESTED_LEVELS := 1 2 3 4
 VOT := build/vot
 WHEEL_TOOLS := build/wheel-tools
 # With the Pythons to make wheels for.
@@ -15,7 +12,7 @@ WHEEL_PYTHONS = $(PYTHON)
 PARALLEL := -n auto --dist loadfile --benchmark-disable
 SOURCES := pyproject.toml CMakeLists.txt README.md tools/kernel_docs.py $(shell find cpp python -not -path '*/__pycache__*')
 
-.PHONY: demo test fuzz setup bench lint format stubs kernel-docs notebooks experiments docs linkcheck results sanitize levels vot wheel sdist arm clean
+.PHONY: demo test fuzz setup bench lint format stubs kernel-docs notebooks experiments docs linkcheck results opencv sanitize levels vot wheel sdist arm clean
 
 demo: $(VENV)/demo
 	$(BIN)/tricue demo
@@ -75,39 +72,50 @@ linkcheck: $(VENV)/dev
 notebooks: $(VENV)/dev
 	$(BIN)/python tools/notebooks.py
 
-# The tests of native kernels, and those that feed trackers what is bad, on a build with the sanitizers, which must be loaded before
-# Python, and whose last words pytest must not capture. What Python itself leaks is not looked at.
+# The same scenes and tracks whichever cv2 is installed.
+opencv: $(VENV)/dev
+	$(BIN)/python tools/compare_opencv.py
+
+# The tests of native kernels on builds beside each other, whose results must be the same bits. A build is copied to where the others are,
+# as Hypothesis takes constants from packages in this folder.
+HASHED := $(BIN)/python -m pytest -q -p kernel_hashes --capture=sys --hypothesis-profile=brief --hypothesis-seed=0 --benchmark-disable \
+    tests/camera tests/cues tests/fuse
+HASH_EACH = xargs -I BUILD -P $$(nproc) env TRICUE_KERNELS=native TRICUE_HASHES=$(BUILDS)/BUILD.json \
+    PYTHONPATH=$(BUILDS)/BUILD:tools
+COPY_INSTALLED = rm -rf $(BUILDS) && mkdir -p $(BUILDS)/installed && \
+    cp -r "$$($(BIN)/python -c 'import tricue; print(tricue.__path__[0])')" $(BUILDS)/installed
+
+# On a build with the sanitizers, which is for the lowest level of x86-64 (simd.hpp), beside the installed one, which runs the highest that
+# the processor has; then those that feed trackers what is bad. The sanitizers must be loaded before Python, and pytest must not capture
+# their last words. What Python itself leaks is not looked at.
+SANITIZERS = ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 \
+    LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libstdc++.so)"
+sanitize: BUILDS := build/sanitized
 sanitize: $(VENV)/dev
-	rm -rf $(SANITIZED)
+	$(COPY_INSTALLED)
 	SKBUILD_BUILD_DIR=build/debug SKBUILD_CMAKE_BUILD_TYPE=Debug SKBUILD_INSTALL_STRIP=false \
 	    SKBUILD_CMAKE_DEFINE="TRICUE_SANITIZE=ON;TRICUE_WERROR=ON" \
-	    $(PIP) install --quiet --no-build-isolation --no-deps --target $(SANITIZED) .
-	TRICUE_KERNELS=native PYTHONPATH=$(SANITIZED) ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 \
-	    LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libstdc++.so)" \
-	    $(BIN)/python -m pytest --capture=sys --hypothesis-profile=brief $(PARALLEL) tests/camera tests/cues tests/fuse tests/fuzz \
-	    tests/track/test_bad_input.py tests/track/*/test_bad_input.py tests/track/*/test_kernels.py
+	    $(PIP) install --quiet --no-build-isolation --no-deps --target $(BUILDS)/debug .
+	printf '%s\n' installed debug | $(HASH_EACH) $(SANITIZERS) $(HASHED)
+	$(BIN)/python tools/kernel_hashes.py $(BUILDS)/*.json
+	TRICUE_KERNELS=native PYTHONPATH=$(BUILDS)/debug $(SANITIZERS) $(BIN)/python -m pytest -q --capture=sys --hypothesis-profile=brief \
+	    $(PARALLEL) tests/fuzz tests/track/test_bad_input.py tests/track/*/test_bad_input.py tests/track/*/test_kernels.py
+
+# On a build for each level of x86-64, beside the installed one.
+levels: BUILDS := build/levels
+levels: $(VENV)/dev
+	$(COPY_INSTALLED)
+	for level in 1 2 3 4; do \
+	    SKBUILD_BUILD_DIR=build/level$$level SKBUILD_CMAKE_DEFINE=TRICUE_SIMD_LEVEL=$$level \
+	        $(PIP) install --quiet --no-build-isolation --no-deps --target $(BUILDS)/$$level . || exit 1; \
+	done
+	printf '%s\n' installed 1 2 3 4 | $(HASH_EACH) $(HASHED)
+	$(BIN)/python tools/kernel_hashes.py $(BUILDS)/*.json
 
 # More cases of the property tests than the tests try: kernels beside guard pages, public calls, damaged files, command lines.
 CASES ?= 3000
 fuzz: $(VENV)/dev
 	TRICUE_FUZZ=$(CASES) $(BIN)/python -m pytest -q $(PARALLEL) tests/fuzz
-
-# The tests of native kernels on the installed build, which runs the highest level of x86-64 that the processor has, and on builds for each
-# level (simd.hpp): all must return the same bits. The installed one is copied, as Hypothesis takes constants from packages in this folder.
-HASHED := $(BIN)/python -m pytest -q -p kernel_hashes --hypothesis-profile=brief --hypothesis-seed=0 --benchmark-disable \
-    tests/camera tests/cues tests/fuse
-INSTALLED = $$($(BIN)/python -c 'import tricue; print(tricue.__path__[0])')
-levels: $(VENV)/dev
-	rm -rf $(LEVELS)
-	mkdir -p $(LEVELS)/installed
-	cp -r "$(INSTALLED)" $(LEVELS)/installed
-	for level in $(TESTED_LEVELS); do \
-	    SKBUILD_BUILD_DIR=build/level$$level SKBUILD_CMAKE_DEFINE=TRICUE_SIMD_LEVEL=$$level \
-	        $(PIP) install --quiet --no-build-isolation --no-deps --target $(LEVELS)/$$level . || exit 1; \
-	done
-	printf '%s\n' installed $(TESTED_LEVELS) | xargs -I BUILD -P $$(nproc) env TRICUE_KERNELS=native \
-	    TRICUE_HASHES=$(LEVELS)/BUILD.json PYTHONPATH=$(LEVELS)/BUILD:tools $(HASHED)
-	$(BIN)/python tools/kernel_hashes.py $(LEVELS)/*.json
 
 # The VOT toolkit, beside which our trackers and numbers are tested, in an environment of its own: it brings another OpenCV.
 vot: $(VOT)/bin/vot

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Whether builds of the native kernels give the same bits: `make levels`.
+"""Whether builds of the native kernels give the same bits: `make levels`, `make sanitize`.
 
 As a pytest plugin (``-p kernel_hashes``) it hashes all that each kernel returns or raises while the tests
 run, and writes the hashes to the file that TRICUE_HASHES names. As a program it compares such files and fails
