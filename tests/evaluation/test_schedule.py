@@ -117,6 +117,30 @@ def test_a_terminals_interrupt_is_for_the_process_that_asks(tmp_path):
     assert not signal.pthread_sigmask(signal.SIG_BLOCK, [])
 
 
+def test_what_is_closed_is_ended_at_once(tmp_path, monkeypatch):
+    """Tasks that still run don't run on, also where joblib's own thread is slow to hear of it."""
+    from joblib.externals.loky.process_executor import _ExecutorManagerThread as Manager
+
+    def stay(task: Task) -> Record:
+        if task.entry.name != "first":
+            (tmp_path / str(os.getpid())).touch()
+            time.sleep(60)
+        raise ValueError(task.entry.name)
+
+    end = Manager.flag_executor_shutting_down
+    monkeypatch.setattr(Manager, "flag_executor_shutting_down", lambda self: (time.sleep(0.5), end(self)))
+    tasks = [Task(TrackerSpec("still-box"), Entry(name, tmp_path)) for name in ("first", "second", "third")]
+    running = schedule.run_tasks(tasks, stay, jobs=2)
+    assert next(running).error == "first"
+    while not (started := list(tmp_path.iterdir())):
+        time.sleep(0.01)
+    running.close()
+    deadline = time.monotonic() + 20
+    while any(Path("/proc", each.name).exists() for each in started) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert not any(Path("/proc", each.name).exists() for each in started)
+
+
 def test_no_scheduler_is_told_by_its_address(monkeypatch):
     """Nothing listens there: OSError, not a hang."""
     pytest.importorskip("distributed", reason="needs the extra dask")

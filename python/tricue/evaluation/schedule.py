@@ -4,6 +4,7 @@
 from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import FIRST_COMPLETED, wait
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import closing
 from itertools import islice
 from typing import Any, NamedTuple
 
@@ -62,24 +63,25 @@ def _run_in_processes(tasks: Sequence[Task], perform: Perform, jobs: int) -> Gen
     while waiting:
         done = set()
         try:
-            with ProcessPoolExecutor(jobs) as pool:
-                for finished in _run_in_pool(tasks, waiting, perform, pool, jobs):
+            with closing(_run_in_pool(tasks, waiting, perform, ProcessPoolExecutor, jobs)) as running:
+                for finished in running:
                     done.add(finished.task_index)
                     yield finished
         except BrokenProcessPool:
-            running = [index for index in waiting if index not in done][:jobs]
-            for index in running:
+            interrupted = [index for index in waiting if index not in done][:jobs]
+            for index in interrupted:
                 yield _run_alone(tasks, index, perform, ProcessPoolExecutor)
-            done.update(running)
+            done.update(interrupted)
         waiting = [index for index in waiting if index not in done]
 
 
 def _run_in_pool(
-    tasks: Sequence[Task], indices: Sequence[int], perform: Perform, pool: Any, jobs: int
+    tasks: Sequence[Task], indices: Sequence[int], perform: Perform, executor: Any, jobs: int
 ) -> Generator[Finished, None, None]:
     """Submit in order, as many at once as there are processes: the first unfinished ones are running."""
     left = iter(indices)
     running: set[Any] = set()
+    pool = executor(jobs)
     try:
         while True:
             with interrupts_later():
@@ -92,14 +94,14 @@ def _run_in_pool(
             done, running = wait(running, return_when=FIRST_COMPLETED)
             yield from (future.result() for future in done)
     finally:
-        if running:  # closed, or broken
-            pool.shutdown(wait=False, kill_workers=True)
+        # What still runs is no longer wanted. One call: a second, as by ``with``, would take kill_workers back.
+        pool.shutdown(kill_workers=bool(running))
 
 
 def _run_alone(tasks: Sequence[Task], index: int, perform: Perform, executor: Any) -> Finished:
     try:
-        with executor(1) as pool:
-            return next(_run_in_pool(tasks, [index], perform, pool, jobs=1))
+        with closing(_run_in_pool(tasks, [index], perform, executor, jobs=1)) as finished:
+            return next(finished)
     except BrokenProcessPool:
         return Finished(index, None, "its process was killed, twice; was there too little memory?")
 
