@@ -397,3 +397,12 @@ def test_warnings_are_shown_once_but_for_their_numbers(capsys: pytest.CaptureFix
             warnings.warn(text, UserWarning, stacklevel=1)
     told = capsys.readouterr().err.splitlines()
     assert told == [f"tricue track: warning: {text}" for text in ("frame 1 is dark", "frame 3 has no depth")]
+
+
+def test_the_help_of_the_command_lists_its_options(capsys: pytest.CaptureFixture[str]) -> None:
+    """An unknown option is told with the help that has the others in it."""
+    with pytest.raises(SystemExit) as end:
+        main(["evaluate", "folder", "--only", "walk"])
+    assert end.value.code == 2
+    told = capsys.readouterr().err
+    assert told == "tricue evaluate: unrecognized arguments: --only walk; see tricue evaluate --help\n"
