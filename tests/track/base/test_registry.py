@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+import os
 import pickle
 import subprocess
 import sys
@@ -131,3 +132,14 @@ def test_a_tracker_of_cv2_by_its_class() -> None:
     )
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert (told.returncode, told.stdout) == (0, "tracked\n")
+
+
+@pytest.mark.parametrize("name", ["cv2:TrackerMIL", PLAIN])
+def test_a_third_partys_update_needs_init(name: str) -> None:
+    """In a process of its own, for without this check MIL of cv2 ends the process by SIGSEGV."""
+    code = f"import numpy as np, tricue\ntricue.create({name!r}).update(np.zeros((60, 80, 3), np.uint8))\n"
+    folders = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, sys.path))}
+    told = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=False, env=folders
+    )
+    assert told.stderr.endswith("RuntimeError: update: expected init first, with a frame and a box\n")

@@ -17,6 +17,7 @@ from tricue.errors import BoxNeededError
 from tricue.track.base.frame_image import FrameImage
 from tricue.track.base.track import Status, Track
 from tricue.track.base.traits import Channels, Traits
+from tricue.track.base.validation import require_initialized
 
 ADAPTED_TRAITS = Traits(channels=(Channels.of("color"),), follows="what its class says", source="not ours")
 _ADAPTED: dict[Any, Any] = {}  # adapted classes by original class, so that each is adapted once
@@ -113,22 +114,24 @@ class _Adapted:
                 f"{type(self).__name__}: expected to make a tracker with init and update, got {made}"
             )
         self._takes_frame = _takes_frame(self.tracker.init)
-        self._box = Box(0, 0, 0, 0)
+        self._box: Box | None = None  # the last one that is known, from ``init`` on
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
         """Start, or start again, on ``box``."""
         if box is None:
             raise BoxNeededError("box: expected (x, y, width, height), got None")
-        self._box = as_box(box)
-        start = self._box.as_int() if is_of_cv2(self.tracker) else self._box  # cv2 5 takes no other numbers
+        first = as_box(box)
+        start = first.as_int() if is_of_cv2(self.tracker) else first  # cv2 5 takes no other numbers
         given = self.tracker.init(self._input(frame), start)
+        self._box = first
         if given is None or isinstance(given, (bool, np.bool_)):
-            return Track(self._box, 1.0, Status.TRACKED)
-        return self._track(given, "init")
+            return Track(first, 1.0, Status.TRACKED)
+        return self._track(given, "init", first)
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame."""
-        return self._track(self.tracker.update(self._input(frame)), "update")
+        last = require_initialized(self._box)  # some of cv2's crash without
+        return self._track(self.tracker.update(self._input(frame)), "update", last)
 
     def __copy__(self) -> Any:
         """Of the same state, but independent, as copies of tricue's trackers are."""
@@ -142,19 +145,20 @@ class _Adapted:
         frame.require("color")
         return frame if self._takes_frame else FrameImage.of(frame)
 
-    def _track(self, given: Any, method: str) -> Track:
+    def _track(self, given: Any, method: str, last: Box) -> Track:
         if isinstance(given, Track):
             return check_track(given, method)
         found, box, score = _parts(given)
         if not found or box is None or _is_empty(box):
-            return Track(self._box, 0.0, Status.LOST)
+            return Track(last, 0.0, Status.LOST)
         try:
-            self._box = as_box(box, f"{method} returned a box")
+            found_box = as_box(box, f"{method} returned a box")
         except TypeError:
             raise ValueError(f"{method}: expected {_ANSWERS}, got {given!r:.80}") from None
         if not (isinstance(score, Real) and math.isfinite(score)):
             raise ValueError(f"{method}: expected a finite score, got {score!r:.80}")
-        return Track(self._box, float(score), Status.TRACKED)
+        self._box = found_box
+        return Track(found_box, float(score), Status.TRACKED)
 
 
 def _maker(cls: Callable[..., Any]) -> Callable[..., Any]:
