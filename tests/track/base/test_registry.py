@@ -4,6 +4,7 @@ import pickle
 import subprocess
 import sys
 from importlib.metadata import EntryPoint
+from typing import Any
 
 import numpy as np
 import pytest
@@ -29,6 +30,14 @@ class Plain:
         return tuple(self.box)
 
 
+class Mixed(Plain):
+    """It answers with a Track, and with None for a lost target."""
+
+    def update(self, frame: tricue.Frame) -> Any:
+        box = super().update(frame)
+        return box and tricue.Track(tricue.Box(*box), 0.5, tricue.Status.TRACKED)
+
+
 GRAY = np.full((40, 60, 3), 128, np.uint8)
 PLAIN = f"{Plain.__module__}:Plain"
 
@@ -46,6 +55,14 @@ def test_any_class_by_its_module() -> None:
     assert again.update(GRAY) == tracker.update(GRAY)
     with pytest.raises(ValueError, match="box: expected"):
         tracker.init(GRAY)
+
+
+def test_the_last_box_may_be_a_tracks() -> None:
+    """A target that is lost, by None, is where the last track was, not where it started."""
+    tracker = tricue.create(f"{__name__}:Mixed", step=2.0)
+    tracker.init(GRAY, (1, 2, 10, 12))
+    assert tracker.update(GRAY).box == (3, 2, 10, 12)
+    assert tracker.update(np.zeros_like(GRAY)).box == (3, 2, 10, 12)
 
 
 def test_a_package_offers_trackers(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -147,7 +147,9 @@ class _Adapted:
 
     def _track(self, given: Any, method: str, last: Box) -> Track:
         if isinstance(given, Track):
-            return check_track(given, method)
+            track = check_track(given, method)
+            self._box = with_known_numbers(track, last).box
+            return track
         found, box, score = _parts(given)
         if not found or box is None or _is_empty(box):
             return Track(last, 0.0, Status.LOST)
