@@ -9,11 +9,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tricue import Frame, MultiTracker, Status, StereoRig, Track, create
+from tricue import Box, Frame, MultiTracker, Status, StereoRig, Track, create
 from tricue.camera.rig import Intrinsics
 from tricue.errors import BoxError, MissingChannelError
 from tricue.kernels import load
 from tricue.scenes import overtaking
+from tricue.track.base.traits import Channels, Traits
 from tricue.track.fused import frame_observation
 
 KINDS = ("fused", "color-particle", "fused", "color-particle")
@@ -254,6 +255,31 @@ def test_an_error_without_a_message_stays_as_it_is(error, things, monkeypatch):
         several.update(things.frames[1])
     assert told.value is error
     assert error.args == arguments
+
+
+class Slotted:
+    """A third party's with traits, so it isn't wrapped, and without a ``__dict__``."""
+
+    __slots__ = ("box",)
+    traits = Traits(channels=(Channels.of("color"),))
+
+    def __init__(self, seed: int, kernels: str) -> None: ...
+
+    def init(self, frame: Frame, box: Box) -> Track:
+        self.box = Box(*box)
+        return self.update(frame)
+
+    def update(self, frame: Frame) -> Track:
+        return Track(self.box, 1.0, Status.TRACKED)
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_tracker_may_have_slots(workers, things):
+    """Nothing of it is saved before an update, as of no third party's is promised."""
+    with MultiTracker(f"{__name__}:Slotted", workers=workers) as several:
+        for box in things.boxes[:2]:
+            several.add(things.frames[0], box)
+        assert [track.box for track in several.update(things.frames[1]).values()] == [*things.boxes[:2]]
 
 
 @pytest.mark.parametrize("workers", [1, 2])

@@ -51,7 +51,14 @@ class Targets:
 
         number: of the update, by which :meth:`undo` knows it.
         """
-        self._before = number, {target: vars(tracker).copy() for target, tracker in self._trackers.items()}
+        self._before = (
+            number,
+            {
+                target: vars(tracker).copy()
+                for target, tracker in self._trackers.items()
+                if hasattr(tracker, "__dict__")  # not of some third party's, which keep what they did
+            },
+        )
         return {target: _update(target, tracker, frame) for target, tracker in self._trackers.items()}
 
     def undo(self, number: int) -> None:
