@@ -299,6 +299,55 @@ def test_threads_may_share_it(workers, things, alone, started):
     assert [{number: tracks[number] for number in (1, 2, 3, 4)} for tracks in found] == alone(FUSED)
 
 
+class Calling:
+    """Kernels, of which each first calls a function, as a signal's handler may be called anywhere."""
+
+    def __init__(self, call: Any) -> None:
+        self.call, self.kernels = call, load("native")
+
+    def __getattr__(self, name: str) -> Any:
+        self.call()
+        return getattr(self.kernels, name)
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+@pytest.mark.parametrize("method", ["add", "remove", "update", "copy"])
+def test_a_handler_may_not_call_in_the_middle(workers, method, things, alone, started):
+    """It would wait for itself, or change the targets that are gone through; the call that it came in fails
+    as a whole.
+    """
+    with started(FUSED, workers=workers) as several:
+        calls = {
+            "add": lambda: several.add(things.frames[0], things.boxes[0]),
+            "remove": lambda: several.remove(several.ids[-1]),
+            "update": lambda: several.update(things.frames[1]),
+            "copy": lambda: copy.copy(several),
+        }
+        here = several._targets if workers == 1 else several._targets._here
+        tracker = here._trackers[1]
+        tracker._k = Calling(calls[method])
+        with pytest.raises(RuntimeError, match="in the middle of another call"):
+            several.update(things.frames[1])
+        tracker._k = load("native")
+        assert on(several, things.frames[1:]) == alone(FUSED)
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_handler_may_close_in_the_middle(workers, things, started):
+    """As one of SIGTERM does before it ends the program."""
+    several = started(FUSED, workers=workers)
+
+    def end() -> None:
+        several.close()
+        raise SystemExit
+
+    here = several._targets if workers == 1 else several._targets._here
+    here._trackers[1]._k = Calling(end)
+    with pytest.raises(SystemExit):
+        several.update(things.frames[1])
+    assert several.update(things.frames[1]) == {}
+
+
 @each_workers
 @pytest.mark.parametrize("place", [0, 1, 2])
 def test_an_error_of_one_target_leaves_all(workers, place, things, alone):

@@ -41,7 +41,9 @@ class MultiTracker:
     rig, intrinsics: the camera, for all trackers that take one.
     seed, kernels: for all targets, as of every tracker. parameters: of the default kind.
 
-    Threads may share it: a call waits until another thread's is done, but for ``on_lost``.
+    Threads may share it: a call waits until another thread's is done, but for ``on_lost``. A handler of
+    signals or warnings can't wait for the call that it is in the middle of: it gets a RuntimeError, unless it
+    reads :attr:`ids` or :attr:`tracks`, or calls :meth:`close`.
 
     It is copied and pickled with all of its targets, as a tracker is (``on_lost`` then has to be a function
     that can be pickled). With workers, use it in ``with``, or call :meth:`close`; they also end with the
@@ -73,7 +75,8 @@ class MultiTracker:
         self._updates = 0
         self._told: frozenset[str] = frozenset()  # what was warned of
         self._targets = _targets(self.workers)
-        self._lock = threading.RLock()  # a handler of signals or of warnings may call, too
+        self._lock = threading.RLock()  # in the middle of a call a handler may call ``close``
+        self._calling = False
 
     @property
     def ids(self) -> tuple[int, ...]:
@@ -98,28 +101,26 @@ class MultiTracker:
             tracker, parameters = self.tracker, self._parameters | parameters
         made = self._create(tracker, parameters)
         shared = SharedFrame.of(as_frame(frame))
-        with self._lock:
+        with self._one_call():
             target = self._last_id + 1
-            with self._reporting_losses():
-                track = self._targets.add(target, made, shared, box)
-                try:
-                    self._warn(shared)
-                except BaseException:  # where warnings are errors
-                    self._targets.remove(target)
-                    raise
+            track = self._targets.add(target, made, shared, box)
+            try:
+                self._warn(shared)
+            except BaseException:  # where warnings are errors
+                self._targets.remove(target)
+                raise
             self._last_id, self._tracks[target] = target, track
             return target
 
     def remove(self, id: int) -> None:  # noqa: A002
         """Follow a target no longer. ValueError for an id that isn't among :attr:`ids`."""
-        with self._lock:
+        with self._one_call():
             if id not in self._tracks:
                 ids = ", ".join(map(str, self.ids))
                 expected = f"one of {ids}" if ids else "none, as there are no targets"
                 raise ValueError(f"id: expected {expected}, got {id!r}")
-            with self._reporting_losses():
-                self._find_losses()
-                self._targets.remove(id)
+            self._find_losses()
+            self._targets.remove(id)
             del self._tracks[id]
 
     def update(self, frame: FrameLike) -> dict[int, Track]:
@@ -132,16 +133,15 @@ class MultiTracker:
         with the next frame. If another error came first, the next call raises this one.
         """
         shared = SharedFrame.of(as_frame(frame))
-        with self._lock:
+        with self._one_call():
             self._updates += 1
-            with self._reporting_losses():
-                self._find_losses()
-                try:
-                    found = self._targets.update(self._updates, shared)
-                    self._warn(shared)
-                except BaseException:
-                    self._targets.undo(self._updates)
-                    raise
+            self._find_losses()
+            try:
+                found = self._targets.update(self._updates, shared)
+                self._warn(shared)
+            except BaseException:
+                self._targets.undo(self._updates)
+                raise
             before, self._tracks = self._tracks, {target: found[target] for target in self._tracks}
             found = self.tracks
         self._tell_of(
@@ -162,11 +162,10 @@ class MultiTracker:
         self.close()
 
     def __getstate__(self) -> dict[str, Any]:
-        with self._lock:
-            with self._reporting_losses():
-                self._find_losses()
-                trackers = self._targets.copies()
-            values = vars(self) | {"_tracks": self.tracks, "_targets": trackers}
+        with self._one_call():
+            self._find_losses()
+            copies = {"_tracks": self.tracks, "_targets": self._targets.copies(), "_calling": False}
+            values = vars(self) | copies
         del values["_lock"]
         return values
 
@@ -206,16 +205,26 @@ class MultiTracker:
             raise WorkerEndedError("a worker process ended")
 
     @contextmanager
-    def _reporting_losses(self) -> Iterator[None]:
-        """Where a worker has ended, forget its targets, and raise the error that tells of them."""
-        try:
-            yield
-        except WorkerEndedError as error:
-            left = self._targets.ids
-            lost = ", ".join(str(target) for target in self._tracks if target not in left)
-            self._tracks = {target: track for target, track in self._tracks.items() if target in left}
-            text = f"{error}; its targets {lost or '(none)'} are gone, the others are as they were"
-            raise WorkerEndedError(text) from None
+    def _one_call(self) -> Iterator[None]:
+        """One call at a time. Where a worker has ended in it, forget its targets, and raise the error that
+        tells of them.
+        """
+        with self._lock:
+            if self._calling:
+                raise RuntimeError(
+                    "MultiTracker: expected no call by a handler in the middle of another call"
+                )
+            try:
+                self._calling = True
+                yield
+            except WorkerEndedError as error:
+                left = self._targets.ids
+                lost = ", ".join(str(target) for target in self._tracks if target not in left)
+                self._tracks = {target: track for target, track in self._tracks.items() if target in left}
+                text = f"{error}; its targets {lost or '(none)'} are gone, the others are as they were"
+                raise WorkerEndedError(text) from None
+            finally:
+                self._calling = False
 
     def _warn(self, frame: SharedFrame) -> None:
         """Show what the trackers warn of, once, at the line that called the caller."""
