@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import cv2
@@ -113,6 +115,25 @@ def test_both_cascades_draw_the_same_box(monkeypatch: pytest.MonkeyPatch) -> Non
     assert first is not None
     assert second is not None
     assert first.iou(second) > 0.7
+
+
+class Cascade:
+    """A cascade like cv2's: it keeps the image that it looks at, and lets other threads run meanwhile."""
+
+    def detectMultiScale(self, gray: np.ndarray, **_: object) -> list[tuple[int, ...]]:  # noqa: N802
+        self.image = gray
+        time.sleep(0.01)
+        return [(0, 0, *self.image.shape)]
+
+
+def test_threads_get_the_faces_of_their_own_images(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The cascade is loaded once, and two trackers may start at the same time."""
+    cascade = Cascade()
+    monkeypatch.setattr(face_detection, "_load_cascade", lambda: cascade)
+    images = [np.zeros((side, side), np.uint8) for side in (100, 200, 300, 400)]
+    alone = [face_detection.find_face(image) for image in images]
+    with ThreadPoolExecutor(4) as pool:
+        assert list(pool.map(face_detection.find_face, images)) == alone
 
 
 def test_a_tracker_starts_on_a_face(detector: str) -> None:

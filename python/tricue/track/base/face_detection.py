@@ -4,6 +4,7 @@
 It is cv2's, of Haar features, or, where cv2 has none, as 5.x, scikit-image's.
 """
 
+import threading
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -21,6 +22,7 @@ Image = NDArray[np.uint8]
 # Size of the head relative to the detected square, as in hand-drawn boxes of faces.
 HEAD_WIDTH_RATIO, HEAD_HEIGHT_RATIO = 0.75, 0.95
 MIN_SIDE, MIN_SHARE = 20, 10  # of the smallest face: pixels, and 1 / the share of the image's shorter side
+_ONE_AT_A_TIME = threading.Lock()  # cv2's cascade keeps the image it looks at, and releases the GIL
 
 
 def find_face(image: Image) -> Box | None:
@@ -46,7 +48,9 @@ def find_face(image: Image) -> Box | None:
 def _find_square(classifier: Any, image: Image, smallest: int) -> Box | None:
     """The square of the largest face, by cv2's cascade of Haar features."""
     gray = image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
-    found = classifier.detectMultiScale(gray, scaleFactor=1.1, minNeighbors=5, minSize=(smallest, smallest))
+    size = (smallest, smallest)
+    with _ONE_AT_A_TIME:
+        found = classifier.detectMultiScale(gray, scaleFactor=1.1, minNeighbors=5, minSize=size)
     squares = [Box(*map(float, square)) for square in found]
     return max(squares, key=lambda square: square.area, default=None)
 
