@@ -61,9 +61,9 @@ def read_boxes(path: Path | None) -> dict[str, list[float]]:
     """The boxes by the videos' names. ValueError names a line that has no box."""
     if path is None:
         return {}
-    with path.open(newline="", encoding="utf-8") as file:
+    with path.open(newline="", encoding="utf-8-sig") as file:  # spreadsheets begin it with a mark
         lines = csv.reader(file)
-        return dict(_named_box(fields, f"{path}:{lines.line_num}") for fields in lines)
+        return dict(_named_box(fields, f"{path}:{lines.line_num}") for fields in lines if fields)
 
 
 def _named_box(fields: list[str], place: str) -> tuple[str, list[float]]:

@@ -191,6 +191,13 @@ def test_a_table_without_a_box(
     assert f"{table}:2: expected name.mp4,x,y,width,height, got '{line}'" in capsys.readouterr().err
 
 
+def test_a_table_of_a_spreadsheet(tmp_path: Path, program: Program) -> None:
+    """Its byte order mark is no part of the first name, and lines without anything are no boxes."""
+    (tmp_path / "boxes.csv").write_bytes(b"\xef\xbb\xbfa.mp4,1,2,30,40\r\n\r\nb.mp4,5,6,30,40\r\n\r\n")
+    boxes = program("batch_folder").read_boxes(tmp_path / "boxes.csv")
+    assert boxes == {"a.mp4": [1, 2, 30, 40], "b.mp4": [5, 6, 30, 40]}
+
+
 def test_the_alarm(
     face_video: Path, face: Scene, face_box: str, program: Program, capsys: pytest.CaptureFixture[str]
 ) -> None:
