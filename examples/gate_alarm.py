@@ -61,7 +61,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     try:
         alarms = watch(tricue.open_source(options.source), options.box, options.region)
-    except (OSError, ValueError) as error:
+    except (ImportError, OSError, ValueError) as error:
         parser.error(str(error))
     print(f"{alarms} alarms")
     return 1 if alarms else 0

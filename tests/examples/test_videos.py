@@ -198,6 +198,19 @@ def test_a_table_of_a_spreadsheet(tmp_path: Path, program: Program) -> None:
     assert boxes == {"a.mp4": [1, 2, 30, 40], "b.mp4": [5, 6, 30, 40]}
 
 
+@pytest.mark.parametrize("name", ["gate_alarm", "webcam_targets"])
+def test_a_camera_without_its_package_is_one_line(
+    name: str, program: Program, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What has to be installed is told, with exit code 2."""
+    monkeypatch.setitem(sys.modules, "pyrealsense2", None)
+    region = ["--region", "1,1,20,20"] if name == "gate_alarm" else []
+    with pytest.raises(SystemExit) as stop:
+        program(name).main(["realsense:", "--box", "1,2,30,40", *region])
+    assert stop.value.code == 2
+    assert "pip install 'tricue[realsense]'" in capsys.readouterr().err
+
+
 def test_the_alarm(
     face_video: Path, face: Scene, face_box: str, program: Program, capsys: pytest.CaptureFixture[str]
 ) -> None:
