@@ -192,6 +192,7 @@ def test_many_divisions(kernels: Kernels) -> None:
             {"before": drawn(*TWO), "noise": (-1.0, 0.0)},
             "noise: expected a finite number, not negative, got -1",
         ),
+        ({"noise": (0.0, np.nan)}, "slope: expected a finite number, not negative, got nan"),
         ({"camera": np.ones(3)}, r"camera: expected shape \(4,\), got \(3,\)"),
         ({"plane": np.ones(3)}, "up: expected a vector of length 1"),
         ({"plane": np.zeros(3)}, r"plane: expected shape \(4,\), got \(3,\)"),

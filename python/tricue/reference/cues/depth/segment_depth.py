@@ -41,8 +41,9 @@ def segment_depth(
     near, far, count = levels
     distance = ground_distance(depth, camera, plane[:3], near, far) if plane[:3].any() else depth
     mask = 1 - depth_edges(distance, *edges)
-    if before.shape != (0, 0):
-        mask &= changed_depth(depth, before, *noise)
+    if before.shape == (0, 0):
+        before = np.full_like(depth, np.nan)  # from which all differs
+    mask &= changed_depth(depth, before, *noise)
     mask[~_inside(region, depth)] = 0
     dividers = _dividers(depth_histogram(distance, mask, near, far, count), near, far, *density)
     labels = divide_depth(distance, mask, dividers)
