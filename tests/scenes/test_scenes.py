@@ -113,6 +113,12 @@ def test_unknown_background_is_named():
     ("make", "arguments", "words"),
     [
         (scenes.face_over_clutter, {"frames": 0}, "frames: expected 1 or more, got 0"),
+        (
+            scenes.face_over_clutter,
+            {"noise": np.nan},
+            "noise: expected a finite number, levels of 255, got nan",
+        ),
+        (scenes.light_change, {"noise": -1.0}, "noise: expected levels of 255, 0 or more, got -1.0"),
         (scenes.light_change, {"max_speed": 0.0}, "max_speed: expected pixels per frame above 0"),
         (scenes.face_over_clutter, {"max_speed": np.nan}, "max_speed: expected pixels per frame above 0"),
         (

@@ -5,6 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue import imgproc
+from tricue.camera.numbers import finite
 from tricue.scenes.arrays import Picture
 
 
@@ -29,8 +30,10 @@ def paste(picture: Picture, cutout: Picture, opacity: Picture, x: float, y: floa
 def expose(picture: Picture, noise: float, rng: np.random.Generator | None) -> NDArray[np.uint8]:
     """The 8-bit image of a sensor with Gaussian noise, clipped to 0 to 255. noise: deviation in levels.
 
-    Without a generator there is no noise.
+    Without a generator there is no noise. ValueError for a deviation that is none.
     """
+    if finite(noise, "noise", "levels of 255") < 0:
+        raise ValueError(f"noise: expected levels of 255, 0 or more, got {noise!r}")
     levels = np.zeros_like(picture) if rng is None else rng.standard_normal(picture.shape, dtype=np.float32)
     levels *= np.float32(noise)
     levels += picture
