@@ -2,6 +2,7 @@
 """Code in a process of its own: whatever it does is an answer."""
 
 import sys
+from pathlib import Path
 
 import pytest
 from tricue.doctor.probe import MAX_ERROR, probe
@@ -46,6 +47,12 @@ def test_an_exit_is_told():
 def test_a_hang_is_told():
     """After the given time."""
     assert probe("import time\ntime.sleep(100)", seconds=0.5).error == "gives no answer for 0.5 s"
+
+
+def test_a_path_may_be_among_the_folders_of_modules(monkeypatch):
+    """Of ``sys.path``, to which some add a pathlib.Path, as a sitecustomize may; nothing else is broken."""
+    monkeypatch.setattr(sys, "path", [*sys.path, Path("somewhere")])
+    assert probe("report(done=True)").values == {"done": True}
 
 
 def test_it_imports_what_this_process_imports(tmp_path, monkeypatch):

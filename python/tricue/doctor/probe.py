@@ -36,7 +36,7 @@ class Answer:
 def probe(code: str, seconds: float = SECONDS) -> Answer:
     """Run code that calls ``report(name=value, ...)`` once, by this Python and on its path."""
     indented = "".join(f"    {line}\n" for line in code.strip().splitlines())
-    script = _FRAME.format(path=sys.path, mark=_MARK, code=indented)
+    script = _FRAME.format(path=[*map(str, sys.path)], mark=_MARK, code=indented)
     try:
         done = subprocess.run(
             [sys.executable, "-W", "ignore", "-c", script],
