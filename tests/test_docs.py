@@ -9,6 +9,7 @@ import shlex
 import subprocess
 import sys
 from collections.abc import Iterator
+from importlib.metadata import EntryPoint
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -21,6 +22,9 @@ from tricue.cli import program
 from tricue.data.open_source import open_source
 from tricue.data.source import Source
 from tricue.data.streams import Video
+from tricue.track.base import registry
+
+from tools import tracker_table
 
 ROOT = Path(__file__).parents[1]
 PAGES = sorted(
@@ -285,3 +289,10 @@ def test_the_tables_of_trackers_are_their_traits() -> None:
     command = [sys.executable, ROOT / "tools" / "tracker_table.py", "--check"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_the_tables_of_trackers_leave_out_what_else_is_installed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A package that registers a tracker changes no page."""
+    theirs = EntryPoint("theirs", "package:Theirs", registry.GROUP)
+    monkeypatch.setattr(registry, "_installed_entry_points", lambda: {"theirs": theirs})
+    assert [row[0] for row in tracker_table.overview()[1:]] == [f"`{name}`" for name in registry._BUILT_IN]

@@ -4,7 +4,8 @@
 import sys
 from pathlib import Path
 
-from tricue.track.base.registry import names, traits
+from tricue.track.base import registry
+from tricue.track.base.registry import traits
 from tricue.track.base.traits import Channels, Traits
 
 ROOT = Path(__file__).parents[1]
@@ -15,6 +16,11 @@ CHANNELS = {
     frozenset({"color", "depth"}): "color and depth",
     frozenset({"color", "right"}): "a stereo pair",
 }
+
+
+def names() -> list[str]:
+    """Of our trackers; others' may be installed, too."""
+    return [name for name in registry.names() if registry.is_built_in(name)]
 
 
 def overview() -> list[list[str]]:
