@@ -79,6 +79,8 @@ def test_a_package_offers_trackers(monkeypatch: pytest.MonkeyPatch) -> None:
     [
         ("no_such_module:Tracker", "no_such_module:Tracker: there is no module no_such_module"),
         ("fractions:Nothing", "fractions:Nothing: the module fractions has no Nothing"),
+        ("./mine:Mine", "./mine:Mine: expected module:Class or path/to/file.py:Class"),
+        (":Mine", ":Mine: expected module:Class or path/to/file.py:Class"),
         ("math:pi", "math:pi: expected a class with init and update, got float"),
         ("fractions:Fraction", r"Fraction: expected a class with init\(frame, box\) and update"),
     ],

@@ -105,6 +105,8 @@ def _import_class(where: str) -> Any:
     ValueError if it doesn't exist or is neither.
     """
     module, _, attribute = where.rpartition(":")
+    if not module or (module.startswith(".") and not module.endswith(".py")):
+        raise ValueError(f"{where}: expected module:Class or path/to/file.py:Class")
     try:
         found: Any = _import_file(Path(module)) if module.endswith(".py") else importlib.import_module(module)
         for part in attribute.split("."):
