@@ -50,6 +50,14 @@ def test_a_folder_in_natural_order(tmp_path: Path) -> None:
     assert levels(source) == [10, 20, 30, 40, 50]  # once more from the start
 
 
+def test_an_image_is_what_it_holds(tmp_path: Path) -> None:
+    """It proves that a JPEG file that is called .png is read, and a PNG file that is called .jpg."""
+    folder = images(tmp_path, ["1.jpg", "2.png"])
+    (folder / "1.jpg").rename(folder / "1.png")
+    (folder / "2.png").rename(folder / "2.jpg")
+    assert levels(open_source(folder)) == [10, 20]
+
+
 def test_times_follow_the_frame_rate(tmp_path: Path) -> None:
     """It proves that a frame's timestamp is its number over the frame rate, in seconds."""
     source = open_source(video(tmp_path / "v.avi", fps=12.0))

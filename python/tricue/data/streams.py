@@ -22,6 +22,8 @@ MAX_FPS = 1000.0
 MIN_DECODED_SHARE = 0.95  # of the frames or the duration that a container states
 MAX_MISCOUNTED = 4  # frames by which a duration may be too long: Flash's counts the delay of B-frames
 TIME_ROUNDING = 0.001  # seconds, the unit of times in Matroska and Flash
+PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+PNG_END = 4096  # bytes in which its last chunk is, as some tools write more after it
 MAX_DAMAGED = 100  # frames in a row that can't be decoded, before the video is taken to end
 DOUBTED_FPS = 60.0  # above it FFmpeg may tell the unit of a container's times, where that states no rate
 FIRST_FRAMES = 16  # by whose times such a rate is checked
@@ -301,7 +303,7 @@ def read_image(path: Path, flag: int) -> Image:
         raise FileNotFoundError(f"{path}: there is no such file")
     content = np.fromfile(path, np.uint8)  # cv2.imread can't open every path
     try:
-        image = cv2.imdecode(content, flag) if content.size and not _is_truncated(path) else None
+        image = cv2.imdecode(content, flag) if content.size and not _is_truncated(content) else None
     except cv2.error:  # an image larger than OpenCV allows
         image = None
     if image is None:
@@ -309,13 +311,10 @@ def read_image(path: Path, flag: int) -> Image:
     return image
 
 
-def _is_truncated(path: Path) -> bool:
-    """Whether a PNG file is truncated; libpng would write to stderr about it."""
-    if path.suffix.lower() != ".png":
-        return False
-    with path.open("rb") as file:
-        file.seek(max(0, file.seek(0, os.SEEK_END) - 4096))  # some tools write more after the end
-        return b"IEND" not in file.read()
+def _is_truncated(content: NDArray[np.uint8]) -> bool:
+    """Whether a PNG file, whatever its name, is truncated; libpng would write to stderr about it."""
+    is_png = content[: len(PNG_SIGNATURE)].tobytes() == PNG_SIGNATURE
+    return is_png and b"IEND" not in content[-PNG_END:].tobytes()
 
 
 def plausible_fps(fps: float) -> float | None:
