@@ -24,6 +24,13 @@ def test_images_in_natural_order(tmp_path: Path) -> None:
     assert [path.name for path in image_paths(tmp_path)] == ["2.PNG", "10.png", "③.png"]
 
 
+def test_times_in_names() -> None:
+    """It proves that seconds since 1970 are in order, however many decimals each name has."""
+    names = ["cam 9/1700000000.123.png", "cam 9/1700000000.5.png", "cam 10/1700000000.25.png"]
+    names += ["cam 10/1700000000.9999999.png", "cam 10/1700000001.0.png"]
+    assert [str(path) for path in natural_order(map(Path, reversed(names)))] == names
+
+
 @pytest.mark.parametrize(
     ("names", "found"),
     [

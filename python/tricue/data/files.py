@@ -40,6 +40,9 @@ _OTHER_VIDEO_SUFFIXES = {
 }
 """Of videos, too, but also of previews beside one, of other files, and of what cameras send by URL."""
 
+_NUMBER = re.compile(r"([0-9]{10,}\.[0-9]+|[0-9]+)")
+"""A time since 1970, in seconds or less, of which Python leaves out zeros at the end, or a whole number."""
+
 _HEAD = 1 << 16  # bytes of a PNG file that are looked through for what is before its pixels
 
 
@@ -107,4 +110,11 @@ def video_paths(folder: Path) -> list[Path]:
 
 
 def _natural(name: str) -> list[tuple[int, str]]:
-    return [(int(part), "") if part.isdecimal() else (-1, part) for part in re.split(r"([0-9]+)", name)]
+    """A number is itself and its decimals, which are compared as digits, so that .5 is behind .123."""
+    parts = enumerate(_NUMBER.split(name))  # every other one is a number
+    return [_number(part) if index % 2 else (-1, part) for index, part in parts]
+
+
+def _number(text: str) -> tuple[int, str]:
+    whole, _, decimals = text.partition(".")
+    return int(whole), decimals
