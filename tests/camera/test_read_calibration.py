@@ -46,6 +46,15 @@ def test_every_format_is_known(tmp_path: Path) -> None:
         assert read_intrinsics(path, SIZE, "depth") == CAMERA, path
 
 
+def test_a_byte_order_mark_is_no_part_of_the_text(tmp_path: Path) -> None:
+    """It proves that a file is known as before once Windows' editor has saved it, also by its first line."""
+    files = [opencv(tmp_path / "d.yml").rename(tmp_path / "yaml.txt"), kitti(tmp_path / "calib.txt")]
+    files[1].write_text(files[1].read_text().partition("\n")[2])
+    for path in files:
+        path.write_text(path.read_text(), encoding="utf-8-sig")
+        assert read_intrinsics(path, SIZE, "depth") == CAMERA, path
+
+
 def test_ros_file_is_known(tmp_path: Path) -> None:
     """It proves that a camera_info is read, with one warning of its lens, for images of its size alone."""
     path, numbers = tmp_path / "c.yaml", ", ".join(map(str, CAMERA.matrix.ravel()))

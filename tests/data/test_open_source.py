@@ -125,6 +125,13 @@ def test_vot_reads_what_its_pattern_names(tmp_path: Path) -> None:
     assert levels(open_source(tmp_path)) == [10, 20]
 
 
+def test_a_byte_order_mark_in_vots_file(tmp_path: Path) -> None:
+    """It proves that the first key counts where Windows' editor has saved the sequence file."""
+    images(tmp_path / "color", ["00000001.png"])
+    (tmp_path / "sequence").write_text("channels.color=color/%08d.png\nfps=4\n", encoding="utf-8-sig")
+    assert levels(open_source(tmp_path)) == [10]
+
+
 def test_fps_times_images_that_have_no_times(tmp_path: Path) -> None:
     """It proves that the frame rate is 30 or the one that is given, for images alone, OTB's, and VOT's that
     don't tell it, and that the timestamps follow from it.

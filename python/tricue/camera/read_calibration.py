@@ -90,7 +90,7 @@ def _format(path: Path) -> str:
         return TOML
     if path.suffix.lower() == ".mat":
         return PRINCETON
-    text = path.read_text(encoding="utf-8", errors="replace")
+    text = path.read_text(encoding="utf-8-sig", errors="replace")
     if path.suffix.lower() in (".yml", ".yaml", ".xml", ".json") or re.match(r"\s*(%YAML|<\?xml|\{)", text):
         return OPENCV
     if re.search(r"^P(_rect_)?\d+:? ", text, re.MULTILINE):

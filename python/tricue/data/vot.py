@@ -28,7 +28,7 @@ def read_channels(folder: Path, scale: float | None) -> dict[str, Stream] | None
 
 def _listed(folder: Path, reader: DepthReader) -> dict[str, Stream]:
     """The channels that the file lists by patterns such as color/%08d.jpg, which count from 1."""
-    lines = (folder / SEQUENCE_FILE).read_text(encoding="utf-8", errors="replace").splitlines()
+    lines = (folder / SEQUENCE_FILE).read_text(encoding="utf-8-sig", errors="replace").splitlines()
     values = {
         key.strip(): value.strip() for key, found, value in (line.partition("=") for line in lines) if found
     }
