@@ -46,6 +46,13 @@ def test_every_format_is_known(tmp_path: Path) -> None:
         assert read_intrinsics(path, SIZE, "depth") == CAMERA, path
 
 
+def test_blanks_of_kittis_file(tmp_path: Path) -> None:
+    """It proves that tabs part its numbers as well, and that its lines may be indented."""
+    path = kitti(tmp_path / "calib.txt")
+    path.write_text("".join(f"  {line}\n" for line in path.read_text().replace(" ", "\t").splitlines()))
+    assert read_intrinsics(path, SIZE, "depth") == CAMERA
+
+
 def test_a_byte_order_mark_is_no_part_of_the_text(tmp_path: Path) -> None:
     """It proves that a file is known as before once Windows' editor has saved it, also by its first line."""
     files = [opencv(tmp_path / "d.yml").rename(tmp_path / "yaml.txt"), kitti(tmp_path / "calib.txt")]

@@ -93,7 +93,7 @@ def _format(path: Path) -> str:
     text = path.read_text(encoding="utf-8-sig", errors="replace")
     if path.suffix.lower() in (".yml", ".yaml", ".xml", ".json") or re.match(r"\s*(%YAML|<\?xml|\{)", text):
         return OPENCV
-    if re.search(r"^P(_rect_)?\d+:? ", text, re.MULTILINE):
+    if re.search(r"^\s*P(_rect_)?\d+:?\s", text, re.MULTILINE):
         return KITTI
     raise ValueError(
         f"{path}: expected a calibration by OpenCV or ROS (.yml, .xml, .json), KITTI (.txt), "
