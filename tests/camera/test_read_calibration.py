@@ -115,6 +115,7 @@ def test_another_size_is_refused(tmp_path: Path, suffix: str) -> None:
     [
         ("c.toml", "fx = 500\n", "c.toml: expected the key fy"),
         ("c.toml", "fx = -1\nfy = 1\ncx = 1\ncy = 1\n", "c.toml: fx: expected pixels above 0"),
+        ("c.toml", "fx = '5'\nfy = 1\ncx = 1\ncy = 1\n", "c.toml: fx: expected a number, pixels, got '5'"),
         ("c.toml", "fx 500", "c.toml: expected a TOML file"),
         ("c.yml", "fx: 500\n", "c.yml: expected"),
         ("c.txt", "500 500 320 240\n", r"c.txt: expected a calibration by OpenCV .*, KITTI .* or in \.toml"),

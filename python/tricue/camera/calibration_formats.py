@@ -241,11 +241,11 @@ def _is_distorted(file: OpenCVFile, key: str) -> bool:
 
 
 def _name_file(path: PathLike, check: Callable[[], T]) -> T:
-    """The value of a check, whose error gets the file's name in front."""
+    """The value of a check; ValueError with the file's name where it raises TypeError or ValueError."""
     try:
         return check()
     except (TypeError, ValueError) as error:
-        raise type(error)(f"{path}: {error}") from None
+        raise ValueError(f"{path}: {error}") from None
 
 
 def _kitti_values(path: PathLike) -> dict[str, list[float]]:
