@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+import time
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -7,6 +8,7 @@ import numpy as np
 import pytest
 from tricue import open_source
 from tricue.data.source import Source
+from tricue.data.viewer_images import _by_name
 
 
 def color(folder: Path, names: Sequence[str]) -> Path:
@@ -65,6 +67,14 @@ def test_paired_by_time(tmp_path: Path, per_second: float, digits: int) -> None:
     assert found(source) == [(10, 1.0), (20, 2.0), (40, 3.0), (50, 4.0)]
     assert [frame.timestamp for frame in source] == pytest.approx(times[:2] + times[3:], abs=1e-3)
     assert source.notes == ("left out 1 of 5 color images, which have no partner",)
+
+
+def test_a_long_recording_is_told_apart_at_once() -> None:
+    """It proves that the time to tell color from depth grows as the number of images does."""
+    paths = [Path(f"rs_{kind}_{number}.png") for kind in ("Color", "Depth") for number in range(8000)]
+    begin = time.process_time()
+    assert _by_name(paths) == (paths[:8000], paths[8000:])
+    assert time.process_time() - begin < 2
 
 
 def test_unpaired_images_are_told(tmp_path: Path) -> None:

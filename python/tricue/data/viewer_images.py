@@ -54,7 +54,7 @@ def read_channels(folder: Path, scale: float | None) -> tuple[dict[str, Stream],
 def _by_name(paths: Sequence[Path]) -> tuple[list[Path], list[Path]] | None:
     """Color and depth, None unless names tell of both."""
     depth = [path for path in paths if _DEPTH.search(path.stem)]
-    color = [path for path in paths if _COLOR.search(path.stem) and path not in set(depth)]
+    color = [path for path in _others(paths, depth) if _COLOR.search(path.stem)]
     return (color, depth) if color and depth else None
 
 
@@ -64,7 +64,12 @@ def _by_pixels(paths: Sequence[Path]) -> tuple[list[Path], list[Path]]:
     if len({_has_16_bits(paths[index]) for index in chosen}) < 2:
         return [], []
     depth = [path for path in paths if _has_16_bits(path)]
-    return [path for path in paths if path not in set(depth)], depth
+    return _others(paths, depth), depth
+
+
+def _others(paths: Sequence[Path], chosen: Sequence[Path]) -> list[Path]:
+    known = set(chosen)
+    return [path for path in paths if path not in known]
 
 
 def _has_16_bits(path: Path) -> bool:
