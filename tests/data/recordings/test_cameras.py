@@ -51,6 +51,13 @@ def test_extrinsics_along_a_tree() -> None:
     assert find_extrinsics(tree, "", "color") is None
 
 
+@pytest.mark.parametrize("turn", [(0.0,) * 4, (math.nan,) * 4])
+def test_a_transform_without_a_rotation_connects_nothing(turn: tuple[float, ...]) -> None:
+    """It proves that a quaternion of 0 or NaN, which would make all depth NaN, is left out."""
+    unfilled = Transform("color", "depth", (0.1, 0.0, 0.0), turn)
+    assert find_extrinsics([unfilled], "depth", "color") is None
+
+
 @pytest.mark.parametrize(
     ("image", "topic"),
     [

@@ -52,10 +52,15 @@ def find_info(image: str, frame: str, infos: Mapping[str, CameraMessage]) -> Cam
 
 
 def find_extrinsics(transforms: Sequence[Transform], start: str, end: str) -> Extrinsics | None:
-    """x_end = rotation @ x_start + translation between two frames; None where nothing connects them."""
+    """x_end = rotation @ x_start + translation between two frames; None where nothing connects them.
+
+    A transform whose quaternion is 0, as in a message that nobody filled in, connects nothing.
+    """
     steps: dict[str, list[tuple[str, NDArray[Any]]]] = {}
     for each in transforms:
         matrix = _matrix(each)
+        if not np.isfinite(matrix).all():
+            continue
         steps.setdefault(each.child, []).append((each.parent, matrix))
         steps.setdefault(each.parent, []).append((each.child, np.linalg.inv(matrix)))
     reached: dict[str, NDArray[Any]] = {start: np.eye(4)}
@@ -218,7 +223,7 @@ def _is_none(between: Extrinsics) -> bool:
 
 
 def _matrix(transform: Transform) -> NDArray[np.float64]:
-    """(4, 4), child to parent. ValueError for a quaternion of 0."""
+    """(4, 4), child to parent; NaN for a quaternion of 0."""
     x, y, z, w = np.divide(transform.rotation, np.linalg.norm(transform.rotation) or np.nan)
     matrix = np.eye(4)
     matrix[:3, :3] = [
