@@ -98,6 +98,8 @@ def test_one_camera() -> None:
     [
         (None, "/a has no camera_info"),
         (info(k=(0.0,) * 9), "the camera of /a isn't calibrated"),
+        (info(k=(math.nan,) * 9), "the camera of /a isn't calibrated"),
+        (info(k=()), "the camera of /a isn't calibrated"),
         (info()._replace(width=640, height=480), "/a has images of 64x48, its camera_info is for 640x480"),
     ],
 )

@@ -93,7 +93,7 @@ def _intrinsics(view: View) -> tuple[Intrinsics | None, tuple[str, ...]]:
     info, (width, height) = view.info, view.size
     if info is None:
         return None, (f"{view.topic} has no camera_info",)
-    if info.k[0] == 0:
+    if not _is_calibrated(info):
         return None, (f"the camera of {view.topic} isn't calibrated, says its camera_info",)
     if (info.width, info.height) != view.size:
         said = f"{info.width}x{info.height}"
@@ -106,6 +106,11 @@ def _intrinsics(view: View) -> tuple[Intrinsics | None, tuple[str, ...]]:
     bent = not view.rectified and np.abs(info.d).max(initial=0) > 0
     notes = (f"{view.topic}: its lens' distortion isn't taken out",) if bent else ()
     return Intrinsics(fx, fy, cx, cy, width, height), notes
+
+
+def _is_calibrated(info: CameraMessage) -> bool:
+    """Whether K is that of a camera; of one that nobody calibrated it is 0, NaN or left out."""
+    return len(info.k) == 9 and bool(np.isfinite(info.k).all()) and min(info.k[0], info.k[4]) > 0
 
 
 def _color_and_depth(color: View, depth: View, transforms: Sequence[Transform]) -> Cameras:
@@ -133,7 +138,7 @@ def _stereo(left: View, right: View, transforms: Sequence[Transform]) -> Cameras
     """The rig of a stereo pair, and what rectifies it where its images aren't."""
     camera, notes = _intrinsics(left)
     first, second = left.info, right.info
-    if camera is None or first is None or second is None or second.k[0] == 0:
+    if camera is None or first is None or second is None or not _is_calibrated(second):
         return Cameras(notes=notes or (f"{right.topic} has no camera_info of a calibrated camera",))
     baseline = _place(second) - _place(first)
     if baseline and not left.rectified and _is_raw(first, second):
