@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+import os
 import sqlite3
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -103,6 +104,13 @@ def test_compressed_bags(tmp_path: Path, compression: str) -> None:
     packed = Bag1(write_bag1(tmp_path / "b.bag", walk(), compression))
     assert packed.path.stat().st_size < plain.path.stat().st_size
     assert list(packed.messages(plain.topics)) == list(plain.messages(plain.topics))
+
+
+@pytest.mark.parametrize("name", [b"100% a#b?c=d", b"caf\xe9"])
+def test_any_name_of_a_database(tmp_path: Path, name: bytes) -> None:
+    """It proves that a database is opened whatever its folder is called, also in bytes that aren't UTF-8."""
+    folder = sqlite(tmp_path, walk(3)).path.parent.rename(tmp_path / os.fsdecode(name))
+    assert sum(SqliteFile(folder / "b.db3").counts().values()) == 12
 
 
 def test_compressed_messages_of_ros_2(tmp_path: Path) -> None:

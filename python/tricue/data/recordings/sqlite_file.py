@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """ROS 2 databases (.db3): a table of topics and one of messages, each in CDR."""
 
+import os
 import sqlite3
 from collections.abc import Collection, Iterator
 from contextlib import closing
@@ -65,7 +66,7 @@ class SqliteFile(Container):
         """Read alone; what a recorder that crashed left in a journal beside the file is taken, too."""
         journal = self.path.with_name(f"{self.path.name}-wal").exists()
         options = "mode=ro" if journal else "mode=ro&immutable=1"
-        database = sqlite3.connect(f"file:{quote(str(self.path))}?{options}", uri=True)
+        database = sqlite3.connect(f"file:{quote(os.fsencode(self.path))}?{options}", uri=True)
         database.text_factory = partial(str, encoding="utf-8", errors="replace")
         database.execute("PRAGMA writable_schema = ON")  # else a file that is cut off isn't opened at all
         return database
