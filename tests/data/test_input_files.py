@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from tricue.data.input_files import input_files
 from tricue.data.open_source import open_source
+from tricue.draw.video import OverlayWriter
 
 LABEL = "{} 0 Car 0 0 0 10 10 20 20 1 1 1 0 0 9 0\n"
 
@@ -45,12 +46,20 @@ def kitti(folder: Path) -> None:
         image(folder / "image_02" / "0005" / f"{number:06d}.png")
 
 
+def one_video(folder: Path) -> None:
+    """A folder with one video and its true boxes."""
+    with OverlayWriter(folder / "clip.avi", 30.0) as writer:
+        writer.write(np.full((48, 64, 3), 99, np.uint8))
+    text(folder / "clip.csv", "x,y,width,height\n1,2,8,9\n")
+
+
 @pytest.mark.parametrize(
     ("write", "names"),
     [
         (vot, ["sequence", "groundtruth.txt", "color/00000001.png"]),
         (tum, ["rgb.txt", "depth.txt", "rgb/1.0.png", "depth/1.0.png"]),
         (kitti, ["label_02/0005.txt", "image_02/0005/000001.png"]),
+        (one_video, ["clip.avi", "clip.csv"]),
     ],
 )
 def test_what_a_layout_reads(tmp_path: Path, write, names: list[str]) -> None:

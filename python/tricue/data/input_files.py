@@ -20,11 +20,13 @@ def input_files(source: Source, *places: Path) -> Iterator[Path]:
         yield from stream_files(stream)
     if source.calibration is not None:
         yield source.calibration
+    color = source.channels.get("color")
+    video = color.path if isinstance(color, Video) else None  # a folder's, beside which its table may be
     for place in places:
         if place.is_dir():
             yield from truth_files(place)
             yield from layout_files(place)
-        table = find_box_table(place) if place.is_dir() else find_video_box_table(place)
+        table = find_box_table(place, video) if place.is_dir() else find_video_box_table(place)
         if table is not None:
             yield table
 
