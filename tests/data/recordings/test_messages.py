@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 import json
 import struct
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -185,6 +186,25 @@ def test_foxglove_messages(encoding: str) -> None:
     (transform,) = to_transforms(values_of("FrameTransform", encoding))
     assert (transform.parent, transform.child) == ("body", "lens")
     assert (transform.translation, transform.rotation) == ((0.1, -0.2, 0.3), (0.0, 0.0, 0.6, 0.8))
+
+
+@pytest.mark.parametrize(
+    ("kind", "convert", "field"),
+    [
+        ("RawImage", to_image, "width"),
+        ("CameraCalibration", to_camera, "width"),
+        ("FrameTransform", to_transforms, "rotation"),
+    ],
+)
+def test_null_in_json(kind: str, convert: Callable[[Any], Any], field: str) -> None:
+    """It proves that null, as writers put for NaN, is an error like other values that can't be."""
+    with pytest.raises(ValueError, match="a message with"):
+        convert({**values_of(kind, "json"), field: None})
+
+
+def test_a_list_that_is_null() -> None:
+    """It proves that null in place of the coefficients of a distortion is the empty list."""
+    assert to_camera({**values_of("CameraCalibration", "json"), "D": None}).d == ()
 
 
 @pytest.mark.parametrize(

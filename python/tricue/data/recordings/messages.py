@@ -5,7 +5,8 @@ import base64
 import json
 import re
 from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple
+from functools import wraps
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from tricue.data.recordings.protobuf import SCHEMAS, read_message
 IMAGES = {"Image", "RawImage", "CompressedImage"}
 CAMERAS = {"CameraInfo", "CameraCalibration"}
 TRANSFORMS = {"TFMessage", "FrameTransform", "FrameTransforms"}
+T = TypeVar("T")
 Decoder = Callable[[bytes], Any]
 _ROS_TYPE = re.compile(r"[A-Za-z]\w*/msg/[A-Za-z]\w*", re.ASCII)
 
@@ -77,6 +79,22 @@ def decoder(topic: Topic) -> Decoder:
     raise ValueError(f"the encoding {topic.encoding!r} isn't known")
 
 
+def _typed(convert: Callable[..., T]) -> Callable[..., T]:
+    """A conversion whose error is ValueError also for fields of another type, as JSON may have them, such as
+    null for NaN.
+    """
+
+    @wraps(convert)
+    def typed(message: Any, *arguments: Any) -> T:
+        try:
+            return convert(message, *arguments)
+        except (TypeError, OverflowError) as error:
+            raise ValueError(f"a message with a field of another type ({error})") from None
+
+    return typed
+
+
+@_typed
 def to_image(message: Any) -> ImageMessage:
     """The values of an Image, a RawImage or a CompressedImage."""
     header = _field(message, "header", default=message)
@@ -92,6 +110,7 @@ def to_image(message: Any) -> ImageMessage:
     return ImageMessage(time, frame, encoding, data, False, width, height, step, big)
 
 
+@_typed
 def to_camera(message: Any) -> CameraMessage:
     """The values of a CameraInfo or a CameraCalibration."""
     header = _field(message, "header", default=message)
@@ -104,11 +123,13 @@ def to_camera(message: Any) -> CameraMessage:
     )
 
 
+@_typed
 def to_transforms(message: Any) -> list[Transform]:
     """The transforms of a TFMessage, of a FrameTransforms, or the one of a FrameTransform."""
     return [_transform(each) for each in _field(message, "transforms", default=[message])]
 
 
+@_typed
 def to_transform(message: Any, parent: str, child: str) -> Transform:
     """The values of a bare geometry_msgs/Transform."""
     place, turn = _field(message, "translation"), _field(message, "rotation")
@@ -131,15 +152,16 @@ def _nanoseconds(time: Any) -> int:
     return seconds * 10**9 + int(_field(time, "nanosec", "nsec", "nanos", "nsecs"))
 
 
-def _numbers(values: Sequence[Any]) -> tuple[float, ...]:
-    return tuple(float(value) for value in values)
+def _numbers(values: Sequence[Any] | None) -> tuple[float, ...]:
+    """The numbers of a list, which is null in JSON of Go where it is empty."""
+    return () if values is None else tuple(float(value) for value in values)
 
 
 def _bytes(data: Any) -> NDArray[np.uint8]:
     """The bytes of an image, which JSON has in base64."""
     if isinstance(data, str):
         data = base64.b64decode(data)
-    return np.frombuffer(data, np.uint8) if isinstance(data, bytes) else np.asarray(data, np.uint8)
+    return np.frombuffer(data, np.uint8) if isinstance(data, bytes) else np.ravel(np.asarray(data, np.uint8))
 
 
 _NOTHING = object()
