@@ -157,6 +157,22 @@ def test_what_is_no_protobuf(data: bytes) -> None:
         read_message(data, SCHEMAS["RawImage"])
 
 
+@pytest.mark.parametrize(
+    ("kind", "data"),
+    [
+        ("RawImage", b"\x22\x01a\x20\x01"),  # the encoding as a number
+        ("RawImage", b"\x08\x01"),  # the time as a number
+        ("CameraCalibration", b"\x2a\x03abc"),  # three bytes of doubles
+        ("CameraCalibration", b"\x28\x01"),  # doubles as a number
+        ("FrameTransform", b"\x22\x05\x0d\x00\x00\x00\x00"),  # x as a float of four bytes
+    ],
+)
+def test_fields_of_another_kind(kind: str, data: bytes) -> None:
+    """It proves that a field whose bytes can't be its value is an error like other damage."""
+    with pytest.raises(ValueError, match=r"a field .* of another kind"):
+        read_message(data, SCHEMAS[kind])
+
+
 def values_of(kind: str, encoding: str) -> Any:
     """A message of Foxglove's, decoded."""
     fields = dict(FIELDS[kind])

@@ -68,6 +68,7 @@ def read_message(data: bytes, schema: Schema) -> dict[str, Any]:
         if number not in schema:
             continue
         name, kind = schema[number]
+        _check_kind(name, kind, value)
         if kind == "doubles":
             message[name] += [*struct.unpack(f"<{len(value) // 8}d", value)]
         elif isinstance(kind, list):
@@ -75,6 +76,17 @@ def read_message(data: bytes, schema: Schema) -> dict[str, Any]:
         else:
             message[name] = _converted(value, kind)
     return message
+
+
+def _check_kind(name: str, kind: Any, value: int | bytes) -> None:
+    """ValueError for a value that can't be of the kind, as in a damaged message."""
+    size = 0 if isinstance(value, int) else len(value)
+    if (
+        (isinstance(value, int) and kind != "int")
+        or (kind == "double" and size != 8)
+        or (kind == "doubles" and size % 8)
+    ):
+        raise ValueError(f"a field {name} of another kind")
 
 
 def _absent(kind: Any) -> Any:
