@@ -29,7 +29,8 @@ class CocoTracks:
     ) -> None:
         """Add a frame by its number from 0, its size (width, height), and its tracks by their targets' ids.
 
-        file_name: the image's; without it the one that ``ffmpeg -i VIDEO %06d.jpg`` gives.
+        file_name: the image's; without it the one that ``ffmpeg -i VIDEO -vf setpts=N/FR/TB -fps_mode
+            passthrough %06d.jpg`` gives, which by itself repeats frames where the rate isn't constant.
         """
         shape = {"width": size[0], "height": size[1]}
         self._video |= shape
