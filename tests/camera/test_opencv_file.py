@@ -40,6 +40,15 @@ def test_large_files_are_refused(tmp_path: Path) -> None:
         StereoRig.from_opencv(path)
 
 
+@pytest.mark.parametrize("size", ["rows: 1", "cols: 1", "rows: 1\n   col: 1", f"sizes: [ {'1, ' * 63}1 ]"])
+def test_a_matrix_without_rows_and_columns_is_refused(tmp_path: Path, size: str) -> None:
+    """It proves that cv2 isn't given a matrix without cols or of many dimensions, of which it crashes."""
+    path = tmp_path / "camera.yml"
+    path.write_text(f"{HEAD}camera_matrix: !!opencv-matrix\n   {size}\n   dt: d\n   data: [ 1. ]\n")
+    with pytest.raises(ValueError, match=r"camera\.yml: camera_matrix: expected a matrix with as many"):
+        Intrinsics.from_opencv(path, size=(640, 480))
+
+
 def test_a_matrix_has_as_many_numbers_as_it_says(tmp_path: Path) -> None:
     """It proves that a matrix of 3 x 3 with 8 numbers is named, with its file."""
     path = tmp_path / "camera.yml"

@@ -103,12 +103,24 @@ def _with_head(text: str) -> str:
 
 def _matrix(node: cv2.FileNode) -> Any:
     """A map as a matrix; ValueError or cv2.error where it isn't a whole one."""
+    shape = _shape(node)
     if not node.getNode("dt").empty():
         return node.mat()
-    rows, cols, data = (node.getNode(name) for name in ("rows", "cols", "data"))
-    if not (rows.isInt() and cols.isInt() and rows.real() >= 0 and cols.real() >= 0):
+    return np.reshape(np.array(_listed(node.getNode("data")), np.float64), shape)
+
+
+def _shape(node: cv2.FileNode) -> list[int]:
+    """Rows and columns, or the one number that cv2 5 writes of a vector.
+
+    ValueError for anything else: cv2 writes outside of a matrix without cols, and of one of many dimensions.
+    """
+    rows, cols, sizes = (node.getNode(name) for name in ("rows", "cols", "sizes"))
+    listed = sizes.isSeq()  # in XML a list of one is a number
+    vector = [sizes.at(index) for index in range(sizes.size())] if listed else [sizes]
+    shape = vector if rows.empty() else [rows, cols]
+    if len(shape) > 2 or not all(size.isInt() and 0 <= size.real() <= MAX_NUMBERS for size in shape):
         raise ValueError
-    return np.reshape(np.array(_listed(data), np.float64), (int(rows.real()), int(cols.real())))
+    return [int(size.real()) for size in shape]
 
 
 def _listed(node: cv2.FileNode) -> list[float]:
