@@ -47,9 +47,11 @@ def test_every_format_is_known(tmp_path: Path) -> None:
 
 
 def test_blanks_of_kittis_file(tmp_path: Path) -> None:
-    """It proves that tabs part its numbers as well, and that its lines may be indented."""
+    """It proves that tabs part its numbers as well, and that its lines may be indented or hold nothing."""
     path = kitti(tmp_path / "calib.txt")
-    path.write_text("".join(f"  {line}\n" for line in path.read_text().replace(" ", "\t").splitlines()))
+    path.write_text(
+        "".join(f"  {line}\n" for line in path.read_text().replace(" ", "\t").splitlines()) + " :\n"
+    )
     assert read_intrinsics(path, SIZE, "depth") == CAMERA
 
 

@@ -251,7 +251,7 @@ def _name_file(path: PathLike, check: Callable[[], T]) -> T:
 def _kitti_values(path: PathLike) -> dict[str, list[float]]:
     """The numbers of each line "key: numbers" or "key numbers"; other lines, such as dates, are left out."""
     lines = pathlib.Path(path).read_text(encoding="utf-8-sig", errors="replace").splitlines()
-    split = (line.replace(":", " ", 1).split() for line in lines if line.strip())
+    split = filter(None, (line.replace(":", " ", 1).split() for line in lines))
     return {key: numbers for key, *words in split if (numbers := _numbers(words)) is not None}
 
 
