@@ -25,6 +25,7 @@ from tests.data.recordings.written import (
     write_mcap,
 )
 
+FAR = (2**63 - 1).to_bytes(8, "little")  # a place in a file
 Maker = Callable[[Path, Sequence[Sent]], Container]
 
 
@@ -235,6 +236,21 @@ def test_damage_in_the_middle(tmp_path: Path, make: Maker) -> None:
     found = list(container.messages({"/a"}))
     assert container.damage.startswith("it is damaged")
     assert 30 < len(found) < 70
+
+
+def test_an_index_that_is_nowhere(tmp_path: Path) -> None:
+    """It proves that a file whose index is said to be where no file reaches is read without it."""
+    bag, packed = bag1(tmp_path, many()).path, mcap(tmp_path, many()).path
+    content = bytearray(bag.read_bytes())
+    at = content.index(b"index_pos=") + len(b"index_pos=")
+    content[at : at + 8] = FAR
+    bag.write_bytes(content)
+    content = bytearray(packed.read_bytes())
+    content[-28:-20] = FAR  # in the footer, before another place, a checksum and the magic
+    packed.write_bytes(content)
+    assert [sum(read(path).counts().values()) for read, path in ((Bag1, bag), (McapFile, packed))] == [
+        len(many())
+    ] * 2
 
 
 def test_a_chain_of_files(tmp_path: Path) -> None:

@@ -17,7 +17,8 @@ from tricue.data.recordings.container import EXTRA, Container, Message, Topic
 
 _MESSAGE, _HEADER, _CHUNK, _CHUNK_INFO, _CONNECTION = 2, 3, 5, 6, 7  # kinds of records
 _MAX_HELD = 200  # messages, whose order by time is being found; chunks overlap a little
-_BROKEN = (EOFError, IndexError, KeyError, ValueError, struct.error)  # what reading damaged records raises
+_BROKEN = (EOFError, IndexError, KeyError, OSError, ValueError, struct.error)
+"""What reading damaged records raises; OSError where they name a place that no file has."""
 _MAX_FIELDS = 1 << 20  # bytes of a record's header; more is no header
 
 

@@ -157,5 +157,10 @@ def _errors(path: Path) -> tuple[type[Exception], ...]:
         raise ImportError(f"{path}: an MCAP file needs the package mcap: {EXTRA}") from None
     return (
         *(McapError, ZstdError, struct.error, EOFError, RuntimeError, ValueError),
-        *(KeyError, MemoryError, OverflowError),  # numbers of channels and lengths that can't be
+        *(
+            KeyError,
+            MemoryError,
+            OverflowError,
+            OSError,
+        ),  # numbers, lengths, places that can't be
     )
