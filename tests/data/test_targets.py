@@ -78,6 +78,14 @@ def test_labels_are_by_the_files_numbers(tmp_path: Path) -> None:
         open_source(root, target="Car 8")
 
 
+def test_an_image_between_labels_is_named(tmp_path: Path) -> None:
+    """It proves that a missing image of a frame that nobody labeled isn't said to be labeled."""
+    root = tracking(tmp_path, label(3, 7) + label(5, 7), range(3, 6))
+    (root / "image_02" / "0005" / "000004.png").unlink()
+    with pytest.raises(ValueError, match="image of frame 4, between the first and last label"):
+        open_source(root, target="Car 7")
+
+
 @pytest.mark.parametrize(
     ("lines", "message"),
     [

@@ -154,7 +154,9 @@ def _numbered(paths: list[Path], frames: range) -> list[Path]:
     by_number = {int(path.stem): path for path in paths if path.stem.isdecimal()}
     for frame in (frames[0], frames[-1], *frames):
         if frame not in by_number:
-            raise ValueError(f"{paths[0].parent}: expected the image of frame {frame}, which is labeled")
+            is_end = frame in (frames[0], frames[-1])
+            why = "which is labeled" if is_end else "between the first and last label"
+            raise ValueError(f"{paths[0].parent}: expected the image of frame {frame}, {why}")
     return [by_number[frame] for frame in frames]
 
 
