@@ -94,7 +94,7 @@ def _run_in_pool(
             done, running = wait(running, return_when=FIRST_COMPLETED)
             yield from (future.result() for future in done)
     finally:
-        # What still runs is no longer wanted. One call: a second, as by ``with``, would take kill_workers back.
+        # What still runs isn't wanted. One call: a second, as by ``with``, would take kill_workers back.
         pool.shutdown(kill_workers=bool(running))
 
 

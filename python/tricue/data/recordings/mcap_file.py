@@ -157,10 +157,5 @@ def _errors(path: Path) -> tuple[type[Exception], ...]:
         raise ImportError(f"{path}: an MCAP file needs the package mcap: {EXTRA}") from None
     return (
         *(McapError, ZstdError, struct.error, EOFError, RuntimeError, ValueError),
-        *(
-            KeyError,
-            MemoryError,
-            OverflowError,
-            OSError,
-        ),  # numbers, lengths, places that can't be
+        *(KeyError, MemoryError, OverflowError, OSError),  # numbers, lengths and places that can't be
     )
