@@ -6,13 +6,15 @@ from typing import Any
 
 from tricue.track.base.track import Status, Track
 
+UNNAMED = "target"
+
 
 class CocoTracks:
     """Collects the frames and tracks of one video.
 
     Images have ids from 1, and frame_index and frame_id from 0; boxes are in pixels from 0. A target that is
     LOST in a frame has no annotation there. video: its name. fps: frames per second. names: of the targets,
-    by their ids; targets of one name are one category, "target" without names.
+    by their ids; targets of one name are one category, those without a name "target".
     """
 
     def __init__(self, video: str, fps: float, names: Mapping[int, str] | None = None) -> None:
@@ -44,7 +46,7 @@ class CocoTracks:
     def content(self) -> dict[str, Any]:
         """All of it, for ``json.dumps``."""
         targets = sorted({each["track_id"] for each in self._annotations})
-        categories = self._categories or {"target": 1}
+        categories = self._categories or {UNNAMED: 1}
         return {
             "info": {"description": "tracks by tricue"},
             "licenses": [],
@@ -58,7 +60,8 @@ class CocoTracks:
         }
 
     def _category(self, target: int) -> int:
-        return self._categories.get(self._names.get(target, ""), 1)
+        name = self._names.get(target, UNNAMED)
+        return self._categories.setdefault(name, len(self._categories) + 1)
 
     def _annotation(self, image: int, target: int, track: Track) -> dict[str, Any]:
         return {

@@ -191,6 +191,23 @@ def test_on_lost_may_remove_targets(things):
     assert several.ids == ()
 
 
+def test_on_lost_is_not_called_for_what_it_removed(things):
+    """Where the first of those that are lost ends them all."""
+    told: list[int] = []
+    several = MultiTracker()
+
+    def end(number: int, _: Track) -> None:
+        told.append(number)
+        for each in several.ids:
+            several.remove(each)
+
+    several.on_lost = end
+    for box in things.boxes[:3]:
+        several.add(things.frames[0], box)
+    on(several, 6 * [Frame(np.zeros_like(things.frames[0].color))])
+    assert told == [1]
+
+
 def test_an_error_of_on_lost_hides_no_other_loss(things):
     """It is called for all, and the tracks are those of that frame; then the first error is raised."""
     told: list[int] = []

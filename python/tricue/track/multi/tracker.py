@@ -36,8 +36,9 @@ class MultiTracker:
     workers: the processes that share the targets, this one among them. Tracks are the same whatever their
         number. They see the frames in shared memory, on Linux; elsewhere there is one. There are no threads:
         the trackers' loops are Python, so that two threads are hardly faster than one.
-    on_lost: called with id and track when a target becomes LOST, after all were updated. Where it raises an
-        error, it is called for the others all the same; then the first error is raised.
+    on_lost: called with id and track when a target becomes LOST, after all were updated; not for one that it
+        has removed meanwhile. Where it raises an error, it is called for the others all the same; then the
+        first error is raised.
     rig, intrinsics: the camera, for all trackers that take one.
     seed, kernels: for all targets, as of every tracker. parameters: of the default kind.
 
@@ -187,14 +188,16 @@ class MultiTracker:
         return create(kind, **{"seed": self.seed, "kernels": self.kernels, **camera, **parameters})
 
     def _tell_of(self, lost: dict[int, Track]) -> None:
-        """Call ``on_lost`` for all of them; then raise its first error, if any."""
+        """Call ``on_lost`` for all of them that it hasn't removed; then raise its first error, if any."""
         on_lost, errors = self.on_lost, list[Exception]()
         if on_lost is None:
             return
         for target, track in lost.items():
+            if target not in self._tracks:
+                continue
             try:
                 on_lost(target, track)
-            except Exception as error:  # noqa: PERF203 (the others are called all the same)
+            except Exception as error:
                 errors.append(error)
         if errors:
             raise errors[0]
