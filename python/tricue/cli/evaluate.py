@@ -157,7 +157,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the command: progress on stderr, the table on stdout. The exit code is 1 if a sequence couldn't be
-    read, or if a tracker or a folder of results that was asked for has nothing on any sequence.
+    read, if a tracker that was asked for was run and started nowhere, or if results fit no sequence.
     """
     svg.require()  # now, not after hours
     if options.raw is not None:
@@ -249,7 +249,9 @@ def _report(evaluation: Evaluation, folder: Path, options: argparse.Namespace) -
 
 
 def _errors(evaluation: Evaluation) -> list[str]:
-    """What makes the exit code 1: sequences that can't be read, and what was asked for and has nothing."""
+    """What makes the exit code 1: sequences that can't be read, trackers that were asked for and started
+    nowhere they were run, and results that fit nothing.
+    """
     asked, total = _asked(evaluation), len(evaluation.opened)
     return [
         *(f"{name}: {error}" for name, error in evaluation.failed.items()),

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import cv2
 import numpy as np
 
+from tricue import imgproc
 from tricue.camera.shared_frame import warn_of_frame
 from tricue.track.base.validation import ADDED_TIME_ERROR
 from tricue.track.fused.arrays import Image, Plane
@@ -106,7 +107,7 @@ def _wrong_unit(sample: Plane) -> str:
 
 
 def _thin(color: Image) -> Image:
-    return np.asarray(cv2.resize(color, SAMPLED[::-1], interpolation=cv2.INTER_AREA), np.uint8)
+    return imgproc.resize(color, *SAMPLED, "area")
 
 
 def _differs(first: Image, now: Image) -> bool:

@@ -34,8 +34,8 @@ class MultiTracker:
 
     tracker: the kind for targets that ask for no other, a name as :func:`tricue.create` takes it.
     workers: the processes that share the targets, this one among them. Tracks are the same whatever their
-        number. They see the frames in shared memory, on Linux; elsewhere there is one. There are no threads:
-        the trackers' loops are Python, so that two threads are hardly faster than one.
+        number. They see the frames in shared memory, on Linux; elsewhere more than one is an error. There are
+        no threads: the trackers' loops are Python, so that two threads are hardly faster than one.
     on_lost: called with id and track when a target becomes LOST, after all were updated; not for one that it
         has removed meanwhile. Where it raises an error, it is called for the others all the same; then the
         first error is raised.
