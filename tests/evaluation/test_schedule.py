@@ -141,6 +141,30 @@ def test_what_is_closed_is_ended_at_once(tmp_path, monkeypatch):
     assert not any(Path("/proc", each.name).exists() for each in started)
 
 
+def test_ctrl_c_right_after_a_task_was_given_prints_nothing(tmp_path, monkeypatch):
+    """Also where joblib's own thread hears of the task and of its end at once: it raised a KeyError."""
+    from joblib.externals.loky.process_executor import _ExecutorManagerThread as Manager
+
+    def stay(task: Task) -> Record:
+        time.sleep(0 if task.entry.name == "0" else 60)
+        raise ValueError
+
+    def wake(self: Manager) -> object:
+        found = woken(self)
+        time.sleep(0.3)
+        return found
+
+    waits = iter([schedule.wait])
+    woken = Manager.wait_result_broken_or_wakeup
+    monkeypatch.setattr(Manager, "wait_result_broken_or_wakeup", wake)
+    monkeypatch.setattr(schedule, "wait", lambda *running, **until: next(waits)(*running, **until))
+    tasks = [Task(TrackerSpec("still-box"), Entry(str(each), tmp_path)) for each in range(3)]
+    running = schedule.run_tasks(tasks, stay, jobs=2)
+    next(running)
+    with pytest.raises(RuntimeError):  # of the second wait, as Ctrl-C would raise there
+        next(running)
+
+
 def test_no_scheduler_is_told_by_its_address(monkeypatch):
     """Nothing listens there: OSError, not a hang."""
     pytest.importorskip("distributed", reason="needs the extra dask")

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Where tasks run: in this process, in several of this machine (joblib), on a Dask cluster. One code path."""
 
-from collections.abc import Callable, Generator, Sequence
+import time
+from collections.abc import Callable, Generator, Iterable, Sequence
 from concurrent.futures import FIRST_COMPLETED, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import closing
@@ -15,6 +16,7 @@ from tricue.evaluation.tasks import Task
 
 Perform = Callable[[Task], Record]
 CONNECT_TIMEOUT = "10s"  # to a Dask scheduler
+GIVING_LIMIT = 2.0  # seconds, after which a pool is taken to be broken
 MISSING_EXTRA = "needs the extra: pip install 'tricue[{}]'"
 
 
@@ -95,7 +97,19 @@ def _run_in_pool(
             yield from (future.result() for future in done)
     finally:
         # What still runs isn't wanted. One call: a second, as by ``with``, would take kill_workers back.
-        pool.shutdown(kill_workers=bool(running))
+        try:
+            _wait_until_given(running)
+        finally:
+            pool.shutdown(kill_workers=bool(running))
+
+
+def _wait_until_given(futures: Iterable[Any]) -> None:
+    """Until joblib's thread has given the tasks to processes, mostly at once: told to kill these before, it
+    would print a KeyError.
+    """
+    deadline = time.monotonic() + GIVING_LIMIT
+    while not all(each.running() or each.done() for each in futures) and time.monotonic() < deadline:
+        time.sleep(0.001)
 
 
 def _run_alone(tasks: Sequence[Task], index: int, perform: Perform, executor: Any) -> Finished:
