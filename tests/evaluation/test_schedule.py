@@ -154,10 +154,13 @@ def test_ctrl_c_right_after_a_task_was_given_prints_nothing(tmp_path, monkeypatc
         time.sleep(0.3)
         return found
 
+    def wait(*running: object, **until: object) -> object:
+        return next(waits)(*running, **until)
+
     waits = iter([schedule.wait])
     woken = Manager.wait_result_broken_or_wakeup
     monkeypatch.setattr(Manager, "wait_result_broken_or_wakeup", wake)
-    monkeypatch.setattr(schedule, "wait", lambda *running, **until: next(waits)(*running, **until))
+    monkeypatch.setattr(schedule, "wait", wait)
     tasks = [Task(TrackerSpec("still-box"), Entry(str(each), tmp_path)) for each in range(3)]
     running = schedule.run_tasks(tasks, stay, jobs=2)
     next(running)
