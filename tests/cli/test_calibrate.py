@@ -2,13 +2,14 @@
 """``tricue calibrate``: what it writes is what trackers read, and bad input is named and leaves no file."""
 
 import os
+import re
 import threading
 from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
-from tricue import ColorParticleTracker, StereoHeadTracker
+from tricue import ColorParticleTracker, StereoHeadTracker, reference
 from tricue.cli import main
 from tricue.scenes import StereoScene, static_head
 
@@ -72,6 +73,21 @@ def test_skin_threshold_parts_skin_from_the_rest(tmp_path, capsys):
     assert params.particles == 60
     rest = max(REST) - max(abs(a - b) for a, b in zip(REST, SKIN, strict=True))
     assert rest / 255 - 0.06 < params.skin_threshold < max(SKIN) / 255
+
+
+def test_a_written_threshold_keeps_out_what_the_curve_kept_out(tmp_path, capsys):
+    """Rounded down it would let in the pixels of its own level, here the whole background."""
+    image, mask = np.full((*SIZE, 3), (110, 140, 170), np.uint8), np.zeros(SIZE, np.uint8)
+    image[:, :16], mask[:, :16] = SKIN, 255
+    for name, each in (("image", image), ("mask", mask)):
+        (tmp_path / "skin" / name).mkdir(parents=True)
+        cv2.imwrite(str(tmp_path / "skin" / name / "0.png"), each)
+    out = tmp_path / "skin.toml"
+    assert main(["calibrate", "skin-threshold", str(tmp_path / "skin"), "--output", str(out)]) == 0
+    printed = re.findall(r"threshold +(\S+),", capsys.readouterr().out)
+    for threshold in (ColorParams.from_toml(out).skin_threshold, *map(float, printed)):
+        count, *_ = reference.skin_moments(image, np.array(SKIN, np.uint8), threshold, (0, 0, 32, 24))
+        assert count == 16 * 24
 
 
 def test_images_without_skin_are_not_counted(tmp_path, capsys):

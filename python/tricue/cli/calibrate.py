@@ -91,7 +91,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _skin_threshold(options: argparse.Namespace, _params: Any) -> dict[str, Any]:
-    from tricue.papers.roc import LOWEST_SKIN_THRESHOLD, skin_roc
+    from tricue.papers.roc import LOWEST_SKIN_THRESHOLD, round_up, skin_roc
 
     pairs = find_masked_images(options.place)
     _check_output(options.output, chain.from_iterable(pairs))
@@ -116,8 +116,8 @@ def _skin_threshold(options: argparse.Namespace, _params: Any) -> dict[str, Any]
     print(f"{options.place}: {count}, area under the ROC curve {curve.area:.3f}")
     for rate in sorted({*RATES, options.false_positives}):
         at, found = curve.at_false_positive_rate(rate, LOWEST_SKIN_THRESHOLD)
-        print(f"  false positives {rate:5.1%}: threshold {at:6.3f}, {found:.1%} of the skin")
-    return {"skin_threshold": round(threshold, 4)}
+        print(f"  false positives {rate:5.1%}: threshold {round_up(at, 3):6.3f}, {found:.1%} of the skin")
+    return {"skin_threshold": round_up(threshold, 4)}
 
 
 def _head_colors(options: argparse.Namespace, params: Any) -> dict[str, Any]:

@@ -52,6 +52,12 @@ class Roc:
         return float(self.thresholds[last]), float(self.tpr[last])
 
 
+def round_up(threshold: float, digits: int) -> float:
+    """A threshold in fewer digits, above which are no more scores: rounded down, those at it would be."""
+    scale = 10.0**digits
+    return math.ceil(threshold * scale) / scale
+
+
 def roc(pairs: Iterable[tuple[NDArray[np.integer], Mask]]) -> Roc:
     """The curve over pairs of an integer score map, values in [LOW, HIGH], and its boolean mask."""
     counts = np.zeros((2, HIGH - LOW + 1), dtype=np.int64)

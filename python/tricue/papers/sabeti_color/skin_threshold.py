@@ -17,7 +17,7 @@ from tricue.draw.writable import check_writable
 from tricue.papers import tables
 from tricue.papers.experiment import Report
 from tricue.papers.plots import show_frame
-from tricue.papers.roc import LOWEST_SKIN_THRESHOLD, Roc, skin_roc
+from tricue.papers.roc import LOWEST_SKIN_THRESHOLD, Roc, round_up, skin_roc
 from tricue.papers.sabeti_color.skin_images import Image, Mask, RenderedSkin, SkinFolder, SkinImages
 from tricue.track.color_particle.params import ColorParticleParams
 
@@ -109,11 +109,11 @@ def _summarize(chosen: Mapping[str, _Chosen], count: int, with_skin: int, rate: 
         number = f"{with_skin if name == OWN else count}"
         for threshold in (each.threshold, DEFAULT_THRESHOLD):
             fpr, tpr = each.rates(threshold)
-            which = f"{threshold:.3f}" + (" (default)" if threshold == DEFAULT_THRESHOLD else "")
+            which = f"{round_up(threshold, 3):.3f}" + (" (default)" if threshold == DEFAULT_THRESHOLD else "")
             lines.append(
                 tables.line([name, number, f"{each.curve.area:.3f}", which, f"{tpr:.3f}", f"{fpr:.3f}"])
             )
-    threshold = chosen[OWN].threshold
+    threshold = round_up(chosen[OWN].threshold, 3)
     lines += [
         "",
         f"False-positive rate of at most {rate:g}, with a color of each target's own, as the tracker has:",
