@@ -7,9 +7,10 @@ import re
 import cv2
 import numpy as np
 import pytest
-from tricue import ColorParticleTracker
+from tricue import ColorParticleTracker, reference
 from tricue.cli.program import main
 from tricue.papers import reproduce
+from tricue.papers.sabeti_color.skin_threshold import DEFAULT_THRESHOLD
 
 pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install tricue[demo]")
 
@@ -46,6 +47,26 @@ def test_the_threshold_keeps_the_rate_and_sets_the_tracker(folder, tmp_path):
     image = cv2.imread(str(report.figure))
     assert image.shape[1] > 1000
     assert image.std() > 20
+
+
+def test_rates_are_those_that_the_tracker_has(folder, tmp_path):
+    """Of the default, which lies between two levels, and of the option in the last line."""
+    report = reproduce.run("sabeti-roc", output=tmp_path / "out", data=folder, rate=0.02)
+    rows = [line.split(" | ") for line in report.summary.splitlines() if "each image's own" in line]
+    option = float(report.summary.rpartition("=")[2])
+    called, total = np.zeros((2, 2)), np.zeros(2)
+    for path in sorted((folder / "images").iterdir()):
+        image = cv2.imread(str(path))
+        mask = cv2.imread(str(folder / "masks" / path.name), cv2.IMREAD_GRAYSCALE) > 0
+        if not mask.any():
+            continue
+        boundary = reference.skin_boundary(image, reference.skin_reference(image[mask][None]))
+        total += np.count_nonzero(mask), np.count_nonzero(~mask)
+        for index, threshold in enumerate((option, DEFAULT_THRESHOLD)):
+            skin = boundary > 255 * threshold
+            called[index] += np.count_nonzero(skin & mask), np.count_nonzero(skin & ~mask)
+    printed = [[float(row[4]), float(row[5].rstrip(" |"))] for row in rows]
+    np.testing.assert_allclose(printed, called / total, atol=5e-4)
 
 
 def test_any_false_positives_give_a_threshold_that_the_tracker_takes(folder, tmp_path):

@@ -44,8 +44,8 @@ class _Chosen(NamedTuple):
         return self.rates(self.threshold)[0]
 
     def rates(self, threshold: float) -> tuple[float, float]:
-        """False- and true-positive rate at a threshold."""
-        index = int(np.argmin(np.abs(self.curve.thresholds - threshold)))
+        """False- and true-positive rate at a threshold; between two levels it is as good as the lower one."""
+        index = int(np.argmax(self.curve.thresholds <= threshold))
         return float(self.curve.fpr[index]), float(self.curve.tpr[index])
 
 
