@@ -54,6 +54,28 @@ def test_table_holds_the_errors_of_the_run(tmp_path):
         )
 
 
+TABLES_IN_ANOTHER_LOCALE = """
+from pathlib import Path
+import numpy as np
+from tricue.papers import tables
+from tricue.papers.curves import Curve
+from tricue.papers.moreno import noise
+values = np.zeros(len(noise.QUANTITIES))
+run = noise.NoiseRun("m", "1 m", 0, 1.0, noise.STEADY_LIGHT, np.ones(3), values, np.ones((3, 4)))
+noise.write_csv(Path("noise.csv"), [run])
+curve = Curve("m", "1\\N{DEGREE SIGN}", 0, np.ones(1))
+tables.write_csv(Path("frames.csv"), ("model",), [curve], lambda _: [[1]])
+"""
+
+
+def test_tables_are_written_whatever_the_locale(tmp_path):
+    """As UTF-8, as their quantities and scenes have letters that other encodings lack."""
+    plain = {**os.environ, "LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"}
+    subprocess.run([sys.executable, "-c", TABLES_IN_ANOTHER_LOCALE], env=plain, cwd=tmp_path, check=True)
+    assert "e(μ1)" in (tmp_path / "noise.csv").read_text(encoding="utf-8")
+    assert "1°" in (tmp_path / "frames.csv").read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize("name", reproduce.EXPERIMENTS)
 def test_figure_is_drawn_and_progress_reported(name, tmp_path, monkeypatch):
     """Each experiment writes a figure with content, runs every scene, and counts them up to the last."""

@@ -45,7 +45,7 @@ def write_csv(
 
     columns: all headings, those of model, scene, seed and frame first.
     """
-    with path.open("w", newline="") as file:
+    with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(columns)
         for curve in curves:

@@ -157,7 +157,7 @@ def summarize(runs: Sequence[NoiseRun]) -> str:
 
 def write_csv(path: Path, runs: Iterable[NoiseRun]) -> None:
     """A line per value: CSV_COLUMNS."""
-    with path.open("w", newline="") as file:
+    with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(CSV_COLUMNS)
         for run in runs:

@@ -123,7 +123,7 @@ def _summarize(chosen: Mapping[str, _Chosen], count: int, with_skin: int, rate: 
 
 
 def _write_csv(path: Path, curves: Mapping[str, Roc]) -> None:
-    with path.open("w", newline="") as file:
+    with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(CSV_COLUMNS)
         for reference, curve in curves.items():
