@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.papers.curves import MIN_VISIBLE, Floats
+from tricue.papers.curves import MIN_VISIBLE, Flags, Floats
 
 HIDDEN_SHADE = "0.88"
 
@@ -41,7 +41,12 @@ def shade_hidden(axes: Any, visible: Floats) -> None:
 
     visible: (M,) share of the target.
     """
-    frames = np.arange(len(visible))
-    style = {"transform": axes.get_xaxis_transform(), "step": "mid", "color": HIDDEN_SHADE, "linewidth": 0}
-    axes.fill_between(frames, 0, 1, where=visible < MIN_VISIBLE, **style)
+    shade_frames(axes, visible < MIN_VISIBLE)
     axes.set_xlim(0, max(1, len(visible) - 1))
+
+
+def shade_frames(axes: Any, flags: Flags, interval: float = 1.0) -> None:
+    """Shade the frames with a flag (M,), each by half an interval to both sides of it."""
+    edges = np.repeat(interval * (np.arange(len(flags) + 1) - 0.5), 2)[1:-1]
+    style = {"transform": axes.get_xaxis_transform(), "color": HIDDEN_SHADE, "linewidth": 0}
+    axes.fill_between(edges, 0, 1, where=np.repeat(flags, 2), **style)

@@ -10,7 +10,7 @@ import numpy as np
 from tricue.draw.figures import COLORS, draw_box
 from tricue.papers.curves import MIN_VISIBLE, first_runs, models_of
 from tricue.papers.okada.following_curves import FollowCurve
-from tricue.papers.plots import HIDDEN_SHADE
+from tricue.papers.plots import shade_frames
 from tricue.scenes import PanTiltScene
 
 SHOWN_FRAMES = 7
@@ -68,8 +68,7 @@ def _angles(axes: Any, runs: Mapping[str, FollowCurve], models: Sequence[str], s
     run = runs[models[0]]
     seconds = np.arange(len(run.angles)) / run.rate
     target = np.degrees(run.directions[:, 0])
-    style = {"transform": axes.get_xaxis_transform(), "step": "mid", "color": HIDDEN_SHADE, "linewidth": 0}
-    axes.fill_between(seconds, 0, 1, where=_hidden(run), **style)
+    shade_frames(axes, _hidden(run), 1 / run.rate)
     axes.fill_between(
         seconds,
         target - third,

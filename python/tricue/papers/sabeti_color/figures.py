@@ -126,7 +126,7 @@ def _plot_overlaps(
     for model, color in colors.items():
         overlaps = stacked(runs, model, "overlaps")
         plot_band(axes, np.median(overlaps, axis=0), overlaps, color, model, alpha=0.1)
-    shown, shade = np.median([run.visible for run in runs], axis=0), "hidden"
+    shown, shade = np.median([run.visible for run in runs], axis=0), "less than half is visible"
     if not scene.visible:
         shown, shade = 1.0 - (runs[0].steps > MIN_FAST_STEP), f"seed 0 moves > {MIN_FAST_STEP:.0f} px"
     shade_hidden(axes, shown)
