@@ -65,7 +65,7 @@ class RankSpatial(NamedTuple):
 
 
 class RankSections(NamedTuple):
-    """Equations (19)-(29) as printed: a^k, of sum 1, tells how many levels each quantile spans."""
+    """Equations (19)-(29), a^k divided by its sum: it tells how many levels each quantile spans."""
 
     sections: Singles = NO_MODEL
     sharpness: float = 400.0
