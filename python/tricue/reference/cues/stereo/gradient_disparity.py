@@ -46,10 +46,10 @@ def gradient_disparity(
 
     known = np.full(pyramid[-1][0].shape, disparity / 2 ** (levels - 1))
     for level in range(levels - 1, 0, -1):
-        one, other = (brightness(image, sigma) for image in pyramid[level])
+        one, other = (derivative(image, sigma) for image in pyramid[level])
         step, *_ = measure(one, other, known, radius)
         known = doubled(known + np.clip(step, -STEP, STEP), pyramid[level - 1][0].shape)
-    one, other = (brightness(image, sigma) for image in pyramid[0])
+    one, other = (derivative(image, sigma) for image in pyramid[0])
     step, reliability, residual, seen = measure(one, other, known, radius)
 
     kept = seen & (reliability >= min_reliability) & (abs(step) <= max_step)
@@ -59,7 +59,7 @@ def gradient_disparity(
     return cut(d, (x0, y0, x1, y1), np.nan), cut(reliability, (x0, y0, x1, y1), 0)
 
 
-def brightness(image: Floats, sigma: float) -> Floats:
+def derivative(image: Floats, sigma: float) -> Floats:
     """The f of (7): the x-derivative of the image, smoothed by a Gaussian."""
     reach = int(np.ceil(2.5 * sigma))
     offsets = np.arange(-reach, reach + 1)
