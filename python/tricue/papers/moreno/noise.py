@@ -227,7 +227,7 @@ def _points(axes: Any, runs: Sequence[NoiseRun], model: str, index: int, color: 
 
 
 def _paper_polynomial(axes: Any, runs: Sequence[NoiseRun], index: int) -> None:
-    """(9) of the rigs of all seeds: the mean of their polynomials."""
+    """(9) of the rigs of all seeds: the mean of their polynomials; of X and Y for the image's border."""
     along = [run.position[index] for run in runs]
     smooth = np.linspace(min(along), max(along), 50)
     curves = [np.abs(np.polyval(run.polynomials[index], smooth)) for run in runs]

@@ -291,7 +291,8 @@ class StereoHeadParams(Params):
         - Q of μ is said to depend on the bins alone: a bin's width / √12, the deviation of a color of
           which only the bin is known. Q of the intersection is 1, as printed.
         - (9): the coefficients aren't printed: fitted to back-projection with 1 pixel of disparity error, as
-          figure 2 assumes. X and Y have no error on the optical axis.
+          figure 2 assumes, at the image's border for X and Y. These have no error on the optical axis, and in
+          between less than by back-projection.
         - e of μ and of the intersection are to be measured from a static head: as ``tricue reproduce
           moreno-fig2`` measures them, the root mean square over the distances.
         - The position is filtered in the camera's frame, not in the world's; the rig's pose turns the result.
