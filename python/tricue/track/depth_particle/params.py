@@ -211,7 +211,8 @@ class DepthParticleParams(SegmentationParams):
         - Segmentation (32)-(36): all maxima of the density divide the range (``prominence``), and nothing but
           connected components separates what a division holds: no floor, no edges, no filled gaps, nothing
           remembered or completed. The kernel's width (``bandwidth``) and the least area of an object aren't
-          printed, and stay ours.
+          printed, and stay ours. Images of 480 columns and more are thinned (``resolution``); the paper's 176
+          aren't.
         - Human candidates: by aspect ratio and by size at their mean depth, always; not by how much of its
           box one fills. The limits aren't printed, and stay ours.
         - Which candidate is the target: by place and extent along the image's axes and in depth, by its
