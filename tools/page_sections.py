@@ -5,8 +5,8 @@
 def with_section(page: str, section: str) -> str:
     """The page with the section in the place of that with its heading, a line of ``## ``, or at its end."""
     heading = section.partition("\n")[0] + "\n"
-    before, found, after = page.partition(heading)
+    before, found, after = f"\n{page}".partition(f"\n{heading}")
     if not found:
         return f"{page.rstrip()}\n\n{section}"
     _, other, rest = after.partition("\n## ")
-    return before + section + other + rest
+    return f"{before}\n{section}{other}{rest}"[1:]

@@ -71,6 +71,9 @@ def test_section_is_replaced_in_its_place() -> None:
     old = f"# A\n\n{frame_size.HEADING}\n\nold\n\n## B\n\nmore\n"
     assert with_section(old, new) == f"# A\n\n{frame_size.HEADING}\n\nnew\n\n## B\n\nmore\n"
     assert with_section(f"# A\n\n{new}", new) == f"# A\n\n{new}"
+    below = f"# A\n\n#{frame_size.HEADING}\n\ntext\n"
+    assert with_section(below, new) == f"{below}\n{new}"
+    assert with_section(new, new) == new
 
 
 @pytest.mark.slow
