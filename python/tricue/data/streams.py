@@ -146,7 +146,8 @@ class FrameTimes:
 
     def _choose(self, told: float, nominal: float) -> float:
         agrees = abs(told - nominal) <= TIME_ROUNDING and nominal > self.last
-        if agrees or (self.constant and not told > self.last):
+        # After a repeated time the container's may be a frame late; then some, rounded, are just after last.
+        if agrees or (self.constant and not told > self.last + TIME_ROUNDING):
             return nominal
         self.constant = False
         return told if told > self.last else self.last + 1 / self._fps
