@@ -320,6 +320,22 @@ def test_a_third_partys_tracker_may_keep_images(workers, things):
             assert [track.box[0] for track in several.update(frame).values()] == [change] * 2
 
 
+class Locked(Previous):
+    """One that can't go to another process."""
+
+    def __init__(self) -> None:
+        self.lock = threading.Lock()
+
+
+def test_a_tracker_that_can_not_be_pickled_names_the_option(things):
+    """The targets that are there go on."""
+    with MultiTracker(f"{__name__}:Previous", workers=2) as several:
+        several.add(things.frames[0], things.boxes[0])
+        with pytest.raises(TypeError, match=r"^workers: expected 1, .*; cannot pickle '_thread.lock'"):
+            several.add(things.frames[0], things.boxes[1], f"{__name__}:Locked")
+        assert list(several.update(things.frames[1])) == [1]
+
+
 def test_who_keeps_images_may_share_a_worker(things):
     """One third party's tracker among others in a process sees images of its own, too."""
     change = [

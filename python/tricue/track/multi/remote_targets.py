@@ -8,7 +8,7 @@ import subprocess
 import sys
 import weakref
 from multiprocessing.connection import Connection
-from pickle import UnpicklingError
+from pickle import PicklingError, UnpicklingError
 from typing import Any
 
 from tricue.camera.box import BoxLike
@@ -105,6 +105,8 @@ class RemoteTargets:
             send(self._connection, (self._number, method, arguments))
         except OSError:
             raise self._end() from None
+        except (AttributeError, TypeError, PicklingError) as error:
+            raise TypeError(f"workers: expected 1, or a tracker that can be pickled; {error}") from None
 
     def _receive(self) -> Any:
         """The answer to the last request; those to earlier ones nobody waited for, as after Ctrl-C.
