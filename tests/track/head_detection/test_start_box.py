@@ -35,7 +35,9 @@ def test_a_color_tracker_starts_on_a_head_in_depth(rendered: Callable[..., Any])
     scene = rendered(room_scene, kind="walker", seed=0, channels="rgbd")
     assert tricue.ColorParticleTracker().init(scene.frames[0]).box.height < 40
     blank = Frame(scene.frames[0].color, depth=np.full_like(scene.frames[0].depth, 3.0))
-    with pytest.raises(TargetNotFoundError, match=r"^box: expected .*, as no head and no face was found"):
+    with pytest.raises(
+        TargetNotFoundError, match=r"^box: expected .*, as no head and no face was found.*can't detect"
+    ):
         tricue.ColorParticleTracker().init(blank)
     with pytest.raises(TargetNotFoundError, match=r"^box: expected .*, as no head on shoulders was found"):
         tricue.ColorParticleTracker().init(Frame(blank.color, right=blank.color))

@@ -22,6 +22,10 @@ Image = NDArray[np.uint8]
 # Size of the head relative to the detected square, as in hand-drawn boxes of faces.
 HEAD_WIDTH_RATIO, HEAD_HEIGHT_RATIO = 0.75, 0.95
 MIN_SIDE, MIN_SHARE = 20, 10  # of the smallest face: pixels, and 1 / the share of the image's shorter side
+FACES_NEED = (
+    f"can't detect faces, because cv2 {cv2.__version__} has no cascade and scikit-image is missing; "
+    'pip install "tricue[face]" or "opencv-python-headless<5"'
+)
 _ONE_AT_A_TIME = threading.Lock()  # cv2's cascade keeps the image it looks at, and releases the GIL
 
 
@@ -34,15 +38,16 @@ def find_face(image: Image) -> Box | None:
     classifier = _load_cascade()
     if classifier is None:
         if not _has_scikit_image():
-            raise ImportError(
-                f"box: can't detect faces, because cv2 {cv2.__version__} has no cascade and scikit-image is "
-                'missing; pip install "tricue[face]" or "opencv-python-headless<5", or give a box '
-                "(--box x,y,width,height)"
-            )
+            raise ImportError(f"box: {FACES_NEED}, or give a box (--box x,y,width,height)")
         square = face_cascade.find_square(image, smallest)
     else:
         square = _find_square(classifier, image, smallest)
     return None if square is None else _crop_to_head(square)
+
+
+def can_find_faces() -> bool:
+    """Whether cv2 has a cascade or scikit-image is installed."""
+    return _load_cascade() is not None or _has_scikit_image()
 
 
 def _find_square(classifier: Any, image: Image, smallest: int) -> Box | None:

@@ -6,7 +6,7 @@ from tricue.camera.frame import Frame
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.errors import BoxNeededError, TargetNotFoundError
 from tricue.kernels import Kernels
-from tricue.track.base.face_detection import find_face
+from tricue.track.base.face_detection import FACES_NEED, can_find_faces, find_face
 from tricue.track.base.validation import camera_or_default, rig_or_default
 from tricue.track.head_detection.find_head import find_head_in_depth, find_head_in_pair
 
@@ -47,7 +47,8 @@ def head_or_face_to_start_on(k: Kernels, frame: Frame) -> Box:
     if found is None:
         what = "face" if frame.depth is None else "head and no face"
         what = what if frame.right is None else "head on shoulders"
+        hint = "" if frame.right is not None or can_find_faces() else f"; {FACES_NEED}"
         raise TargetNotFoundError(
-            f"box: expected (x, y, width, height), as no {what} was found in this frame"
+            f"box: expected (x, y, width, height), as no {what} was found in this frame{hint}"
         )
     return found
