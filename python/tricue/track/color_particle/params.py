@@ -119,10 +119,20 @@ class ColorParticleParams(Params):
         0.6, unit="of |v|", source="K of (30); " + OURS, low=0, doc="added to position_noise in motion"
     )
     size_noise: float = parameter(
-        0.02, unit="of the size", source=OURS, low=0, doc="standard deviation of both semi-axes per frame"
+        0.02,
+        unit="of the size",
+        source=OURS,
+        low=0,
+        high=1e6,
+        doc="standard deviation of both semi-axes per frame",
     )
     aspect_noise: float = parameter(
-        0.004, unit="of the size", source=OURS, low=0, doc="standard deviation of their ratio per frame"
+        0.004,
+        unit="of the size",
+        source=OURS,
+        low=0,
+        high=1e6,
+        doc="standard deviation of their ratio per frame",
     )
     size_pull: float = parameter(
         0.06,

@@ -16,7 +16,12 @@ class SegmentationParams(Params):
         0.3, unit="m", source="section V: the SR-3000's", above=0, doc="smallest depth used"
     )
     far: float = parameter(
-        8.0, unit="m", source="SR-3000 7.5, RGB-D 8", above=0, doc="depths from here on are not used"
+        8.0,
+        unit="m",
+        source="SR-3000 7.5, RGB-D 8",
+        above=0,
+        high=1e6,
+        doc="depths from here on are not used",
     )
     resolution: int = parameter(
         320, unit="pixels", source=OURS, low=16, doc="wider images are thinned to about this width"

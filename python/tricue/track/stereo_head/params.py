@@ -206,6 +206,7 @@ class StereoHeadParams(Params):
         unit="-",
         source="section 4.1; " + OURS,
         above=0,
+        high=1e6,
         doc="standard deviation of the intersection (1)",
     )
     feedback: bool = parameter(
