@@ -5,6 +5,7 @@ import shutil
 from dataclasses import astuple
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 from tricue.evaluation.dataset import Entry, find_entries
@@ -231,6 +232,23 @@ def test_as_many_lines_as_rows_of_the_truth(tmp_path, there, found, form):
         rows.append(make_row(opened, "theirs", 0, score_run(record, opened)))
     np.testing.assert_equal(astuple(rows[0]), astuple(rows[1]))
     write(tmp_path / "16" / "there.txt", found[:16])
+    with pytest.raises(ResultError, match="has 16 lines, the sequence 20 frames and 15 rows of true boxes"):
+        results_spec(f"theirs={tmp_path / '16'}").read(opened)
+
+
+def test_as_many_lines_as_frames_of_a_video(tmp_path):
+    """It proves that this holds for a video, too, whose length no file tells, as of our own raw results."""
+    images = np.random.default_rng(0).integers(0, 256, (20, 48, 64, 3), np.uint8)
+    writer = cv2.VideoWriter(str(tmp_path / "clip.avi"), cv2.VideoWriter_fourcc(*"MJPG"), 30, (64, 48))
+    for image in images:
+        writer.write(image)
+    writer.release()
+    write_lines(tmp_path / "clip.csv", ["5,5,20,20"] * 15)
+    opened = Entry("clip", tmp_path / "clip.avi").open()
+    write_lines(tmp_path / "20" / "clip.txt", ["5,5,20,20"] * 20)
+    (record,), *_ = results_spec(f"theirs={tmp_path / '20'}").read(opened)
+    assert len(record.run.boxes) == 20
+    write_lines(tmp_path / "16" / "clip.txt", ["5,5,20,20"] * 16)
     with pytest.raises(ResultError, match="has 16 lines, the sequence 20 frames and 15 rows of true boxes"):
         results_spec(f"theirs={tmp_path / '16'}").read(opened)
 
