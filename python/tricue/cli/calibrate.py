@@ -69,7 +69,9 @@ def add_options(command: argparse.ArgumentParser) -> None:
     noise.add_argument("--distance", type=float, metavar="M", help="of the head along the camera's axis")
     noise.add_argument("--right", metavar="PLACE", help="the right camera's images; INPUT is the left one's")
     noise.add_argument("--calibration", type=Path, metavar="FILE", help="of the stereo pair")
-    noise.add_argument("--rectify", action="store_true", help="rectify raw pairs by OpenCV's --calibration")
+    noise.add_argument(
+        "--rectify", action="store_true", help="rectify the stereo pairs first, by OpenCV's --calibration"
+    )
     noise.add_argument("--unit", type=float, metavar="M", help="meters per unit of its board")
     noise.set_defaults(measure=_stereo_noise, tracker="stereo-head", fov=None)
     for kind in (skin, head, noise):

@@ -19,10 +19,10 @@ DEMOS = (
 EXAMPLES = """\
 examples:
   tricue demo
-  tricue demo depth-particle                                  people before a depth camera, in meters
-  tricue demo stereo-head                                     a head before a stereo pair, in meters
-  tricue demo flow-depth                                      a walker, overtaken, before a stereo pair
-  tricue demo fused                                           a stress scene, before three cameras
+  tricue demo depth-particle                                  people in front of a depth camera, in meters
+  tricue demo stereo-head                                     a head in front of two cameras, in meters
+  tricue demo flow-depth                                      a walker among others in front of two cameras
+  tricue demo fused                                           a hard scene, by color, depth and a stereo pair
   tricue demo color-particle --kernels reference --output here
 """
 

@@ -88,7 +88,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="TRACKER.NAME=VALUE",
-        help="a parameter of one of tricue's trackers",
+        help="a parameter of one of the trackers, yours too",
     )
     command.add_argument(
         "--seeds",

@@ -31,7 +31,7 @@ COMMANDS = {
     "info": "describe a video, a folder, a sequence",
     "evaluate": "compare trackers with OpenCV's on a data set",
     "compare": "compare two evaluations, and say what got worse",
-    "calibrate": "measure a tracker's parameters on own images",
+    "calibrate": "measure a tracker's parameters on your own images",
     "reproduce": "repeat an experiment of the papers",
     "vot-workspace": "let the VOT toolkit run trackers",
     "doctor": "tell what is installed, what works, and what is missing",

@@ -24,7 +24,7 @@ def add_source_options(command: argparse.ArgumentParser) -> Any:
         "--right", metavar="PLACE", help="the right camera's video, folder or number; INPUT is the left one's"
     )
     command.add_argument(
-        "--rectify", action="store_true", help="rectify raw stereo pairs by OpenCV's --calibration"
+        "--rectify", action="store_true", help="rectify the stereo pairs first, by OpenCV's --calibration"
     )
     command.add_argument(
         "--unit", type=float, metavar="M", help="meters per unit of the board in OpenCV's --calibration"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""``tricue demo stereo-head``: a head before a stereo pair, tracked in meters while the light changes."""
+"""``tricue demo stereo-head``: a head in front of two cameras, in meters, while the light changes."""
 
 from argparse import Namespace
 from collections.abc import Callable, Mapping
@@ -39,7 +39,7 @@ def run(options: Namespace) -> int:
     results = follow_all(SCENES, options.seed, video, partial(_follow, options))
     plot = options.output / f"{options.tracker}.png"
     figures.save(lambda figure, *_: _plot(figure, results), (), {}, plot)
-    print(f"{options.tracker}: a head before a stereo pair of 160x120, seed {options.seed}\n")
+    print(f"{options.tracker}: a head in front of a stereo pair of 160x120, seed {options.seed}\n")
     print(f"{_table(results)}\n\nwrote {video.about}\nwrote {plot}")
     return 0
 
