@@ -5,7 +5,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
-from tricue import Intrinsics
+from tricue import Intrinsics, Pose
 from tricue.camera.read_calibration import read_intrinsics, read_registration, read_rig
 
 SIZE = (640, 480)
@@ -179,6 +179,16 @@ def test_two_cameras_are_a_registration(tmp_path: Path) -> None:
     path.write_text(path.read_text().replace("567.9", "500.0"))
     assert read_registration(path, SIZE, SIZE) is None
     assert read_registration(kitti(tmp_path / "calib.txt"), SIZE, SIZE) is None
+
+
+def test_a_registration_keeps_the_depth_cameras_pose(tmp_path: Path) -> None:
+    """It proves that positions in color's frame have a place in the world if only [depth] tells."""
+    pose = f"translation = [0, 0, 1.6]\nrotation = {np.eye(3).tolist()}\n"
+    path = toml(tmp_path / "c.toml", f"[depth]\n{pose}", 567.9)
+    path.write_text(path.read_text() + toml(tmp_path / "d.toml", "[color]\n").read_text())
+    found = read_registration(path, (320, 240), SIZE)
+    assert found is not None
+    assert found.color.pose == Pose(np.eye(3), (0, 0, 1.6))
 
 
 def test_a_registration_of_another_size_is_refused(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TypeVar
@@ -32,13 +33,15 @@ def read_registration(path: Path, depth: Size, color: Size) -> Registration | No
     """What brings depth images into the color camera's pixels, from a TOML file with both cameras.
 
     The file has the tables ``depth`` and ``color``. None for any other file, and where both cameras are the
-    same, for then the images are registered already. depth, color: width and height of the images, pixels.
-    ValueError as :func:`read_intrinsics`.
+    same, for then the images are registered already. Their poses don't change that both are taken to be in
+    one place, which the only pose is of. depth, color: width and height of the images, pixels. ValueError as
+    :func:`read_intrinsics`.
     """
     if _format(path) != TOML or not all(_table(path, name) for name in ("depth", "color")):
         return None
-    found = Registration(read_intrinsics(path, depth, "depth"), read_intrinsics(path, color, "color"))
-    return None if found.depth == found.color else found
+    of_depth, of_color = read_intrinsics(path, depth, "depth"), read_intrinsics(path, color, "color")
+    of_color = replace(of_color, pose=of_color.pose or of_depth.pose)
+    return None if of_depth == of_color else Registration(of_depth, of_color)
 
 
 def read_rig(path: Path, size: Size, unit: float | None = None) -> StereoRig:
