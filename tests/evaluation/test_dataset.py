@@ -2,6 +2,7 @@
 """Entries of a data set, and what each tracker is shown of them."""
 
 import pickle
+import shutil
 from dataclasses import replace
 from pathlib import Path
 
@@ -103,6 +104,17 @@ def test_a_digest_is_of_the_images_not_of_their_place(tmp_path):
     assert Entry("walk", tmp_path / "here", None, ReadOptions(depth_scale=0.002)).open().digest != first
     cv2.imwrite(str(tmp_path / "here" / "color" / "00000003.png"), color(9) // 7)
     assert Entry("walk", tmp_path / "here").open().digest != first
+
+
+def test_a_scale_of_depth_is_for_formats_without_one(tmp_path):
+    """VOT's depth stays in millimeters; depth images alone, which can't be opened without it, have it."""
+    vot = Entry("walk", write_rgbd(tmp_path / "vot"), None, ReadOptions(depth_scale=0.01)).open()
+    assert next(iter(vot.source)).depth.max() == pytest.approx(4)
+    alone = write_rgbd(tmp_path / "alone")
+    (alone / "sequence").unlink()
+    shutil.rmtree(alone / "color")
+    opened = Entry("walk", alone, None, ReadOptions(depth_scale=0.01)).open()
+    assert next(iter(opened.source)).depth.max() == pytest.approx(40)
 
 
 def test_a_digest_is_of_the_recording(tmp_path):

@@ -23,6 +23,7 @@ from tricue.data.input_files import stream_files
 from tricue.data.layouts import list_targets
 from tricue.data.open_source import Source, open_source
 from tricue.data.otb import find_range
+from tricue.data.recordings.recording import is_recording
 from tricue.data.streams import Images
 
 FORMAT_RATES = {"KITTI tracking": 10.0}
@@ -41,10 +42,10 @@ NUMBERED_FORMATS = ("OTB", "VOT", "VOT RGB-D", "images", "stereo pair")
 class ReadOptions:
     """How to read a data set's files, for values that they don't contain.
 
-    depth_scale: meters per unit of depth. fps: frames a second of images without times. unit: meters per
-    unit of OpenCV's stereo calibrations. truth: the channel, "color" or "depth", in whose pixels the true
-    boxes are given. None means color, or depth if it isn't registered to color and positions were measured
-    in it.
+    depth_scale: meters per unit of depth, where the format doesn't define it. fps: frames a second of images
+    without times. unit: meters per unit of OpenCV's stereo calibrations. truth: the channel, "color" or
+    "depth", in whose pixels the true boxes are given. None means color, or depth if it isn't registered to
+    color and positions were measured in it.
     """
 
     depth_scale: float | None = None
@@ -294,12 +295,19 @@ def _image_name(number: int, others: Sequence[re.Match[str]]) -> str:
 
 
 def _depth_scale_of(entry: Entry, scale: float | None) -> float | None:
-    """The depth scale, or None for a sequence without depth, which can't be opened with one."""
+    """The depth scale, or None where the format defines it, and without depth, where none may be given.
+
+    That of a robot's recording is overridden.
+    """
     if scale is None:
         return None
-    source = open_source(entry.place, target=entry.target)
-    has_depth = "depth" in source.channels or any("depth" in note for note in source.notes)
-    return scale if has_depth else None
+    try:
+        source = open_source(entry.place, target=entry.target)
+    except ValueError:  # of depth images alone, which need it
+        return scale
+    if "depth" in source.channels:
+        return scale if is_recording(entry.place) else None
+    return scale if any("depth" in note for note in source.notes) else None
 
 
 def _fit_to_frames(values: NDArray, frames: int, filler: float | bool) -> NDArray:  # type: ignore[type-arg]
