@@ -226,8 +226,13 @@ def test_the_unit_of_a_folder_of_sequences(tmp_path: Path, capsys: pytest.Captur
     """It proves that --depth-scale is for the sequences that need it, and leaves the others alone."""
     (color(tmp_path / "a", 2) / "boxes.csv").write_text("1,2,3,4\n")
     (depth(tmp_path / "b", 2) / "boxes.csv").write_text("1,2,3,4\n")
+    both = tmp_path / "c"
+    for channel, make in (("color", color), ("depth", depth)):
+        make(both / channel, 2)
+    (both / "boxes.csv").write_text("1,2,3,4\n")
     assert main(["info", str(tmp_path / "b")]) == 2
     found = facts(capsys, tmp_path, "--depth-scale", 0.001)["sequences"]
+    assert found.pop()["channels"] == ["color", "depth"]
     assert [each["channels"] for each in found] == [["color"], ["depth"]]
 
 

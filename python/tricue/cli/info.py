@@ -205,11 +205,13 @@ def _summarize(root: Path, place: Path, scale: float | None) -> Summary:
 def _open_with_scale(place: Path, scale: float | None) -> Source:
     """The source, opened with the depth scale only if its format doesn't contain one."""
     try:
-        return open_source(place)
+        source = open_source(place)
     except ValueError:
         if scale is None:
             raise
         return open_source(place, depth_scale=scale)
+    left_out = "depth" not in source.channels and any("depth" in note for note in source.notes)
+    return open_source(place, depth_scale=scale) if scale is not None and left_out else source
 
 
 def _summary_line(facts: Summary) -> str:
