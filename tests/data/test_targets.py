@@ -51,7 +51,12 @@ def test_a_labeled_target(tmp_path: Path) -> None:
     a frame of it without label is unknown.
     """
     root = tracking(tmp_path, LABELS + label(2, -1, "DontCare"))
-    assert list_targets(root) == list_targets(root / "image_02" / "0005") == ("Car 7", "Car 9")
+    assert (
+        list_targets(root)
+        == list_targets(str(root))
+        == list_targets(root / "image_02" / "0005")
+        == ("Car 7", "Car 9")
+    )
     source = open_source(root, target="Car 7")
     assert (source.format, source.length, list(source.channels)) == ("KITTI tracking", 4, ["color", "right"])
     assert levels(source) == [1, 2, 3, 4]

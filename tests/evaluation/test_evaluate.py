@@ -85,7 +85,7 @@ def test_an_interrupted_evaluation_goes_on(undisturbed, folders, tmp_path):
     assert len(second.tasks) == 24 - 5
     assert not set(first.tasks) & set(second.tasks)
     assert table(tmp_path, again) == table(*undisturbed)
-    assert table(tmp_path, evaluate(folders, tmp_path, FEW, work=third)) == table(*undisturbed)
+    assert table(tmp_path, evaluate(str(folders), str(tmp_path), FEW, work=third)) == table(*undisturbed)
     assert not third.tasks
 
 

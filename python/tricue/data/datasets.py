@@ -10,13 +10,14 @@ from tricue.data.files import is_video, may_be_video, natural_order
 from tricue.data.truth import OTB_TRUTH, PRINCETON_FIRST_BOX, VOT_TRUTH, otb_targets
 
 
-def find_sequences(root: Path) -> list[Path]:
+def find_sequences(root: str | Path) -> list[Path]:
     """The sequences at or under ``root``, in natural order.
 
     They are the folders with true boxes or KITTI's labels, and the video files with a table of boxes beside
     them. Nothing below a sequence is searched, and each folder once, however many links lead to it. No image
     is read, so malformed sequences are included; opening one says what is wrong with it.
     """
+    root = Path(root)
     if root.is_file():
         return [root] if _is_sequence_video(root) else []
     return natural_order(_below(root, set()))

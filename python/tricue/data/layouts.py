@@ -58,12 +58,13 @@ def note_box_table(table: Path) -> str:
     return f"true boxes found: {table}"
 
 
-def list_targets(folder: Path) -> tuple[str, ...]:
+def list_targets(folder: str | Path) -> tuple[str, ...]:
     """The names of a folder's targets, where it has several.
 
     For KITTI they are the targets labeled in two frames or more, such as "Car 31"; for OTB the numbers of
     its files of true boxes. ValueError names a malformed label.
     """
+    folder = Path(folder)
     names = _list_all_targets(folder)
     return names if len(names) > 1 or kitti.find_labels(folder) else ()
 

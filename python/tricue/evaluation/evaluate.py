@@ -150,8 +150,8 @@ class ProgressUpdate(NamedTuple):
 
 
 def evaluate(
-    root: Path,
-    folder: Path,
+    root: str | Path,
+    folder: str | Path,
     options: Options = Options(),
     *,
     jobs: int = 1,
@@ -166,8 +166,8 @@ def evaluate(
     again. on_progress: called after each run. ValueError or OSError for a data set, a folder or options
     that can't be used, before the first run.
     """
-    plan = _Plan(root, options)
-    store = Store(folder / RUNS)
+    plan = _Plan(Path(root), options)
+    store = Store(Path(folder) / RUNS)
     store.prepare()
     failed = dict(plan.failed)
     for task in () if fresh else plan.missing:
