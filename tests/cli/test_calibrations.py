@@ -2,6 +2,7 @@
 """What ``tricue track`` says and does about cameras, with the trackers themselves."""
 
 import json
+import shutil
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -119,6 +120,17 @@ def test_assumed_meters_say_so(rgbd: Path, tracker: str, capsys: pytest.CaptureF
         assert "X_m" not in mine
         assert mine["X_m_assumed"] == theirs["X_m"]
         assert mine["depth_m"] == theirs["depth_m"]
+
+
+def test_an_assumed_camera_says_what_it_replaces(
+    rgbd: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that a calibration beside the images isn't left out without a word."""
+    place = shutil.copytree(rgbd, tmp_path / "known")
+    file = place / "intrinsics.toml"
+    file.write_text("fx = 500.0\nfy = 500.0\ncx = 80.0\ncy = 60.0\n")
+    tracked(place, *MM, "--assume-fov", "60")
+    assert f"by --assume-fov, instead of the calibration that is there: {file}" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("tracker", PAIR)

@@ -130,14 +130,20 @@ def _advice(ways: str, options: Namespace) -> str:
 
 
 def _assume(options: Namespace, source: Source, cameras: Collection[str]) -> Calibration:
-    """The camera of --assume-fov, or a pair of such cameras at a usual distance."""
+    """The camera of --assume-fov, or a pair of such cameras at a usual distance.
+
+    The note says if a calibration that is there isn't used.
+    """
     if not cameras:
         raise ValueError(f"--assume-fov: {options.tracker} takes no camera; leave it out")
     camera = _intrinsics_from_angles(source, options.assume_fov, "--assume-fov")
+    known = source.calibration or ("the recording's or the camera's own" if source.camera else None)
+    instead = "" if known is None else f", instead of the calibration that is there: {known}"
     if "rig" in cameras and ("right" in source.channels or "intrinsics" not in cameras):
-        note = f"meters are assumed: cameras {DEFAULT_BASELINE:g} m apart, as --assume-fov says"
+        note = f"meters are assumed: cameras {DEFAULT_BASELINE:g} m apart, as --assume-fov says{instead}"
         return Calibration(rig=StereoRig(camera, DEFAULT_BASELINE), note=note, assumed=True)
-    return Calibration(camera, "meters to the right and down are assumed, by --assume-fov", assumed=True)
+    note = f"meters to the right and down are assumed, by --assume-fov{instead}"
+    return Calibration(camera, note, assumed=True)
 
 
 def _intrinsics_from_angles(source: Source, fov: tuple[float, ...], option: str = "--fov") -> Intrinsics:

@@ -82,7 +82,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
         "--assume-fov",
         type=angles,
         metavar="H[,V]",
-        help="angles to assume where they aren't known; positions are then marked as assumed",
+        help="angles to assume instead; positions are then marked as assumed",
     )
     command.add_argument(
         "--output", type=Path, metavar="FILE", help="overlay video, .mp4, .mkv, .webm or .avi"
