@@ -106,6 +106,15 @@ def test_a_digest_is_of_the_images_not_of_their_place(tmp_path):
     assert Entry("walk", tmp_path / "here").open().digest != first
 
 
+def test_a_key_that_is_no_cameras_tells_of_no_other_camera(tmp_path):
+    """The unit of depth, in its table alone, or a size that one table leaves out, makes no two cameras."""
+    camera = "fx = 40.0\nfy = 40.0\ncx = 24.0\ncy = 18.0\n"
+    for name, more in (("unit", "scale = 0.001\n"), ("size", "width = 48\nheight = 36\n")):
+        cameras = f"[color]\n{camera}[depth]\n{camera}{more}"
+        opened = Entry("walk", write_rgbd(tmp_path / name, cameras=cameras)).open()
+        assert opened.registered
+
+
 def test_a_scale_of_depth_is_for_formats_without_one(tmp_path):
     """VOT's depth stays in millimeters; depth images alone, which can't be opened without it, have it."""
     vot = Entry("walk", write_rgbd(tmp_path / "vot"), None, ReadOptions(depth_scale=0.01)).open()

@@ -37,6 +37,9 @@ before they are compared, as the VOT toolkit does.
 NUMBERED_FORMATS = ("OTB", "VOT", "VOT RGB-D", "images", "stereo pair")
 """Formats whose images are named by consecutive numbers, as are LaSOT's and GOT-10k's, which are "images"."""
 
+CAMERA_KEYS = {"fx", "fy", "cx", "cy"}  # of a camera's table in TOML
+OPTIONAL_CAMERA_KEYS = {"width", "height", "pose", "rotation", "translation"}
+
 
 @dataclass(frozen=True)
 class ReadOptions:
@@ -121,8 +124,11 @@ class OpenedSequence:
         path = self.source.calibration
         if path is None or path.suffix.lower() != ".toml":
             return True
-        tables = toml.read(path)
-        return not ("color" in tables and "depth" in tables) or tables["color"] == tables["depth"]
+        color, depth = (toml.read(path).get(name) for name in ("color", "depth"))
+        if not isinstance(color, dict) or not isinstance(depth, dict):
+            return True
+        told = CAMERA_KEYS | (OPTIONAL_CAMERA_KEYS & color.keys() & depth.keys())
+        return all(color.get(key) == depth.get(key) for key in told)
 
     @property
     def clipped(self) -> bool:
