@@ -17,6 +17,7 @@
 #include "base/arrays.hpp"
 #include "base/depth_view.hpp"
 #include "base/image_view.hpp"
+#include "base/plane_view.hpp"
 #include "base/region.hpp"
 #include "base/sample_view.hpp"
 #include "base/stack_view.hpp"
@@ -127,6 +128,10 @@ inline PlaneView plane_view(const py::object& object, const char* name, const ch
 
 inline DepthView depth_image(const py::object& object, const char* name) {
     return plane_view(object, name, "a float32 depth image (H, W)");
+}
+
+inline std::ptrdiff_t pixels(const PlaneView& plane) {
+    return std::ptrdiff_t{plane.rows} * plane.cols;
 }
 
 inline ImageView mask_image(const py::object& object, const char* name,

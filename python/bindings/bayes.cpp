@@ -38,10 +38,6 @@ Rectangle rectangle(const Corners& corners) {
     return {x0, y0, x1, y1};
 }
 
-std::ptrdiff_t pixels(const PlaneView& plane) {
-    return std::ptrdiff_t{plane.rows} * plane.cols;
-}
-
 Array<float> combine_posteriors_arrays(const Array<float>& first, const Array<float>& second) {
     const auto p = plane(first, "first"), q = plane(second, "second");
     return give(unlocked(pixels(p), [&] { return combine_posteriors(p, q); }));

@@ -24,10 +24,6 @@ namespace {
 
 using Bytes = Array<std::uint8_t>;
 
-std::ptrdiff_t pixels(const DepthView& depth) {
-    return std::ptrdiff_t{depth.rows} * depth.cols;
-}
-
 Bytes changed_depth_arrays(const Array<float>& depth, const Array<float>& before, double noise,
                            double slope) {
     const auto view = depth_image(depth, "depth");
