@@ -6,13 +6,13 @@
 The first line is fitted on all sequences, in the form of tricue/track/fused/identity.py: a logistic
 regression of "the overlap is above 0.3" on the log-odds, each frame of all runs counting the same (Platt
 1999). The table is of the scores in use, and of those by lines that were fitted without the recording they
-judge.
+judge: of all runs, and of those of each protocol.
 
 The tracks depend on the log-odds alone, so that they stay what they are if the thresholds move with the line.
 """
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import fields, replace
 
 import numpy as np
@@ -22,12 +22,13 @@ from benchmarks.quality.common import logistic_regression
 from benchmarks.quality.common.arguments import add_dataset, add_output, bare_parser
 from benchmarks.quality.common.confidence_summary import ON_TARGET_OVERLAP, summarize
 from benchmarks.quality.common.folds import leave_one_out
-from benchmarks.quality.common.frame_results import Array, FrameResults
-from benchmarks.quality.common.sequence_runs import find_tasks, pool, run_sequences
+from benchmarks.quality.common.frame_results import Array, Flags, FrameResults
+from benchmarks.quality.common.protocols import PROTOCOLS, belongs
+from benchmarks.quality.common.sequence_runs import SequenceResult, find_tasks, run_sequences
 from benchmarks.quality.common.tables import Cell, markdown, write_csv
 from benchmarks.quality.common.variants import parse_variants
 
-HEAD = ("scores", "deviation", "calibration error", "AUROC")
+HEAD = ("scores", "runs", "deviation", "calibration error", "AUROC")
 
 
 def log_odds(scores: Array) -> Array:
@@ -49,16 +50,31 @@ def judge(features: Array, on_target: Array, sequences: Sequence[str]) -> Array:
     return scores
 
 
-def row(name: str, frames: FrameResults) -> list[Cell]:
-    """A row of the table."""
-    found = summarize(frames)
-    return [name, found.deviation, found.calibration_error, found.auroc]
+def rows(name: str, frames: FrameResults, protocols: Mapping[str, Flags]) -> list[list[Cell]]:
+    """Rows of the table: of all frames, and of those of each protocol that has some."""
+    parts = {
+        "all": frames,
+        **{each: select(frames, flags) for each, flags in protocols.items() if flags.any()},
+    }
+    found = {runs: summarize(part) for runs, part in parts.items()}
+    return [[name, runs, each.deviation, each.calibration_error, each.auroc] for runs, each in found.items()]
 
 
 def known(frames: FrameResults) -> FrameResults:
     """The frames after the first of their runs, whose truth is known or without target."""
-    kept = ~np.isnan(frames.seconds) & (frames.absent | ~np.isnan(frames.overlaps))
-    return FrameResults(*(getattr(frames, field.name)[kept] for field in fields(frames)))
+    return select(frames, ~np.isnan(frames.seconds) & (frames.absent | ~np.isnan(frames.overlaps)))
+
+
+def select(frames: FrameResults, chosen: Flags) -> FrameResults:
+    """Some of the frames; chosen: (N,)."""
+    return FrameResults(*(getattr(frames, field.name)[chosen] for field in fields(frames)))
+
+
+def by_protocol(results: Sequence[SequenceResult], runs: Sequence[FrameResults]) -> dict[str, Flags]:
+    """Of the frames of all runs, which belong to a protocol; runs: of the results, in their order."""
+    orders = [order for each in results for order in each.runs]
+    counts = [len(run.scores) for run in runs]
+    return {name: np.repeat([belongs(order, name) for order in orders], counts) for name in PROTOCOLS}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -71,16 +87,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         todo = find_tasks(parse_variants(["fused"], []), options.dataset, options.only)
         results = run_sequences(todo, options.jobs)
-        parts = [known(pool([each])) for each in results]
-        names = [each.sequence for each, part in zip(results, parts, strict=True) for _ in part.scores]
-        frames = FrameResults.pooled(parts)
+        runs = [known(run) for each in results for run in each.runs.values()]
+        sequences = [each.sequence for each in results for _ in each.runs]
+        names = np.repeat(sequences, [len(run.scores) for run in runs]).tolist()
+        frames = FrameResults.pooled(runs)
         features = log_odds(frames.scores)
         on_target = ((frames.overlaps > ON_TARGET_OVERLAP) & ~frames.absent).astype(float)
         left_out = replace(frames, scores=judge(features, on_target, names))
     except (OSError, ValueError) as error:
         made.error(str(error))
     slope, offset = fit(features, on_target).round(2).tolist()
-    table = [row("in use", frames), row("left out", left_out)]
+    protocols = by_protocol(results, runs)
+    table = [*rows("in use", frames, protocols), *rows("left out", left_out, protocols)]
     print(f"SCORE_SLOPE, SCORE_OFFSET = {slope}, {offset}, of these log-odds\n\n{markdown(HEAD, table)}")
     write_csv(options.csv, HEAD, table)
     return 0

@@ -21,10 +21,9 @@ CSV_COLUMNS = ("tracker", "sequence", "protocol", "runs", "frames", "AUC", *SUMM
 
 def tables(results: Sequence[SequenceResult]) -> str:
     """Markdown: all tables of this module, one after the other."""
+    made = group_table, sequence_table, frame_table, reliability_table, interval_table
     found = by_tracker(results)
-    pooled = {tracker: pool(own) for tracker, own in found.items()}
-    frames = [*frame_tables(pooled), interval_table(found)]
-    return "\n\n".join([group_table(found), sequence_table(found), *frames])
+    return "\n\n".join(each(found) for each in made)
 
 
 def group_table(found: Mapping[str, Sequence[SequenceResult]]) -> str:
@@ -50,22 +49,28 @@ def sequence_table(found: Mapping[str, Sequence[SequenceResult]]) -> str:
     return markdown(["tracker", "sequence", *PROTOCOLS], rows)
 
 
-def frame_tables(pooled: Mapping[str, FrameResults]) -> list[str]:
-    """Of all frames of a tracker: the summary of its score and status, times, and how reliable scores are."""
-    first: list[list[Cell]] = [
-        [tracker, len(frames.overlaps), *summarize(frames), *times(frames)]
-        for tracker, frames in pooled.items()
-    ]
-    second: list[list[Cell]] = []
-    for tracker, frames in pooled.items():
-        found = reliability(frames)
-        for index, (low, high) in enumerate(zip(found.edges[:-1], found.edges[1:], strict=True)):
-            means = float(found.scores[index]), float(found.overlaps[index])
-            second.append([tracker, f"{low:.1f} to {high:.1f}", *means, int(found.counts[index])])
-    return [
-        markdown(["tracker", "frames", *SUMMARY, *TIMES], first),
-        markdown(["tracker", "score", "mean score", "on target", "frames"], second),
-    ]
+def frame_table(found: Mapping[str, Sequence[SequenceResult]]) -> str:
+    """By tracker, of the frames of all runs and of each protocol's: how good score and status are, times."""
+    rows: list[list[Cell]] = []
+    for tracker, own in found.items():
+        parts = {"all": pool(own)}
+        parts |= {name: pool(own, name) for name in PROTOCOLS if any(each.runs_of(name) for each in own)}
+        rows += [
+            [tracker, name, len(frames.overlaps), *summarize(frames), *times(frames)]
+            for name, frames in parts.items()
+        ]
+    return markdown(["tracker", "runs", "frames", *SUMMARY, *TIMES], rows)
+
+
+def reliability_table(found: Mapping[str, Sequence[SequenceResult]]) -> str:
+    """How often all frames of a tracker with about the same score are on target."""
+    rows: list[list[Cell]] = []
+    for tracker, own in found.items():
+        line = reliability(pool(own))
+        for index, (low, high) in enumerate(zip(line.edges[:-1], line.edges[1:], strict=True)):
+            means = float(line.scores[index]), float(line.overlaps[index])
+            rows.append([tracker, f"{low:.1f} to {high:.1f}", *means, int(line.counts[index])])
+    return markdown(["tracker", "score", "mean score", "on target", "frames"], rows)
 
 
 def interval_table(found: Mapping[str, Sequence[SequenceResult]]) -> str:

@@ -121,6 +121,7 @@ def mean_auc(results: Iterable[SequenceResult], protocol: str) -> float:
     return mean([each.auc(protocol) for each in results])
 
 
-def pool(results: Iterable[SequenceResult]) -> FrameResults:
-    """All frames of all runs, each run once."""
-    return FrameResults.pooled([run for each in results for run in each.runs.values()])
+def pool(results: Iterable[SequenceResult], protocol: str | None = None) -> FrameResults:
+    """All frames of a protocol's runs, or of all runs, each once."""
+    runs = [each.runs.values() if protocol is None else each.runs_of(protocol) for each in results]
+    return FrameResults.pooled([run for several in runs for run in several])

@@ -51,7 +51,10 @@ def test_the_command_fits_and_judges(monkeypatch, folders, tmp_path, capsys):
     printed = re.match(r"SCORE_SLOPE, SCORE_OFFSET = ([-.\d]+), ([-.\d]+)", capsys.readouterr().out)
     assert printed is not None
     np.testing.assert_allclose([float(each) for each in printed.groups()], LINE, atol=0.04)
-    used, left_out = csv.DictReader((tmp_path / "o.csv").read_text().splitlines())
+    lines = list(csv.DictReader((tmp_path / "o.csv").read_text().splitlines()))
+    assert [line["runs"] for line in lines] == 2 * ["all", "forward", "starts"]
+    assert lines[1] == {**lines[0], "runs": "forward"}
+    used, left_out = lines[0], lines[3]
     assert float(used["deviation"]) > 0.2
     assert float(left_out["deviation"]) < 0.05
     assert float(left_out["AUROC"]) == pytest.approx(float(used["AUROC"]), abs=0.01)

@@ -42,10 +42,16 @@ def test_times_by_status():
     assert color_tables.times(frames) == pytest.approx([50.5, np.percentile(np.arange(1, 101), 99), 0.5, 0.5])
 
 
-def test_frame_tables():
-    """The bin of the score has all frames; empty bins have none."""
-    summary, bins = color_tables.frame_tables({"fused": result("Couple", 1.0).runs[ORDERS[0]]})
-    assert "| fused | 200 | 0.000 | - | - | 0.500 | 0.250 | 0.250 | 50.500 |" in summary
+def test_frames_of_all_runs_and_of_each_protocol():
+    """A run that belongs to two protocols counts once in all; a protocol without runs has no row. The bin of
+    the score has all frames; empty bins have none.
+    """
+    found = {"fused": [result("Couple", 1.0, ORDERS[:1])]}
+    lines, bins = color_tables.frame_table(found).splitlines(), color_tables.reliability_table(found)
+    numbers = "200 | 0.000 | - | - | 0.500 | 0.250 | 0.250 | 50.500 |"
+    assert [line[: line.index(numbers)] for line in lines[2:]] == [
+        f"| fused | {runs} | " for runs in ("all", "forward", "starts")
+    ]
     assert "| fused | 0.7 to 0.8 | 0.750 | 1.000 | 200 |" in bins
     assert "| fused | 0.0 to 0.1 | - | - | 0 |" in bins
 
