@@ -115,6 +115,14 @@ def test_tracked_only_with_a_lead_over_what_is_beside(min_lead, expected, stage,
     assert tracks[-1].status is expected
 
 
+def test_with_no_time_without_lead_a_target_with_a_lead_is_followed(stage, follow):
+    """``max_time_without_lead=0`` searches at the first frame without a lead, not in those with one."""
+    tracker = ColorParticleTracker(max_time_without_lead=0.0)
+    track = follow(tracker, stage(HERE), START)[-1]
+    assert track.status is Status.TRACKED
+    assert track.score > 0.8
+
+
 def test_what_is_doubtful_is_not_learned(stage, follow):
     """Nor is it LOST before max_time_without_lead."""
     frames = stage(HERE)

@@ -55,7 +55,8 @@ class State(NamedTuple):
     def lost(self, p: ColorParticleParams) -> bool:
         """Whether the target is LOST, and is searched for in the whole frame."""
         missed = self.missed_frames >= MIN_MISSED_FRAMES and self.missed_seconds >= p.lost_after
-        return missed or self.low_lead_seconds >= p.max_time_without_lead
+        without_lead = self.low_lead_seconds > 0 and self.low_lead_seconds >= p.max_time_without_lead
+        return missed or without_lead
 
     def has_low_lead(self, p: ColorParticleParams) -> bool:
         """Whether the target is hardly more like itself than what is beside it."""
