@@ -29,6 +29,18 @@ def test_a_file_brings_them_back(params, tmp_path: Path):
     assert Params.from_toml(tmp_path / "params.toml") == params
 
 
+def test_the_first_frame_is_remembered_at_any_learning_rate(scene):
+    """With ``learning_rate=1`` the learned ranks are those of the last frame, and the first frame's stay."""
+    tracker = ColorParticleTracker(learning_rate=1.0)
+    tracker.init(scene.frames[0], scene.boxes[0])
+    _, first = tracker._state.appearance.model.maps
+    for frame in scene.frames[1:5]:
+        tracker.update(frame)
+    learned, remembered = tracker._state.appearance.model.maps
+    np.testing.assert_array_equal(remembered, first)
+    assert not np.array_equal(learned, first)
+
+
 @pytest.mark.parametrize(
     "extreme",
     [

@@ -36,7 +36,7 @@ class ObservationModel(Protocol):
         """The default of the exponential likelihood exp(-sharpness d²), found by experiment."""
 
     def learn(self, k: Kernels, seen: Any, rate: float) -> "ObservationModel":
-        """Blend in what is seen in one window; a rate of 1 initializes the model."""
+        """Blend in what is seen in one window; a rate of 1 takes it alone, and initializes the model."""
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         """(N,) distances of the windows to the model, in [0, 1].

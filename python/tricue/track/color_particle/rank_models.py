@@ -49,7 +49,7 @@ class RankSpatial(NamedTuple):
         return RankWindow(*k.rank_window(image, ellipse, grid, self.maps, MIN_RANK_SPREAD))
 
     def learn(self, k: Kernels, seen: RankWindow, rate: float) -> "RankSpatial":
-        if rate >= 1:
+        if len(self.maps) == 0:
             return RankSpatial(self.weights, np.stack([seen.ranks, seen.ranks]))
         return RankSpatial(self.weights, k.learn_ranks(self.maps, seen.ranks, rate))
 
