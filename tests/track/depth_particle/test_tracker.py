@@ -128,6 +128,19 @@ def test_covariance_grows_while_occluded(seed, crossed):
     assert np.median(variance[hidden]) > np.median(variance[~hidden])
 
 
+def test_covariance_grows_as_long_as_nobody_is_seen(walkers):
+    """Who was last seen 30 seconds ago may be 10 m away; after an hour the place is unknown by 100 m."""
+    scene = walkers[0]
+    tracker = DepthParticleTracker(intrinsics=scene.intrinsics)
+    tracker.init(Frame(depth=scene.frames[0].depth, timestamp=0), scene.boxes[0])
+    nothing = np.full_like(scene.frames[0].depth, np.nan)
+    tracks = [tracker.update(Frame(depth=nothing, timestamp=1 + i)) for i in range(3600)]
+    deviations = np.sqrt([np.diag(tracks[seconds].covariance) for seconds in (0, 29, 3599)])
+    assert (np.diff(deviations[:2], axis=0) > 4).all()
+    assert deviations[1, 0] > 10
+    np.testing.assert_allclose(deviations[2], 100)
+
+
 def test_scores_follow_visibility(crossed):
     """The score is 0 while hidden, above 0.3 in half of the frames while TRACKED, and in [0, 1]."""
     for _, tracks in crossed:

@@ -15,7 +15,7 @@ Floats = NDArray[np.float64]
 MIN_POSITION_NOISE = (0.03, 0.02, 0.03)  # meters of X, Y, Z, standard deviation in no time
 AXIS_NOISE = (1.0, 0.3, 1.0)  # times position_noise: people move less up and down than sideways
 SIZE_RETURN = 0.3  # per frame, of the size to its running mean
-MAX_NOISE_TIME = 1.0  # seconds, up to which the noise of a missed target grows
+MAX_NOISE_TIME = 1.0  # seconds, up to which the noise of a missed target's particles grows
 FIRST_SIZE_RATE = 0.7  # of learning a size that is visible as a whole, until it is known
 MIN_SIZE = 0.1  # meters
 NO_DRIFT = np.zeros(5)
@@ -61,12 +61,15 @@ class BodyMotion(NamedTuple):
             width, height = self.state[3:].tolist()
             to_mean = SIZE_RETURN * (mean_width - width), SIZE_RETURN * (mean_height - height)
             drift = np.array((vx * seconds, vy * seconds, vz * seconds, *to_mean))
-        time = min(seconds + missed, max(seconds, MAX_NOISE_TIME))
-        growth = (p.position_noise + p.speed_noise * math.hypot(vx, vy, vz)) * time
-        (x, y, z), (along_x, along_y, along_z) = MIN_POSITION_NOISE, AXIS_NOISE
-        position = x + growth * along_x, y + growth * along_y, z + growth * along_z
+        position = self.position_deviation(p, min(seconds + missed, max(seconds, MAX_NOISE_TIME)))
         scale = np.array((*position, p.size_noise * mean_width, p.size_noise * mean_height))
         return Prediction(drift, scale, *_bounds(p.near, p.far))
+
+    def position_deviation(self, p: DepthParticleParams, seconds: float) -> tuple[float, float, float]:
+        """Meters of X, Y, Z, standard deviation of the position after so many seconds."""
+        growth = (p.position_noise + p.speed_noise * math.hypot(*self.velocity.tolist())) * seconds
+        (x, y, z), (along_x, along_y, along_z) = MIN_POSITION_NOISE, AXIS_NOISE
+        return x + growth * along_x, y + growth * along_y, z + growth * along_z
 
     def update(self, state: Floats, p: DepthParticleParams, seconds: float, visible: bool) -> "BodyMotion":
         """Move to a new estimate; its step updates the velocity where both positions were ``visible``."""

@@ -11,6 +11,7 @@ from tricue.camera.box import Box, BoxLike, as_box
 from tricue.camera.frame import FrameLike
 from tricue.camera.rig import Intrinsics
 from tricue.track.base import validation
+from tricue.track.base.position_limit import MAX_SIGMA
 from tricue.track.base.random_source import RandomSource
 from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase
@@ -291,14 +292,16 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         if hidden and occluder is None:
             index = find_occluder(state.objects, expected, p.occluder_margin)
             occluder = None if index is None else state.objects.states[index, :3]
+        missed_seconds = state.missed_seconds + seconds
+        spread = np.minimum(state.motion.position_deviation(p, missed_seconds), MAX_SIGMA)
         return state._replace(
             random=self._random.save(),
             motion=state.motion.coast(expected, VELOCITY_KEPT_HIDDEN if hidden else VELOCITY_KEPT),
             particles=ParticleSet.at_state(expected, p.particles),
             score=0.0,
-            missed_seconds=state.missed_seconds + seconds,
+            missed_seconds=missed_seconds,
             hidden=hidden,
-            position_spread=prediction.scale[:3],
+            position_spread=spread,
             occluder=occluder,
         )
 
