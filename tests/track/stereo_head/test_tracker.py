@@ -199,6 +199,18 @@ def test_a_head_that_stays_away_is_lost(heads, follow):
     assert again[-1].box.iou(scene.boxes[55]) > 0.5
 
 
+def test_a_missed_head_may_come_as_near_as_allowed(heads, follow):
+    """A head that is missed on its way to the camera is predicted at ``near``, however large it is there."""
+    scene = heads(0)
+    tracker = StereoHeadTracker(rig=scene.rig, near=0.001)
+    coming = [Frame(frame.color, right=frame.right) for frame in scene.frames[24::-1]]
+    follow(tracker, coming, scene.boxes[24])
+    black = np.zeros_like(coming[0].color)
+    tracks = [tracker.update(Frame(black, right=black, timestamp=float(second))) for second in range(5)]
+    assert tracks[-1].position[2] == 0.001
+    assert tracks[-1].status is Status.LOST
+
+
 def test_init_restarts(covered: StereoScene, follow, cover_up):
     """A second init forgets the first: its tracks are a fresh tracker's, also after another size."""
     tracker = StereoHeadTracker(rig=covered.rig)

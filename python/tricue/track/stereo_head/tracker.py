@@ -150,7 +150,9 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         position = predicted.position
         disparity = geometry.disparity(position[2])
         ellipse = geometry.ellipse(position, state.size)
-        measured = measure(k, pair, geometry, ellipse, disparity, state.model, p)
+        # A missed head may be predicted so near to the camera that kernels don't take its size.
+        fits = 2 * max(ellipse[2:]) <= MAX_BOX_SIDE
+        measured = measure(k, pair, geometry, ellipse, disparity, state.model, p) if fits else None
         if measured is not None:
             measured = measured.inflated(state.mean_score, p)
         if measured is not None and self._recognizes(state, measured, predicted):
