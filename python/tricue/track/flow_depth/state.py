@@ -84,7 +84,9 @@ class FlowDepthState(NamedTuple):
         )
 
     def status(self, p: FlowDepthParams) -> Status:
-        """OCCLUDED behind something nearer; LOST after a while, sooner where nothing hides the target."""
+        """OCCLUDED behind something nearer; LOST after a while, sooner where nothing hides the target: until
+        then such a target stays TRACKED, at a score of 0.
+        """
         if self.missed == 0:
             return Status.TRACKED
         if self.missed > p.lost_after or (self.missed > p.unoccluded_lost_after and not self.occluded):
