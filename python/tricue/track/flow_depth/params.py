@@ -358,7 +358,12 @@ class FlowDepthParams(Params):
     )
     lost_after: float = parameter(3.0, unit="s", source=OURS, low=0, doc="without the target, until LOST")
     rate: float = parameter(
-        15.0, unit="frames/s", source="section 6", above=0, doc="where frames have no timestamps"
+        15.0,
+        unit="frames/s",
+        source="section 6",
+        above=0,
+        doc="where frames have no timestamps; with them, too, it sets how fast a missed target's candidate "
+        "region grows",
     )
     place_noise: float = parameter(
         2.5,

@@ -17,8 +17,8 @@ from tricue.track.flow_depth.state import FlowDepthState
 Mask = NDArray[np.uint8]
 
 MIN_CANDIDATE_MARGIN = 4.0  # cells of the paper's images, to each side of the window
-CANDIDATE_GROWTH = 0.1  # of the margin, for each frame in which the target was missed
-MAX_GROWTH_FRAMES = 20  # that make the margin larger
+CANDIDATE_GROWTH = 0.1  # of the margin, for each 1 / ``rate`` seconds for which the target was missed
+MAX_GROWTH_FRAMES = 20  # of so many seconds, that make the margin larger
 MIN_DISPARITY_CHANGE, MIN_DISPARITY_HALF_RANGE = 0.03, 0.3  # of the disparity, for near targets
 MIN_TARGET_PIXELS = 8
 REDETECTION_OCCLUSION = 0.1  # of the blocks, by which more may be occluded when the target is re-detected

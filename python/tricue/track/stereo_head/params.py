@@ -192,14 +192,16 @@ class StereoHeadParams(Params):
         unit="levels",
         source="section 4.1; " + OURS,
         above=0,
-        doc="standard deviations of the measured mean color; one number stands for all three",
+        doc="standard deviations of the measured mean color; one number stands for all three; only "
+        "with feedback do tracks depend on it",
     )
     color_drift: tuple[float, float, float] = parameter(
         (2.0, 2.0, 2.0),
         unit="levels per frame",
         source="section 4.1; " + OURS,
         above=0,
-        doc="standard deviations by which the mean color changes; one number stands for all three",
+        doc="standard deviations by which the mean color changes; one number stands for all three; only "
+        "with feedback do tracks depend on it",
     )
     intersection_noise: float = parameter(
         0.1,
@@ -207,7 +209,7 @@ class StereoHeadParams(Params):
         source="section 4.1; " + OURS,
         above=0,
         high=1e6,
-        doc="standard deviation of the intersection (1)",
+        doc="standard deviation of the intersection (1), filtered as printed; no track depends on it",
     )
     feedback: bool = parameter(
         False, unit="-", source="True: section 4.1; " + OURS, doc="the filter's mean color moves the model"
