@@ -2,9 +2,9 @@
 """The disparity of a region where none is expected yet: the one that most of its cells share."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
+from tricue.track.base.shared_disparity import most_shared
 from tricue.track.flow_depth.rectangles import Region
 from tricue.track.flow_depth.reduced_frame import Plane, ReducedFrame
 
@@ -27,9 +27,7 @@ def find_initial_disparity(k: Kernels, frame: ReducedFrame, region: Region) -> f
     disparities = disparities[np.isfinite(disparities)]
     if disparities.size < MIN_DISPARITY_CELLS:
         return None
-    candidates = np.unique(np.round(disparities))
-    supports = [np.abs(disparities - candidate) <= SHARED_TOLERANCE for candidate in candidates]
-    best: NDArray[np.bool_] = max(supports, key=np.count_nonzero)
+    best = most_shared(disparities, SHARED_TOLERANCE)
     if np.count_nonzero(best) < MIN_SHARED_PART * disparities.size:
         return None
     return float(np.median(disparities[best]))

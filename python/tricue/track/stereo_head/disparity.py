@@ -5,9 +5,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
+from tricue.track.base.shared_disparity import most_shared
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.prepared_pair import Disparities, Ellipse, PreparedPair
 from tricue.track.stereo_head.stereo_geometry import StereoGeometry
@@ -49,9 +49,7 @@ def find_initial_disparity(
     matched, area = _match(k, pair, ellipse, limits, p)
     if matched.size < MIN_MATCHED_PIXELS:
         return None
-    candidates = np.unique(np.round(matched))
-    supports = [_near(matched, candidate, pair, p) for candidate in candidates.tolist()]
-    best = max(supports, key=np.count_nonzero)
+    best = most_shared(matched, p.disparity_tolerance * pair.step)
     shared = matched[best] if best.any() else matched
     return EllipseDisparity(float(np.median(shared)), np.count_nonzero(best) / area)
 
@@ -100,12 +98,3 @@ def _inner_region(
     minor, major = max(minor - margin, minor / 2), max(major - margin, major / 2)
     region = (math.floor(x - minor), math.floor(y - major), math.ceil(x + minor), math.ceil(y + major))
     return region, math.pi * minor * major
-
-
-def _near(
-    matched: Disparities, disparity: float, pair: PreparedPair, p: StereoHeadParams
-) -> NDArray[np.bool_]:
-    """(N,) whether each matched disparity is within the tolerance of one disparity, pixels."""
-    off = matched - np.float32(disparity)
-    np.abs(off, off)
-    return np.asarray(off <= np.float32(p.disparity_tolerance * pair.step))
