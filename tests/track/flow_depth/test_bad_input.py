@@ -247,6 +247,17 @@ def test_another_size_is_named(shape):
     assert tracker.update(NEXT) == EXPECTED
 
 
+def test_disparity_alone_does_without_color_in_some_frames():
+    """Where only depth is measured, frames with color and without it give the same tracks, in any order."""
+    with_color, without = Frame(LEFT, depth=DEPTH), Frame(depth=DEPTH)
+    orders = [(without, without, without), (with_color, without, with_color), (without, with_color, without)]
+    tracks = []
+    for first, *others in orders:
+        tracker = FlowDepthTracker(cues=("disparity",), intrinsics=cases.CAMERA)
+        tracks.append([tracker.init(first, BOX), *map(tracker.update, others)])
+    assert tracks[1] == tracks[2] == tracks[0]
+
+
 def test_a_calibration_of_another_size_is_named():
     """A first frame of another size than the rig's or the camera's is an error that says both."""
     small = Frame(LEFT[::2, ::2], right=RIGHT[::2, ::2])

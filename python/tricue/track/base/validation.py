@@ -125,7 +125,8 @@ def require_cue_channels(
     """The frame, checked for the cues flow, disparity or both.
 
     ValueError for a missing channel, for depth whose shape isn't the color image's (it has to be registered
-    to color), and for a shape other than the first frame's.
+    to color), and for a shape other than the first frame's; for disparity alone its height and width count,
+    as color may be missing in some frames that have depth.
     """
     channels = as_frame(frame)
     if "flow" in cues or channels.depth is None:
@@ -135,7 +136,8 @@ def require_cue_channels(
         raise MissingChannelError(f"frame: expected the channel right or depth, got color; {hint}", "right")
     image: Any = channels.depth if channels.color is None else channels.color
     name = "depth" if channels.color is None else "color"
-    if shape is not None and image.shape != shape:
+    axes = 3 if "flow" in cues else 2
+    if shape is not None and image.shape[:axes] != shape[:axes]:
         hint = "init starts again on another size"
         raise ValueError(f"frame.{name}: expected the first frame's shape {shape}, got {image.shape}; {hint}")
     if "disparity" in cues and channels.depth is not None:
