@@ -124,7 +124,7 @@ class ColorParticleParams(Params):
         source=OURS,
         low=0,
         high=1e6,
-        doc="standard deviation of both semi-axes per frame",
+        doc="standard deviation per frame of both semi-axes together",
     )
     aspect_noise: float = parameter(
         0.004,
@@ -132,7 +132,7 @@ class ColorParticleParams(Params):
         source=OURS,
         low=0,
         high=1e6,
-        doc="standard deviation of their ratio per frame",
+        doc="standard deviation per frame that each semi-axis has by itself; their ratio's is 1.4 times that",
     )
     size_pull: float = parameter(
         0.06,

@@ -159,7 +159,7 @@ class FlowDepthParams(Params):
         source="section 4.1; " + OURS,
         low=0,
         high=2,
-        doc="of the candidate region around the window",
+        doc="of the candidate region beside the window; above and below it is half as much of the height",
     )
     prior_center: float = parameter(
         1.0,
