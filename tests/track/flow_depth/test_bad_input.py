@@ -266,6 +266,11 @@ def test_a_calibration_of_another_size_is_named():
     small = Frame(LEFT[::2, ::2], depth=DEPTH[::2, ::2])
     with pytest.raises(ValueError, match=r"^frame.depth: expected the camera's size, 128x96, got 64x48"):
         FlowDepthTracker(intrinsics=RIG.intrinsics).init(small, (24, 15, 16, 19))
+    with pytest.raises(ValueError, match=r"^frame.color: expected the camera's size, .*of the color image"):
+        FlowDepthTracker(**FLOW, intrinsics=RIG.intrinsics).init(small, (24, 15, 16, 19))
+    small = Frame(depth=DEPTH[::2, ::2])
+    with pytest.raises(ValueError, match=r"^frame.depth: expected the rig's size, 128x96, got 64x48"):
+        FlowDepthTracker(cues=("disparity",), rig=RIG).init(small, (24, 15, 16, 19))
 
 
 @pytest.mark.parametrize("rig", cases.NO_RIGS, ids=lambda each: type(each).__name__)

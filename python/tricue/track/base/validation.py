@@ -176,15 +176,15 @@ def rig(value: StereoRig | None) -> StereoRig | None:
     return value
 
 
-def rig_or_default(value: StereoRig | None, shape: tuple[int, ...]) -> StereoRig:
-    """The rig, or a default one if None. ValueError if its size isn't the image's."""
+def rig_or_default(value: StereoRig | None, shape: tuple[int, ...], channel: str = "color") -> StereoRig:
+    """The rig, or a default one if None. ValueError if its size isn't that of the channel, which it names."""
     height, width = shape[:2]
     if value is None:
         return StereoRig(Intrinsics.from_fov(width, height, DEFAULT_FIELD_OF_VIEW), DEFAULT_BASELINE)
     camera = value.intrinsics
     if (camera.width, camera.height) != (width, height):
         expected = f"the rig's size, {camera.width}x{camera.height}"
-        raise ValueError(f"frame.color: expected {expected}, got {width}x{height}")
+        raise ValueError(f"frame.{channel}: expected {expected}, got {width}x{height}")
     return value
 
 
@@ -195,15 +195,17 @@ def intrinsics(value: Intrinsics | None) -> Intrinsics | None:
     return value
 
 
-def camera_or_default(camera: Intrinsics | None, shape: tuple[int, ...]) -> Intrinsics:
-    """The camera, or a default one if None. ValueError if its size isn't the image's."""
+def camera_or_default(
+    camera: Intrinsics | None, shape: tuple[int, ...], channel: str = "depth"
+) -> Intrinsics:
+    """The camera, or a default one if None. ValueError as :func:`rig_or_default`."""
     height, width = shape[:2]
     if camera is None:
         return Intrinsics.from_fov(width, height, DEFAULT_FIELD_OF_VIEW)
     if (camera.width, camera.height) != (width, height):
         expected = f"the camera's size, {camera.width}x{camera.height}"
-        hint = "the intrinsics are those of the depth image"
-        raise ValueError(f"frame.depth: expected {expected}, got {width}x{height}; {hint}")
+        hint = f"the intrinsics are those of the {channel} image"
+        raise ValueError(f"frame.{channel}: expected {expected}, got {width}x{height}; {hint}")
     return camera
 
 

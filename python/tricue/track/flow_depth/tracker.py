@@ -199,8 +199,10 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         """The geometry of the rig; without one that of the camera, beside which another is assumed."""
         by_pair, vergence = _has_pair_alone(frame), self.params.vergence
         if self.rig is not None:
-            return DisparityGeometry.of(validation.rig_or_default(self.rig, shape), vergence)
-        camera = validation.camera_or_default(self.intrinsics, shape)
+            channel = "depth" if frame.color is None else "color"
+            return DisparityGeometry.of(validation.rig_or_default(self.rig, shape, channel), vergence)
+        by_depth = frame.depth is not None and "disparity" in self.params.cues
+        camera = validation.camera_or_default(self.intrinsics, shape, "depth" if by_depth else "color")
         assumed = StereoRig(camera, validation.DEFAULT_BASELINE)
         return DisparityGeometry.of(assumed, vergence if by_pair else 0.0, is_metric=not by_pair)
 
