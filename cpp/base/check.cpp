@@ -37,7 +37,8 @@ void refuse(const char* name, const std::string& expected, const std::string& go
 void refuse(const char* name, const std::string& expected, double got) {
     char text[32];
     std::snprintf(text, sizeof text, "%g", got);
-    refuse(name, expected, std::string(text));
+    refuse(name, expected,
+           std::isnan(got) ? std::string("nan") : std::string(text));  // whatever its sign bit
 }
 
 void require_positive(double value, const char* name) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <type_traits>
 
 #include "base/arrays.hpp"
 #include "base/region.hpp"
@@ -38,6 +39,12 @@ double require_weights(VectorRef weights);
 
 [[noreturn]] void refuse(const char* name, const std::string& expected, const std::string& got);
 [[noreturn]] void refuse(const char* name, const std::string& expected, double got);
+
+/// A whole number with all its digits.
+template <typename Integer, std::enable_if_t<std::is_integral_v<Integer>, int> = 0>
+[[noreturn]] void refuse(const char* name, const std::string& expected, Integer got) {
+    refuse(name, expected, std::to_string(got));
+}
 
 /// "(rows, cols)", for messages.
 std::string shape_text(Eigen::Index rows, Eigen::Index cols);

@@ -100,6 +100,7 @@ BAD_VALUES: list[tuple[Floats, int, int, str]] = [
     (np.array([[0, -np.inf, 1, 1]]), 0, 0, "blocks: expected finite corners, got -inf"),
     (ONE, -1, 5, "height: expected 0 to 16384, got -1"),
     (ONE, 4, -2, "width: expected 0 to 16384, got -2"),
+    (ONE, 4, 1234567, "width: expected 0 to 16384, got 1234567"),
 ]
 
 

@@ -120,6 +120,7 @@ SKEW = np.eye(4) + np.eye(4, k=1) * 0.5
 BAD: list[tuple[dict[str, Any], str]] = [
     ({"mean": np.zeros(0)}, "mean: expected at least one number, got none"),
     ({"mean": np.full(4, np.nan)}, "mean: expected finite numbers, got nan"),
+    ({"mean": -np.full(4, np.nan)}, "mean: expected finite numbers, got nan"),
     ({"covariance": np.eye(3)}, r"covariance: expected shape \(4, 4\), got \(3, 3\)"),
     ({"covariance": np.full((4, 4), np.inf)}, "covariance: expected finite numbers, got inf"),
     ({"covariance": -np.eye(4)}, "covariance: expected no negative variance, got -1"),

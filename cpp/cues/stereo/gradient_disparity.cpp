@@ -32,8 +32,8 @@ void require_arguments(const ImageView& left, const ImageView& right, double pre
     const auto size = [](const ImageView& image) { return shape_text(image.rows, image.cols); };
     if (left.rows < 1 || left.cols < 1) refuse("left", "at least one pixel", "none");
     if (size(left) != size(right)) refuse("right", "the left image's shape " + size(left), size(right));
-    require_between(matching.levels, 1, 6, "levels", "1 to 6");
-    require_between(matching.radius, 0, 7, "radius", "0 to 7");
+    require_count(matching.levels, 1, 6, "levels");
+    require_count(matching.radius, 0, 7, "radius");
     const auto in_range = [](int begin, int end) {
         return begin < end && std::int64_t{end} - begin <= kMaxSide;
     };

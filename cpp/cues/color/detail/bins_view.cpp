@@ -22,7 +22,7 @@ std::uint16_t end_of_bins(const std::uint16_t* bins, std::ptrdiff_t n) {
 }  // namespace
 
 void require_bins(const BinsView& bins, std::ptrdiff_t size) {
-    if (size < 1 || size > kNoBin) refuse("size", "1 to 65535 bins", static_cast<double>(size));
+    if (size < 1 || size > kNoBin) refuse("size", "1 to 65535 bins", size);
     const int end = end_of_bins(bins.data, std::ptrdiff_t{bins.rows} * bins.cols);
     if (end > size)
         refuse("bins", "bins below " + std::to_string(size) + ", or 65535 for none", std::to_string(end - 1));
