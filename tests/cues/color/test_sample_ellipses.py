@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
+from tests.fuzz.guarded import guarded
+
 Image = NDArray[np.uint8]
 ONE = np.array([[4.0, 3.0, 2.0, 2.0]])
 CENTER = np.zeros((1, 2))
@@ -59,6 +61,12 @@ def test_example_by_hand(kernels: Kernels) -> None:
     assert samples.shape == (1, 3, 2)
     assert samples.dtype == np.uint8
     assert_array_equal(samples[0].T, [image[3, 4], image[1, 5]])
+
+
+def test_a_repeated_pixel_is_read_to_its_end(kernels: Kernels) -> None:
+    """Nothing is read beyond the three bytes of a single pixel, of which all rows are views."""
+    image = np.broadcast_to(guarded(np.array([[[1, 2, 3]]], np.uint8)), (5, 1, 3))
+    assert_array_equal(kernels.sample_ellipses(image, ONE, CENTER), [[[1], [2], [3]]])
 
 
 def test_moves_with_the_image(kernels: Kernels) -> None:

@@ -12,6 +12,8 @@
 namespace tricue {
 namespace {
 
+constexpr std::ptrdiff_t kWordBytes = sizeof(std::uint32_t);
+
 /// The places of one ellipse as byte offsets into the image. Clamping comes first, so truncation is the floor. An ellipse
 /// that float32 can't hold has infinite places, or NaN, which max() turns to 0 only as its second argument.
 TRICUE_MULTIVERSION
@@ -62,6 +64,11 @@ void split_channels(const std::uint32_t* __restrict words, std::ptrdiff_t n, std
     });
 }
 
+/// From the first byte of an image to its last. The rows of a broadcast one are a single row.
+std::ptrdiff_t count_bytes(const ImageView& image) {
+    return (image.rows - 1) * image.stride + 3 * std::ptrdiff_t{image.cols};
+}
+
 }  // namespace
 
 EllipseSampler::EllipseSampler(const ImageView& image, StatesRef pattern, const char* name) : image_(image) {
@@ -73,11 +80,11 @@ EllipseSampler::EllipseSampler(const ImageView& image, StatesRef pattern, const 
     v_ = pattern.col(1).cast<float>();
     offsets_.resize(kBatch * pattern.rows());
     words_.resize(kBatch * pattern.rows());
-    const std::ptrdiff_t bytes = (image.rows - 1) * image.stride + 3 * std::ptrdiff_t{image.cols};
+    const std::ptrdiff_t bytes = count_bytes(image);
     if (bytes > std::numeric_limits<std::int32_t>::max())
-        refuse("image", "at most 2 GB from its first to its last pixel", static_cast<double>(bytes));
-    last_word_ = static_cast<std::int32_t>(std::max<std::ptrdiff_t>(bytes - 4, 0));
-    if (bytes < 4) std::memcpy(single_pixel_, image.data, 3);
+        refuse("image", "at most 2 GB from its first to its last pixel", bytes);
+    last_word_ = static_cast<std::int32_t>(std::max<std::ptrdiff_t>(bytes - kWordBytes, 0));
+    if (bytes < kWordBytes) std::memcpy(single_pixel_, image.data, 3);
 }
 
 void EllipseSampler::read(const double* ellipses, std::ptrdiff_t count, std::uint8_t* planes) {
@@ -90,7 +97,7 @@ void EllipseSampler::read(const double* ellipses, std::ptrdiff_t count, std::uin
 /// Each step is done for the whole batch before the next: wide loads have to wait for the narrow stores before them.
 const std::uint32_t* EllipseSampler::read_words(const double* ellipses, std::ptrdiff_t count) {
     const std::ptrdiff_t n = size();
-    const bool single = image_.rows == 1 && image_.cols == 1;
+    const bool single = count_bytes(image_) < kWordBytes;
     for (std::ptrdiff_t i = 0; i < count; ++i)
         find_offsets(u_.data(), v_.data(), n, ellipses + 4 * i, image_.cols, image_.rows,
                      static_cast<std::int32_t>(image_.stride), offsets_.data() + n * i);
