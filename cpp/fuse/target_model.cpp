@@ -170,6 +170,7 @@ void place_weights(const HistogramRow& row, int n, const CountedColumns& counted
     const HistogramRow from = row;
     const WeightRow out = to;
     const CountedColumns columns = counted;
+    if (n < 1) return;  // then the results have no room for any
     if (n < kFour) return place_few(from, n, columns, size, out);
     for (int x = 0; x < n; x += kFour) place_four(from, std::min(x, n - kFour), columns, size, out);
 }

@@ -66,9 +66,9 @@ def test_twin_gives_the_same(seed: int, cues: int, blocks: bool, depth: bool, be
         assert_allclose(one, other, rtol=1e-9, atol=1e-10)
 
 
-@pytest.mark.parametrize("width", [1, 2, 3, 4, 5, 7, 23])
+@pytest.mark.parametrize("width", [0, 1, 2, 3, 4, 5, 7, 23])
 def test_twin_gives_the_same_in_rows_of_any_length(width: int) -> None:
-    """They agree as above on rows shorter than four pixels, as long, and longer, cut from wider planes."""
+    """They agree as above on rows of no pixels, fewer than four, as many and more, cut from wider planes."""
     arguments = case(width, before=former(width, 3))
     arguments["maps"] = [tuple(plane[:, 18 : 18 + width] for plane in each) for each in arguments["maps"]]
     arguments["blocks"] = (BLOCKS, (1.0, 120.0, 60.0, 118.0, 50.0), *arguments["blocks"][2:])
