@@ -20,14 +20,14 @@ using Index = Eigen::Index;
 constexpr Index kNumbers = 5;  // of a state
 constexpr double kMinLikelihood = 1e-12;
 
-/// Centers and sizes in pixels, all at one depth.
-States project(VectorRef camera, StatesRef states, double z) {
+/// Centers and sizes in pixels, and the depth to which a model's levels are relative: their own, unless there is one for all.
+States project(VectorRef camera, StatesRef states, double middle) {
     States rectangles(states.rows(), kNumbers);
     for (Index i = 0; i < states.rows(); ++i) {
         const auto each = states.row(i);
         const double per_x = camera[0] / each[2], per_y = camera[1] / each[2];
         rectangles.row(i) << each[0] * per_x + (camera[2] + 0.5), each[1] * per_y + (camera[3] + 0.5),
-            each[3] * per_x, each[4] * per_y, z;
+            each[3] * per_x, each[4] * per_y, middle > 0.0 ? middle : each[2];
     }
     return rectangles;
 }
@@ -54,10 +54,10 @@ public:
           by_(by),
           contrast_(depth, camera, contrast_model(), by.places, by.nearer) {}
 
-    /// (N, 4) as by depth_contrast, the distance that of absolute depths where the model is of these.
+    /// (N, 4) as by depth_contrast; the distance is that from the model, whatever its levels are.
     States measure(StatesRef states, bool with_nearer) {
         States measured = contrast_.measure(states, with_nearer);
-        if (!is_relative())
+        if (!is_one_range())
             measured.col(0) = depth_distance(depth_, project(camera_, states, by_.middle), by_.model,
                                              grid_pattern(by_.places), by_.nearer)
                                   .col(0);
@@ -66,10 +66,10 @@ public:
 
     /// Of a state that was just measured.
     Vector histogram(const double* state) const {
-        if (is_relative()) return contrast_.shares();
+        if (is_one_range()) return contrast_.shares();
         const DepthModel& model = by_.model;
-        return depth_shares(depth_, camera_, state, by_.places, by_.middle, model.reach,
-                            model.histogram.size());
+        const double z = by_.middle > 0.0 ? by_.middle : state[2];
+        return depth_shares(depth_, camera_, state, by_.places, z, model.reach, model.histogram.size());
     }
 
     Vector log_likelihood(StatesRef states, const MeanSize& mean_size, const MeasuredState& object) {
@@ -86,10 +86,11 @@ public:
     }
 
 private:
-    bool is_relative() const { return by_.middle == 0.0; }
+    /// Whether the model's levels cover just the depths whose share is measured.
+    bool is_one_range() const { return by_.middle == 0.0 && by_.model.reach == by_.reach; }
 
     DepthModel contrast_model() const {
-        if (is_relative()) return by_.model;
+        if (is_one_range()) return by_.model;
         return {Eigen::Map<const Vector>(&kNoModel, 1), by_.reach};
     }
 
@@ -125,6 +126,7 @@ void require_arguments(const WeightedRectangles& before, const StackView<double>
     }
     require_size(refinement.scale, kNumbers, "scale");
     require_finite(refinement.scale, "scale");
+    if (!(refinement.scale >= 0.0).all()) refuse("scale", "no negative number", refinement.scale.minCoeff());
     require_positive(refinement.least, "least");
     require_not_negative(likelihood.middle, "middle");
     if (!std::isfinite(likelihood.sharpness)) refuse("sharpness", "a finite number", likelihood.sharpness);

@@ -60,7 +60,7 @@ struct FilteredRectangles {
 /// @param dynamics (drift, scale), as in propose and reweight
 /// @param bounds (lower, upper), as in propose
 /// @param detection (mean, root, share), as in propose and reweight
-/// @param refinement (scale, least): float64 (5,), and meters, above 0
+/// @param refinement (scale, least): float64 (5,), none negative, and meters, above 0
 /// @param model float64 (L,): histogram of depth, of sum 1, or all 0, none negative
 /// @param levels (middle, span): the model's levels cover [middle - span, middle + span), meters; where the middle is 0, they are
 ///     relative to Z

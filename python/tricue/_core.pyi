@@ -1119,7 +1119,7 @@ def filter_rectangles(
         dynamics: (drift, scale), as in propose and reweight
         bounds: (lower, upper), as in propose
         detection: (mean, root, share), as in propose and reweight
-        refinement: (scale, least): float64 (5,), and meters, above 0
+        refinement: (scale, least): float64 (5,), none negative, and meters, above 0
         model: float64 (L,): histogram of depth, of sum 1, or all 0, none negative
         levels: (middle, span): the model's levels cover [middle - span, middle + span), meters; where
             the middle is 0, they are relative to Z

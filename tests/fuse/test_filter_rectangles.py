@@ -120,6 +120,25 @@ def test_is_what_its_stages_are() -> None:
     assert_array_equal(found[4], observed[0])
 
 
+@pytest.mark.parametrize(("levels", "reach"), [((0.0, 0.5), 0.03), ((0.0, 0.03), 0.5), ((2.0, 0.5), 0.03)])
+def test_levels_and_reach_differ(kernels: Kernels, levels: tuple[float, float], reach: float) -> None:
+    """The distance and the histogram are those over the model's levels, the shares those within the reach."""
+    arguments, (middle, span) = case(levels=levels, reach=reach), levels
+    _, _, state, _, observed, histogram = kernels.filter_rectangles(**arguments)
+    depth, model, per_meter = arguments["depth"], arguments["model"], CAMERA[:2] / state[2]
+    shares = kernels.depth_contrast(depth, CAMERA, state[None], model, (14, 10), (1.25, 12), reach, 0.3)[
+        0, 1:
+    ]
+    assert_allclose(observed[1:], shares, rtol=1e-12)
+    place = state[:2] * per_meter + (CAMERA[2:] + 0.5)
+    rectangle = np.array([*place, *(state[3:] * per_meter), middle or state[2]])
+    v, u = np.meshgrid(*((2 * np.arange(n) + 1) / n - 1 for n in (14, 10)), indexing="ij")
+    places = np.column_stack([u.ravel(), v.ravel()])
+    distance = kernels.depth_distance(depth, rectangle[None], model, places, span, 0.3)[0, 0]
+    assert_allclose(observed[0], distance, rtol=1e-12)
+    assert_allclose(histogram, kernels.rectangle_histogram(depth, rectangle, LEVELS, places, span))
+
+
 def test_finds_the_box(kernels: Kernels) -> None:
     """Particles up to 0.2 m away come to the box within 4 cm, as the contrast alone says where it ends; the
     histogram there is that of the box's noise.
@@ -162,9 +181,11 @@ def test_nothing_in_sight(kernels: Kernels) -> None:
         ({"noise": np.zeros((2, 9, 5))}, r"noise: expected shape \(40, 5\), got \(9, 5\)"),
         ({"noise": np.full((1, 40, 5), np.inf)}, "noise: expected finite numbers, got inf"),
         ({"refinement": (np.ones(4), 0.1)}, r"scale: expected shape \(5,\), got \(4,\)"),
+        ({"refinement": (-np.ones(5), 0.1)}, "scale: expected no negative number, got -1"),
         ({"refinement": (np.ones(5), 0.0)}, "least: expected a finite number above 0, got 0"),
         ({"levels": (-1.0, 0.5)}, "middle: expected a finite number, not negative, got -1"),
         ({"levels": (0.0, 0.0)}, "reach: expected a finite number above 0, got 0"),
+        ({"reach": -1.0}, "reach: expected a finite number above 0, got -1"),
         ({"likelihood": (False, np.nan, 8.0)}, "sharpness: expected a finite number, got nan"),
         ({"likelihood": (True, 1.0, np.inf)}, "contrast: expected a finite number, got inf"),
         ({"grid": (0, 10)}, "rows: expected 1 to 64, got 0"),

@@ -78,10 +78,11 @@ class _View(NamedTuple):
 
     def measure(self, states: Floats) -> Floats:
         """(N, 4) as by depth_contrast; the distance is that to the model, whatever its levels are."""
-        (middle, span), nearer = self.levels, self.nearer
-        model = self.model if middle == 0 else np.zeros(1)
+        span, nearer = self.levels[1], self.nearer
+        is_one_range = self.levels == (0, self.reach)
+        model = self.model if is_one_range else np.zeros(1)
         seen = depth_contrast(self.depth, self.camera, states, model, *self[4:])
-        if middle != 0:
+        if not is_one_range:
             places = _grid(*self.grid)
             each = depth_distance(self.depth, self._in_pixels(states), self.model, places, span, nearer)
             seen[:, 0] = each[:, 0]
@@ -149,6 +150,8 @@ def _require(
     scale, least = refinement
     require_shape("scale", scale, (NUMBERS,))
     require_finite("scale", scale)
+    if np.any(scale < 0):
+        refuse("scale", "no negative number", float(scale.min()))
     if not 0 < least < np.inf:
         refuse("least", "a finite number above 0", float(least))
     if not 0 <= levels[0] < np.inf:
