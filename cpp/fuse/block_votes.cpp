@@ -3,15 +3,49 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <utility>
 
 #include "base/check.hpp"
+#include "base/simd.hpp"
 #include "fuse/block_counts.hpp"
 
 namespace tricue {
 namespace {
 
+constexpr std::int64_t kMaxFrames = std::numeric_limits<std::int32_t>::max();
 constexpr std::int64_t kOther = 0, kTarget = 1, kOccluded = 2, kTrustedFrames = 3;
+
+/// Not 0 if a state isn't 0, 1 or 2, or a number of frames is negative or above kMaxFrames.
+TRICUE_MULTIVERSION
+std::uint64_t find_strange(const std::int64_t* states, const std::int64_t* votes, const std::int64_t* against,
+                           const std::int64_t* trusted, const std::int64_t* unproven, std::ptrdiff_t n) {
+    constexpr std::uint64_t kValid = kMaxFrames;
+    std::uint64_t strange = 0;
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+        const auto state = static_cast<std::uint64_t>(states[i]);
+        const auto frames = static_cast<std::uint64_t>(votes[i] | against[i] | trusted[i] | unproven[i]);
+        strange |= (frames & ~kValid) | (state & ~std::uint64_t{3}) | (state & state >> 1);
+    }
+    return strange;
+}
+
+/// Frames are counted on: the greatest integer has no next.
+void require_counts(const BlockVotes& blocks) {
+    if (find_strange(blocks.states.data(), blocks.votes.data(), blocks.against.data(), blocks.trusted.data(),
+                     blocks.unproven.data(), blocks.states.size()) == 0)
+        return;
+    for (const auto& [frames, name] : {std::pair{&blocks.votes, "votes"},
+                                       {&blocks.against, "against"},
+                                       {&blocks.trusted, "trusted"},
+                                       {&blocks.unproven, "unproven"}})
+        for (const std::int64_t count : *frames)
+            if (count < 0 || count > kMaxFrames)
+                refuse(name, "0 to 2147483647 frames", std::to_string(count));
+    for (const std::int64_t state : blocks.states)
+        if (state < kOther || state > kOccluded) refuse("states", "0, 1 or 2", std::to_string(state));
+}
 
 void require_arguments(const BlockVotes& blocks, const BlockObservations& seen) {
     const Eigen::Index count = blocks.states.size();
@@ -28,8 +62,7 @@ void require_arguments(const BlockVotes& blocks, const BlockObservations& seen) 
     require(seen.measured.size(), "measured");
     require(seen.mean.size(), "mean");
     require(seen.similar.size(), "similar");
-    for (const std::int64_t state : blocks.states)
-        if (state < kOther || state > kOccluded) refuse("states", "0, 1 or 2", std::to_string(state));
+    require_counts(blocks);
 }
 
 /// What the block has now.

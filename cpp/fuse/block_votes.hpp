@@ -41,11 +41,11 @@ struct VoteRules {
 /// disparity, and released where it shows what is behind the target for long.
 ///
 /// @param states int64 (N,): 0, 1 or 2
-/// @param votes int64 (N,)
-/// @param against int64 (N,)
+/// @param votes int64 (N,), 0 to 2^31 - 1 frames
+/// @param against as votes
 /// @param core bool (N,)
-/// @param trusted int64 (N,)
-/// @param unproven int64 (N,)
+/// @param trusted as votes
+/// @param unproven as votes
 /// @param cells int64 (N,): pixels of each block inside the image
 /// @param targets int64 (N,): those of the target
 /// @param measured int64 (N,): those with a disparity; the mean counts from a fifth of the pixels on
@@ -56,7 +56,7 @@ struct VoteRules {
 /// @param min_share of a block's pixels, for a vote
 /// @param frames (to add, to remove, to release, unproven): votes that make a block the target's, that end this, and that release an
 ///     occluded block; frames for which disparity alone keeps a block
-/// @throws std::invalid_argument on sizes that differ, and states other than 0 to 2
+/// @throws std::invalid_argument on sizes that differ, states other than 0 to 2, and numbers of frames out of range
 /// Source: Okada, Shirai, Miura 1996, section 4.4 and figure 7; core blocks, trust and release are ours.
 BlockVotes block_votes(BlockVotes blocks, const BlockObservations& seen, const VoteRules& rules);
 

@@ -234,11 +234,11 @@ def block_votes(
 
     Args:
         states: int64 (N,): 0, 1 or 2
-        votes: int64 (N,)
-        against: int64 (N,)
+        votes: int64 (N,), 0 to 2^31 - 1 frames
+        against: as votes
         core: bool (N,)
-        trusted: int64 (N,)
-        unproven: int64 (N,)
+        trusted: as votes
+        unproven: as votes
         cells: int64 (N,): pixels of each block inside the image
         targets: int64 (N,): those of the target
         measured: int64 (N,): those with a disparity; the mean counts from a fifth of the pixels on
@@ -259,7 +259,7 @@ def block_votes(
         unproven: int64 (N,): frames with the target's disparity since it had target pixels
 
     Raises:
-        ValueError: on sizes that differ, and states other than 0 to 2
+        ValueError: on sizes that differ, states other than 0 to 2, and numbers of frames out of range
 
     Source: Okada, Shirai, Miura 1996, section 4.4 and figure 7; core blocks, trust and release are
     ours.

@@ -129,6 +129,15 @@ BAD: list[tuple[str, Any, str]] = [
     *((name, np.zeros(3, np.int64), f"{name}: expected 2 numbers, got 3") for name in ("votes", "similar")),
     ("core", np.zeros(1, np.bool_), "core: expected 2 numbers, got 1"),
     ("mean", np.zeros(0), "mean: expected 2 numbers, got 0"),
+    *(
+        (name, np.array([0, number]), f"{name}: expected 0 to 2147483647 frames, got {number}")
+        for name, number in (
+            ("votes", 2**31),
+            ("against", 2**63 - 1),
+            ("trusted", -(2**63)),
+            ("unproven", -1),
+        )
+    ),
     ("states", np.array([0, 3]), "states: expected 0, 1 or 2, got 3"),
     ("states", np.array([-1, 0]), "states: expected 0, 1 or 2, got -1"),
 ]

@@ -11,6 +11,7 @@ Counts = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 Floats = NDArray[np.float64]
 
+MAX_FRAMES = 2**31 - 1
 OTHER, TARGET, OCCLUDED = 0, 1, 2
 TRUSTED_FRAMES = 3
 
@@ -36,6 +37,10 @@ def block_votes(
     for name in tuple(arguments)[1:11]:
         if len(arguments[name]) != len(states):
             refuse(name, f"{len(states)} numbers", len(arguments[name]))
+    for name in ("votes", "against", "trusted", "unproven"):
+        for count in arguments[name]:
+            if not 0 <= count <= MAX_FRAMES:
+                refuse(name, f"0 to {MAX_FRAMES} frames", count)
     for state in states:
         if state not in (OTHER, TARGET, OCCLUDED):
             refuse("states", "0, 1 or 2", state)
