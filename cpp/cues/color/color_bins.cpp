@@ -14,6 +14,8 @@ namespace tricue {
 namespace {
 
 constexpr std::int64_t kMaxSide = 32768;
+constexpr double kMaxGain =
+    255.0;  // more makes no difference, but may be infinite in float32: 0 times that is no number
 
 /// An axis as factors: floor(v bins / levels) is the integer part of (v bins + 1/2) (1 / levels). That is at least 1 / (2 levels) away
 /// from an integer, a hundred times the rounding error of float32.
@@ -72,7 +74,7 @@ Light light_of(const std::array<double, 3>& gains) {
     for (std::size_t c = 0; c < 3; ++c) {
         if (!(gains[c] >= 0.0 && std::isfinite(gains[c])))
             refuse("gains", "finite numbers, none negative", gains[c]);
-        light[c] = static_cast<float>(gains[c]);
+        light[c] = static_cast<float>(std::min(gains[c], kMaxGain));
     }
     return light;
 }

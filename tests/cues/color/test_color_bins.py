@@ -78,6 +78,13 @@ def test_light_agrees_with_opencv(kernels: Kernels, step: int) -> None:
     assert_array_equal(found, kernels.color_bins(lit, region, (32, 16, 4), 64, step))
 
 
+def test_in_any_brighter_light_black_stays_black(kernels: Kernels) -> None:
+    """A gain that float32 doesn't hold makes what isn't black white, and leaves what is."""
+    image = np.array([[[0, 0, 0], [0, 1, 0], [1, 1, 1]]], np.uint8)
+    found = kernels.color_bins(image, (0, 0, 3, 1), (32, 16, 4), 255, 1, np.full(3, 1e300))
+    assert_array_equal(found, kernels.color_bins(255 * image, (0, 0, 3, 1), (32, 16, 4), 255, 1))
+
+
 @pytest.mark.parametrize("gain", [-0.1, np.nan, np.inf])
 def test_light_that_is_none_is_refused(kernels: Kernels, gain: float) -> None:
     """Gains are finite and not negative."""

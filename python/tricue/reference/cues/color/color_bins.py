@@ -36,6 +36,6 @@ def color_bins(
         strange = gains[~(np.isfinite(gains) & (gains >= 0))]
         if strange.size:
             refuse("gains", "finite numbers, none negative", float(strange[0]))
-        colors = np.rint(np.minimum(colors * gains.astype(np.float32), 255)).astype(np.uint8)
+        colors = np.rint(np.minimum(colors * np.minimum(gains, 255).astype(np.float32), 255)).astype(np.uint8)
     found[inside] = indices(colors, bins, chroma)
     return found
