@@ -25,9 +25,10 @@ void require_arguments(VectorRef mean, StatesRef p) {
 }
 
 /// exp(x) for x <= 0, vectorizable with every instruction set: 2^k times a polynomial of the remainder, at most
-/// ln(2)/2. Relative error below 1e-6; 0 where exp(x) is below the normal floats.
+/// ln(2)/2. Relative error below 1e-6; 0 where exp(x) is below the normal floats, and for NaN: where a square and a product of finite
+/// numbers overflow.
 inline float exp_negative(float x) {
-    const float clamped = std::max(x, -87.0F);
+    const float clamped = x >= -87.0F ? x : -87.0F;
     // 1.5 * 2^23: after adding it only the nearest integer is left.
     constexpr float kRounder = 12582912.0F;
     const float shifted = clamped * 1.44269504F + kRounder;
@@ -39,7 +40,7 @@ inline float exp_negative(float x) {
     const std::int32_t bits = (static_cast<std::int32_t>(k) + 127) << 23;
     float power;
     std::memcpy(&power, &bits, sizeof power);
-    return x < -87.0F ? 0.0F : series * power;
+    return x >= -87.0F ? series * power : 0.0F;
 }
 
 TRICUE_MULTIVERSION

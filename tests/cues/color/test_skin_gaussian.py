@@ -76,6 +76,7 @@ def test_far_away(kernels: Kernels) -> None:
     """Where floats end the value is 0, not noise, infinity or NaN."""
     samples = np.array([[[0, 255], [0, 0], [255, 0]]], np.uint8)
     assert_array_equal(kernels.skin_gaussian(samples, MEAN, 1e30 * np.eye(2)), [[0, 0]])
+    assert_array_equal(kernels.skin_gaussian(samples, np.full(2, 1e30), PRECISIONS["narrow"]), [[0, 0]])
 
 
 @pytest.mark.parametrize("gray", [0, 77, 255])
