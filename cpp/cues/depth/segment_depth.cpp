@@ -80,13 +80,11 @@ class DistanceRows {
 
 public:
     /// Those of the region's columns, from its first row on, and of their neighbors.
-    DistanceRows(const DepthView& depth, const Region& region, VectorRef camera, VectorRef plane,
-                 const DepthLevels& range)
+    DistanceRows(const DepthView& depth, const Region& region, std::optional<GroundView> ground)
         : depth_(depth),
           first_(std::max(region.x0 - 1, 0)),
-          count_(std::min(region.x1 + 1, depth.cols) - first_) {
-        if (plane.size() > 2 && (plane.head(3) != 0.0).any())
-            ground_.emplace(depth.rows, depth.cols, camera, plane.head(3), range.near, range.far);
+          count_(std::min(region.x1 + 1, depth.cols) - first_),
+          ground_(std::move(ground)) {
         const auto n = static_cast<std::size_t>(depth.cols);
         distance_.fill(std::vector<float>(n));
         padded_.fill(std::vector<float>(n + 2, kUnmeasured));
@@ -152,10 +150,14 @@ SearchedDistances find_distances(const DepthView& depth, const SearchedPixels& s
                                  VectorRef plane, const Divisions& divisions) {
     SearchedDistances found(depth.rows, depth.cols);
     const bool changing = searched.before.rows > 0;
+    std::optional<GroundView> ground;
+    if (plane.size() > 2 && (plane.head(3) != 0.0).any())
+        ground.emplace(depth.rows, depth.cols, camera, plane.head(3), divisions.levels.near,
+                       divisions.levels.far);
     const int x0 = std::max(searched.region.x0, 0), x1 = std::min(searched.region.x1, depth.cols),
               y0 = std::max(searched.region.y0, 0), y1 = std::min(searched.region.y1, depth.rows);
     if (x0 >= x1 || y0 >= y1) return found;
-    DistanceRows rows(depth, {x0, y0, x1, y1}, camera, plane, divisions.levels);
+    DistanceRows rows(depth, {x0, y0, x1, y1}, std::move(ground));
     std::vector<std::uint8_t> mask(static_cast<std::size_t>(depth.cols));
     for (int y = y0; y < y1; ++y) {
         rows.next(y);

@@ -195,6 +195,7 @@ def test_many_divisions(kernels: Kernels) -> None:
         ({"noise": (0.0, np.nan)}, "slope: expected a finite number, not negative, got nan"),
         ({"camera": np.ones(3)}, r"camera: expected shape \(4,\), got \(3,\)"),
         ({"plane": np.ones(3)}, "up: expected a vector of length 1"),
+        ({"plane": np.ones(4), "region": (9, 0, 9, 9)}, "up: expected a vector of length 1"),
         ({"plane": np.zeros(3)}, r"plane: expected shape \(4,\), got \(3,\)"),
         ({"levels": (2.0, 1.0, 9)}, "far: expected a finite number above near, got 1"),
         ({"edges": (-1.0, 0.0)}, "gap: expected a finite number, not negative, got -1"),
