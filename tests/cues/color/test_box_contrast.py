@@ -93,6 +93,7 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"plane": np.zeros((5, 4), np.float32)}, r"plane: expected even sides of at least 2, got \(5, 4\)"),
     ({"plane": np.zeros((0, 4), np.float32)}, r"plane: expected even sides of at least 2, got \(0, 4\)"),
     ({"plane": np.full((4, 4), np.nan, np.float32)}, "plane: expected finite numbers, got nan"),
+    ({"plane": np.array([[1, np.inf], [np.nan, 1]], np.float32)}, "plane: expected finite numbers, got inf"),
     ({"width": 0.0}, "width: expected a finite number above 0, got 0"),
     ({"height": float("inf")}, "height: expected a finite number above 0, got inf"),
     ({"outer": 1.0}, "outer: expected a finite number above 1, got 1"),

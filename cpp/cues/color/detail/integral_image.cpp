@@ -45,6 +45,14 @@ void interpolate_band(const double* low, const double* low_next, double low_frac
     }
 }
 
+/// Names the first number that isn't finite: there is one.
+[[noreturn]] void refuse_strange(const PlaneView& plane) {
+    int y = 0;
+    const auto is_finite = [](float number) { return std::isfinite(number); };
+    while (std::all_of(plane.row(y), plane.row(y) + plane.cols, is_finite)) ++y;
+    refuse("plane", "finite numbers", *std::find_if_not(plane.row(y), plane.row(y) + plane.cols, is_finite));
+}
+
 }  // namespace
 
 IntegralImage::IntegralImage(const PlaneView& plane)
@@ -58,7 +66,7 @@ IntegralImage::IntegralImage(const PlaneView& plane)
     for (; y < rows_; ++y) sum_along<1>(plane.row(y), plane.stride, cols_, row(y + 1));
     for (y = 0; y < rows_; ++y) add_row(row(y), cols_ + 1, row(y + 1));
     for (int x = 0; x <= cols_; ++x)
-        if (!std::isfinite(row(rows_)[x])) refuse("plane", "finite numbers", row(rows_)[x]);
+        if (!std::isfinite(row(rows_)[x])) refuse_strange(plane);
 }
 
 void IntegralImage::select_rows(double low, double high) {
