@@ -15,8 +15,8 @@
 namespace tricue {
 
 /// Sums down the columns of the windows around the pixels of a row, side by side, each `stride` numbers after the one before. With
-/// s = (f_x^R + f_x^L) / 2 and t = s offset + f^R - f^L, equation (7) says t = s times the wanted offset d - base; f is the brightness.
-/// They are s², s t, and of the finest level t², f_L² + f_R² and (9).
+/// s = (f_x^R + f_x^L) / 2 and t = s offset + f^R - f^L, equation (7) says t = s times the wanted offset d - base; f is the derivative
+/// along x of the smoothed brightness. They are s², s t, and of the finest level t², f_L² + f_R² and (9).
 struct WindowColumns {
     const float* ss;
     int stride;
