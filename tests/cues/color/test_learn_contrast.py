@@ -82,9 +82,9 @@ def test_arguments_stay_as_they_are(kernels: Kernels) -> None:
 BAD: list[tuple[int, Any, str]] = [
     (0, np.zeros((0, 4, 3), np.uint8), "image: expected at least one pixel, got none"),
     (1, np.zeros(5), "ellipse: expected shape"),
-    (1, np.full(4, np.nan), "finite numbers, got nan"),
-    (2, np.full((50, 2), np.inf), "finite numbers, got inf"),
-    (3, np.zeros((50, 3)), "expected shape"),
+    (1, np.full(4, np.nan), "ellipse: expected finite numbers, got nan"),
+    (2, np.full((50, 2), np.inf), "inside: expected finite numbers, got inf"),
+    (3, np.zeros((50, 3)), "around: expected shape"),
     (4, np.zeros((3, 3, 3), np.float32), r"target: expected shape \(B, B, B\)"),
     (5, np.zeros((4, 4, 4), np.float32), "surround: expected the target's shape"),
     (6, -0.1, r"rate: expected a number in \[0, 1\], got -0.1"),

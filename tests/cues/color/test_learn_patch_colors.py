@@ -96,6 +96,7 @@ def test_a_box_that_fills_the_patch(kernels: Kernels) -> None:
     ("index", "value", "message"),
     [
         (1, np.zeros((8, 7), np.float32), "other: expected the patch's rows and columns, got 8, 7"),
+        (1, np.zeros((8, 0), np.float32), "other: expected the patch's rows and columns, got 8, 0"),
         (2, -1.0, "width: expected a finite number, not negative, got -1"),
         (3, np.inf, "height: expected a finite number, not negative, got inf"),
         (4, 0.5, "outer: expected a finite number, at least 1, got 0.5"),

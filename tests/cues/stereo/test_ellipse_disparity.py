@@ -110,7 +110,7 @@ def test_the_median_leaves_out_what_is_behind(kernels: Kernels) -> None:
 BAD: list[tuple[dict[str, Any], str]] = [
     ({"tolerance": -1.0}, "tolerance: expected 0 or more"),
     ({"tolerance": np.nan}, "tolerance: expected 0 or more"),
-    ({"right": np.zeros((12, 15, 3), np.uint8)}, "right: expected the left image's"),
+    ({"right": np.zeros((12, 15, 3), np.uint8)}, "right: expected the left image's shape"),
     ({"region": (0, 0, 0, 4)}, "region: expected a width and height"),
     ({"last": -1}, "last: expected at least first"),
     ({"window": 4}, "window: expected an odd number"),

@@ -124,7 +124,7 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"fill": 129}, "fill: expected an odd number from 1 to 127"),
     ({"step": 0}, "step: expected 1 to the image's smaller side, got 0"),
     ({"step": 13}, "step: expected 1 to the image's smaller side, got 13"),
-    ({"right": np.zeros((12, 15, 3), np.uint8)}, r"right: expected the left image's"),
+    ({"right": np.zeros((12, 15, 3), np.uint8)}, r"right: expected the left image's shape"),
     ({"left": np.zeros((0, 16, 3), np.uint8)}, "left: expected at least one pixel"),
     ({"region": (0, 0, 0, 4)}, "region: expected a width and height"),
     ({"region": (2**30, 0, 2**30 + 4, 4)}, "region: expected corners within a billion pixels"),

@@ -37,7 +37,7 @@ def localize_target(
     inner: float,
 ) -> tuple[Floats, Plane]:
     """Calls the twins of its parts, and adds two features of the place."""
-    if other.size and other.shape != patch.shape[:2]:
+    if len(other) and other.shape != patch.shape[:2]:
         refuse("other", "the patch's rows and columns", f"{other.shape[0]}, {other.shape[1]}")
     for name, number in (("width", width), ("height", height), ("inner", inner)):
         if not 0 < number < math.inf:

@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.base.checks import require_shape
+from tricue.reference.base.checks import require_finite, require_shape
 from tricue.reference.cues.color.detail.learn_histograms import Cube, learn_histograms
 from tricue.reference.cues.color.sample_ellipses import sample_ellipses
 
@@ -25,5 +25,9 @@ def learn_contrast(
 ) -> tuple[Cube, Cube, Cube]:
     """Learns the samples of both patterns."""
     require_shape("ellipse", ellipse, (4,))
+    require_finite("ellipse", ellipse)
+    for name, pattern in (("inside", inside), ("around", around)):
+        require_shape(name, pattern, (len(pattern), 2))
+        require_finite(name, pattern)
     within, without = (sample_ellipses(image, ellipse[None], pattern) for pattern in (inside, around))
     return learn_histograms(within, without, target, surround, rate, rare, UNSEEN)

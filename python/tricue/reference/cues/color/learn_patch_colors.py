@@ -28,7 +28,7 @@ def learn_patch_colors(
     rare: float,
 ) -> tuple[Cube, Cube, Cube]:
     """Takes the pixels by masks."""
-    if other.size and other.shape != patch.shape[:2]:
+    if len(other) and other.shape != patch.shape[:2]:
         refuse("other", "the patch's rows and columns", f"{other.shape[0]}, {other.shape[1]}")
     for name, number in (("width", width), ("height", height)):
         if not 0 <= number < math.inf:

@@ -30,6 +30,8 @@ def rank_likelihood(
     for name, pattern in (("inside", inside), ("around", around)):
         if len(pattern) < 1:
             refuse(name, "at least one place", "none")
+        require_shape(name, pattern, (len(pattern), 2))
+        require_finite(name, pattern)
     if len(models) < 1:
         refuse("models", "at least one rank map", "none")
     require_shape("shares", shares, (len(models),))

@@ -27,6 +27,6 @@ def cell_disparities(
     if left.shape[0] < 1 or left.shape[1] < 1:
         refuse("left", "at least one pixel", "none")
     if left.shape[:2] != right.shape[:2]:
-        refuse("right", f"the left image's size {left.shape[:2]}", right.shape[:2])
+        refuse("right", f"the left image's shape {left.shape[:2]}", right.shape[:2])
     cells = reduce_gray(left, step), reduce_gray(right, step)
     return sad_disparity(*cells, region, ellipse, first, last, window, uniqueness, prefilter)
