@@ -86,14 +86,16 @@ int match_object(const ObjectFeatures& objects, VectorRef others, const Expected
     double least = costs.max_cost;
     for (Index i = 0; i < objects.measured.rows(); ++i) {
         const RectangleState state = rectangle_of(objects, i);
-        if (matcher.depth_cost(state) >= least || state[3] * state[4] < costs.min_area) continue;
+        const double on_top = others.size() > 0 ? others[i] : 0.0;
+        const bool adds = on_top >= 0.0 && costs.signature >= 0.0;  // else a part may cost more than all
+        if ((adds && matcher.depth_cost(state) >= least) || state[3] * state[4] < costs.min_area) continue;
         const bool* cut = objects.cut.row(i).data();
         double cost =
             matcher.cost(complete ? complete_rectangle(state, cut, expected.state, expected.size) : state);
-        if (cost >= least) continue;
+        if (adds && cost >= least) continue;
         if (std::none_of(cut, cut + 4, [](bool each) { return each; }))
             cost += costs.signature * signature_distance(objects, i, expected.signature);
-        if (others.size() > 0) cost += others[i];
+        cost += on_top;
         if (cost < least) {
             least = cost;
             best = i;

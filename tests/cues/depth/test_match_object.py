@@ -101,6 +101,14 @@ def test_another_distribution_costs_more(kernels: Kernels) -> None:
     assert kernels.match_object(**values | {"gate": (1e-9, 0.0), "cut": cut}) == 0
 
 
+@pytest.mark.parametrize("changes", [{"others": np.array([0.0, -99.0])}, {"signature_cost": -99.0}])
+def test_less_on_top_counts_too(kernels: Kernels, changes: Case) -> None:
+    """An object that is too far away is the target if what is added to its cost is negative enough."""
+    values = case(np.array([TARGET, TARGET + [0, 0, 1, 0, 0]]), **changes)
+    values["columns"][1] = [1, 0, 0, 0]
+    assert kernels.match_object(**values) == 1
+
+
 def test_the_first_of_equals_is_taken(kernels: Kernels) -> None:
     """Of equal objects the first, which is the largest, is the target; without objects none is."""
     assert kernels.match_object(**case(np.array([TARGET, TARGET]))) == 0
