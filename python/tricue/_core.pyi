@@ -495,7 +495,7 @@ def complete_body(
             bound
         pieces: (region, inside, joined, depth): times the expected rectangle, around it; share of a
             piece's area that is more than inside; times the mean size, of a body with its pieces;
-            meters, from the object's depth to that of a piece
+            meters, from the object's depth to that of a piece; none NaN
 
     Returns:
         state: float64 (5,): X, Y, Z, W, H, completed where it is cut

@@ -97,7 +97,8 @@ JoinedObjects join_pieces(const ObjectFeatures& objects, Index index, const Expe
     return body;
 }
 
-void require_arguments(const ObjectFeatures& objects, int index, const ExpectedBody& expected) {
+void require_arguments(const ObjectFeatures& objects, int index, const ExpectedBody& expected,
+                       const PieceLimits& limits) {
     require_objects(objects);
     const Index count = objects.measured.rows();
     if (index < 0 || index >= count)
@@ -109,13 +110,15 @@ void require_arguments(const ObjectFeatures& objects, int index, const ExpectedB
     require_size(expected.state, 5, "expected");
     require_finite(expected.state, "expected");
     require_size_above_0(expected.size);
+    for (const double limit : {limits.region, limits.inside, limits.joined, limits.depth})
+        if (std::isnan(limit)) refuse("pieces", "numbers", limit);
 }
 
 }  // namespace
 
 Body complete_body(const ObjectFeatures& objects, int index, const ExpectedBody& expected,
                    const PieceLimits& limits) {
-    require_arguments(objects, index, expected);
+    require_arguments(objects, index, expected, limits);
     const JoinedObjects found = join_pieces(objects, index, expected, limits);
     const Index bins = objects.columns.cols();
     Body body{Vector(5), Flags(2, 1), expected.size, Vector(2 * bins + 2)};

@@ -43,7 +43,7 @@ struct Body {
 /// @param mean_size (size, known): float64 (2,), running means of the body's width and height, meters, finite, above 0; bool (2,):
 ///     whether each was ever visible as a whole; else it is a lower bound
 /// @param pieces (region, inside, joined, depth): times the expected rectangle, around it; share of a piece's area that is more than
-///     inside; times the mean size, of a body with its pieces; meters, from the object's depth to that of a piece
+///     inside; times the mean size, of a body with its pieces; meters, from the object's depth to that of a piece; none NaN
 /// @throws std::invalid_argument on other shapes or values
 /// Source: ours.
 Body complete_body(const ObjectFeatures& objects, int index, const ExpectedBody& expected,

@@ -121,6 +121,7 @@ BAD: list[tuple[Case, str]] = [
     ({"cut": np.zeros((2, 4), np.bool_)}, "cut: expected 1 rows, got 2"),
     ({"index": 1}, r"index: expected a number in \[0, 1\), got 1"),
     ({"index": -1}, r"index: expected a number in \[0, 1\), got -1"),
+    ({"pieces": (np.nan, 0.8, 1.15, 0.4)}, "pieces: expected numbers, got nan"),
     ({"expected": np.ones(4)}, r"expected: expected shape \(5,\), got \(4,\)"),
     (
         {"mean_size": (np.array([-1.0, 1.0]), np.array([True, True]))},

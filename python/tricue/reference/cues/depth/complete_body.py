@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A body from segmented objects: its pieces are joined, and it is completed where it is cut."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -37,6 +38,8 @@ def complete_body(
         refuse("measured", "depths, sizes and areas above 0", float(lengths[~(lengths > 0)][0]))
     (size, known), (region, inside, joined_size, depth) = mean_size, pieces
     require_expected(expected, size)
+    if np.isnan(pieces).any():
+        refuse("pieces", "numbers", math.nan)
     z = measured[index, 2]
     body, own = _combine(measured, cut, [index], z), [index]
     for i, piece in enumerate(measured):
