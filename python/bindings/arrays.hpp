@@ -53,12 +53,24 @@ py::array require(const py::object& object, const char* name, int rank, const ch
     return array;
 }
 
+/// NumPy takes any byte but 0 for True, as in a mask of 0 and 255 that is viewed as bool; C++ knows no bool but 0 and 1.
+inline void require_bools(const py::array& array, const char* name) {
+    const auto* bytes = static_cast<const std::uint8_t*>(array.data());
+    const py::ssize_t size = array.size();
+    std::uint8_t bits = 0;
+    for (py::ssize_t i = 0; i < size; ++i) bits |= bytes[i];
+    if (bits > 1)
+        throw py::value_error(std::string(name) +
+                              ": expected bool of bytes 0 and 1, got others; mask != 0 makes it");
+}
+
 template <typename Scalar>
 const Scalar* contiguous(const py::array& array, const char* name) {
     constexpr int wanted = py::array::c_style | py::detail::npy_api::NPY_ARRAY_ALIGNED_;
     if ((array.flags() & wanted) != wanted)
         throw py::value_error(std::string(name) +
                               ": expected a C-contiguous, aligned array; numpy.require makes one");
+    if constexpr (std::is_same_v<Scalar, bool>) require_bools(array, name);
     return static_cast<const Scalar*>(array.data());
 }
 

@@ -150,6 +150,13 @@ def test_refuses(kernels: Kernels, name: str, value: Any, message: str) -> None:
         kernels.block_votes(**case(count=2, **{name: value}))
 
 
+def test_native_refuses_bytes_that_are_no_bool() -> None:
+    """A mask of 0 and 2 viewed as bool, which NumPy takes for True and C++ not always, is named."""
+    core = np.array([0, 2], np.uint8).view(np.bool_)
+    with pytest.raises(ValueError, match="core: expected bool of bytes 0 and 1, got others"):
+        _core.block_votes(**case(count=2, core=core))
+
+
 def test_native_refuses_other_types() -> None:
     """Another type is named, not converted."""
     with pytest.raises(TypeError, match=r"votes: expected int64 \(N,\), got float64"):
