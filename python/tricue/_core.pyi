@@ -839,10 +839,10 @@ def depth_picture(
 ) -> numpy.typing.NDArray[numpy.uint8]:
     """
     A gray picture of a depth image, in which a target at depth z looks the same at any distance.
-        128 + 127 (depth - z) / reach,  within 1 and 255, rounded down, in float32
+        128 + 127 (depth - z) / reach,  the depth within z - reach and z + reach, rounded down, in float32
 
-    Black where it is nearer than z by reach or more, white where it is farther by as much, or not a
-    number.
+    Black, 0 or 1, where it is nearer than z by reach or more; white, 254 or 255, where it is farther by
+    as much, or not a number.
 
     Args:
         depth: float32 (H, W), meters; may be empty

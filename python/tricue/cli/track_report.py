@@ -23,7 +23,7 @@ def report(
     interrupted: bool,
 ) -> None:
     """Print how many frames were tracked and lost, where, how fast, and how near to the true boxes."""
-    frames = f"{run.source.name}: {clock.decoded} frames{' until interrupted' if interrupted else ''}"
+    frames = f"{run.source.name}: {_frames(clock.decoded)}{' until interrupted' if interrupted else ''}"
     if len(tracks) > 1:
         print(frames)
         for target, found in tracks.items():
@@ -53,9 +53,9 @@ def not_started(run: TrackRun, clock: RunClock) -> str:
         has = "" if length is None else f"; {run.source.name} has {length}"
         return f"frame {run.first}: expected a frame to start in{has}"
     if clock.not_found_reason:
-        reason = f"the tracker started in none of {clock.decoded} frames: {clock.not_found_reason}"
+        reason = f"the tracker started in none of {_frames(clock.decoded)}: {clock.not_found_reason}"
     else:
-        reason = f"found no face in {clock.decoded} frames"
+        reason = f"found no face in {_frames(clock.decoded)}"
     return f"{run.source.name}: {reason}; {BOX_HINT}"
 
 
@@ -81,6 +81,10 @@ def plot(path: Path, run: TrackRun, tracks: Mapping[int, Track]) -> str:
         return f"{path}: not written, no track has a position in meters{removed}"
     save_path(path, tracks.values(), run.intrinsics)
     return f"wrote {path}{', in assumed meters' if run.assumed else ''}"
+
+
+def _frames(count: int) -> str:
+    return f"{count} frame{'' if count == 1 else 's'}"
 
 
 def _counts(statuses: Mapping[Status, int]) -> str:
