@@ -91,7 +91,7 @@ OURS = {
 
 HEAD = f"""## Color
 
-All else is as it should be: a textured picture of 320x240 that moves {SHIFT} pixels to the right, and the box {BOX}. `flow-depth`
-uses flow alone; in a picture that moves as a whole, flow doesn't tell the target from the rest.
+All other input is valid: a textured image of 320x240 pixels that moves {SHIFT} pixels to the right, and the box {BOX}. `flow-depth`
+uses flow alone; in an image that moves as a whole, flow can't tell the target from the rest.
 
 """

@@ -155,10 +155,11 @@ OURS = {
 HEAD = f"""
 ## Depth
 
-All else is as it should be: `tricue.scenes.walker(0)`, somebody in front of a time-of-flight camera of {WIDTH}x{HEIGHT} whose intrinsics are
-known, a fifteenth of a second later, float32 meters, and the box {BOX}. `flow-depth` uses the depth alone.
+All other input is valid: two frames, a fifteenth of a second apart, of `tricue.scenes.walker(0)`, somebody in front of a time-of-flight
+camera of {WIDTH}x{HEIGHT} pixels whose intrinsics are known; depth is float32 in meters, and the box {BOX}. `flow-depth` uses depth
+alone.
 
-Depth in another unit, and depth that stays the same for half a second while color changes, which two frames can't show, `fused` leaves out
-with one warning and follows by color.
+Where there is color, too, `fused` ignores depth in another unit, with one warning, and follows by color. It does the same with depth that
+has stayed the same for half a second while the color image changed, which two frames can't show.
 
 """

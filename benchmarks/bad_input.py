@@ -119,25 +119,27 @@ HEAD = """# Bad input
 
 Written by `python benchmarks/bad_input.py`; don't edit. Each case is one `init` and one `update` in a process of its own.
 
-Ours either follow the target or raise a `ValueError` or `TypeError` that names the argument, what was expected and what came. Their state
-stays as it was, and the next good frame goes on. `tests/track/*/test_bad_input.py` hold many more cases.
+tricue's trackers either return a track or raise an error that names the argument, what was expected and what they got: a `ValueError` or
+a `TypeError`, or a `RuntimeError` for `update` before `init`. An error leaves the tracker as it was, and it goes on with the next good
+frame. `tests/track/*/test_bad_input.py` have many more cases.
 
-The tables show the status after the update, or the error, and warnings. Where all three trackers give the same answer it stands once;
-cases with the same answer share a row. What all trackers check alike, such as boxes, stands under the first kind alone. `flow-depth`
-doesn't change its status for one bad frame; its score is then 0.
+The tables show the status after the update, or the error, and any warnings. An answer that all three trackers give is shown once; cases
+with the same answer share a row. The first table has what all trackers check alike, such as most errors in boxes. When `flow-depth`
+misses its target, the score is 0; the status stays `tracked` for 0.4 s unless something nearer hides the target. `tracked` doesn't prove
+that there is a target: some trackers say so of black images, `flow-depth` with flow alone even with a score of 1.
 
 """
 
 OTHERS = f"""
-## What others do
+## OpenCV's trackers
 
-The cases of [color](#color) again, with the trackers of OpenCV {cv2.__version__} with contrib, which know neither depth nor a right image.
+The cases of [color](#color) again, with the trackers of OpenCV {cv2.__version__} with contrib, which use neither depth nor a right image.
 
 - follows: the box has an overlap above {MIN_OVERLAP} with the true one.
-- not found: it says that it hasn't found the target, without an error.
-- **wrong silently**: it says "found", and the box is not on the target, or there is none.
-- named error: says which argument is wrong. Unnamed error: names a line of C++ or nothing.
-- A dash: it can't be shown that frame.
+- not found: it reports that it hasn't found the target, without an error.
+- **wrong silently**: it reports "found", but the box is not on the target, or there is no target.
+- named error: the message says which argument is wrong. unnamed error: it names a line of C++, or nothing.
+- A dash: the tracker can't take such a frame.
 
 """
 

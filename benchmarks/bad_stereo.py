@@ -145,10 +145,10 @@ OURS = {name: ours(name) for name in ("stereo-head", "flow-depth", "fused")}
 HEAD = f"""
 ## Stereo
 
-All else is as it should be: `tricue.scenes.head(0)`, somebody in front of two cameras of {WIDTH}x{HEIGHT} whose calibration is known, two stereo
-pairs a thirtieth of a second apart, and the box {BOX}.
+All other input is valid: two stereo pairs, a thirtieth of a second apart, of `tricue.scenes.head(0)`, somebody in front of two cameras of
+{WIDTH}x{HEIGHT} pixels whose calibration is known, and the box {BOX}.
 
-A swapped or unrectified stereo pair is warned of at the start. It is followed all the same where something in the box has a disparity, at a
+`init` warns of a swapped or unrectified stereo pair, and tracking starts all the same if something in the box has a disparity, but at a
 wrong distance: [how often](stereo.md#a-swapped-or-unrectified-pair).
 
 """
