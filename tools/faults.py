@@ -302,7 +302,7 @@ FAULTS = [
 ABOUT = """\
 ## Faults
 
-`python -m tools.faults` lets each fault happen to a process of its own, and writes this section. `tricue track` follows a square
+`python -m tools.faults` causes each fault in a separate process and writes this section. `tricue track` follows a square
 through 20 to 1,000 frames and writes a CSV file, a JSON file and a video; "kept" is what can be read of them afterward. A negative exit
 code is the signal that ended the process.
 

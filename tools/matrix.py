@@ -29,8 +29,8 @@ HEAD = "| combination | Python, NumPy, cv2, compiler | tests |\n| --- | --- | --
 TEXT = """\
 ## Versions
 
-`python -m tools.matrix --write` builds the package for each combination of versions and runs the tests; `.ci/run` does so for the oldest,
-with some of them.
+`python -m tools.matrix --write` builds the package for each combination of versions and runs the tests; `.ci/run` runs some of them with
+the oldest versions.
 
 """
 

@@ -44,12 +44,12 @@ PARTS = 10  # of a run, whose overlaps are compared
 TEXT = """\
 ## A million updates
 
-`python -m benchmarks.quality.soak --write` has each tracker go to and fro through {frames} rendered frames of its scene, in memory. Of
-a hundred passes one has the target covered for eight frames, one has eight blank frames, before one the tracker gets what is no
-frame, which it refuses, and before one it is pickled and goes on as the copy. "Lost" counts how often it said so, "found" how often it
-was on the target again by itself; it is started again where it is lost or astray (an overlap below {astray}) at the end of a pass. The
-growth is the slope of the resident memory over the last nine tenths of the run. ms are those of an update, with all else that the
-machine did at that time.
+`python -m benchmarks.quality.soak --write` runs each tracker forward and backward through {frames} rendered frames of its scene, from
+memory. Of every hundred passes, one has the target covered for eight frames, and one has eight blank frames; before one pass the
+tracker gets an invalid frame, which it refuses, and before one it is pickled and continues as the copy. "Lost" counts how often it
+became LOST, "found" how often it was TRACKED on the target again by itself. It is started again if it is LOST, or has an overlap
+below {astray}, at the end of a pass. Memory is resident, in MB: after a tenth of the run and at its end; "growth" is the slope in between.
+Times are per update, in ms, with other work on the machine.
 
 | tracker | updates | refused | lost | found | started again | MB | at the end | growth, kB in 100,000 | ms, p50 | p99 | p99.9 | max |
 | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
