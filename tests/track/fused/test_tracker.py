@@ -68,6 +68,16 @@ def test_a_frame_without_target_is_lost(blank, stage, follow):
     assert max(track.score for track in tracks) < 0.3
 
 
+@pytest.mark.parametrize("blank", BLANK)
+def test_a_second_frame_without_target_is_lost(blank, stage, follow):
+    """So it is where nothing is known yet of how the target usually looks."""
+    tracker = FusedTracker()
+    follow(tracker, stage(HERE[:1]), START)
+    tracks = [tracker.update(BLANK[blank]) for _ in range(6)]
+    assert [track.status for track in tracks] == 2 * [Status.OCCLUDED] + 4 * [Status.LOST]
+    assert max(track.score for track in tracks) < 0.6
+
+
 @pytest.mark.parametrize("background", ["coffee", "cat", "motorcycle"])
 def test_found_again_elsewhere(background, stage, follow):
     """After 30 lost frames the face is found within 10 frames where it comes back, 150 px away."""

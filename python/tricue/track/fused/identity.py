@@ -51,14 +51,19 @@ class IdentityFeatures(NamedTuple):
     def log_odds(self, typical: "IdentityFeatures | None", weights: Weights) -> float:
         """Of the target against anything else, by the features and their difference from typical ones.
 
-        typical: running means of them, None in the first frame.
+        typical: running means of them, None until the target was recognized after the first frame.
         """
-        change = map(operator.sub, self, typical or self)
+        change = map(operator.sub, self, typical or SECOND_FRAME)
         return weights.offset + _weighted_sum(weights.features, self) + _weighted_sum(weights.change, change)
 
     def blend(self, other: "IdentityFeatures", rate: float) -> "IdentityFeatures":
         """The features moved towards other ones by a share of their difference."""
         return IdentityFeatures(*(old + rate * (new - old) for old, new in zip(self, other, strict=True)))
+
+
+# What 95 % of the targets of the same videos have at least in their second frame: nothing is known then of
+# what is usual for one, and a black image or noise has much less.
+SECOND_FRAME = IdentityFeatures(7.6, 0.68, 0.33, 0.24)
 
 
 def _weighted_sum(weights: Iterable[float], values: Iterable[float]) -> float:

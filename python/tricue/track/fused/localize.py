@@ -20,7 +20,7 @@ MAX_PEAK_CELLS = 6  # from a window's center; a peak farther off is localized ag
 class TargetModel(NamedTuple):
     """All that the target is searched by.
 
-    typical: features of it in the last frames, None after the first.
+    typical: running means of its features, None until it was recognized after the first frame.
     """
 
     appearance: AppearanceModels
