@@ -43,7 +43,7 @@ def window_of(left: tuple[int, int, int], right: tuple[int, int, int]) -> Window
 @pytest.mark.parametrize("typical", [None, TYPICAL], ids=["nothing typical yet", "typical"])
 @pytest.mark.parametrize("feature", IdentityFeatures._fields)
 def test_odds_are_monotone(feature, typical):
-    """A feature nearer to the target's raises the log-odds by appearance, and never lowers those by structure."""
+    """A feature nearer to the target's raises the log-odds by appearance, never lowers those by structure."""
     better = AVERAGE._replace(**{feature: getattr(AVERAGE, feature) + 0.1})
     assert better.log_odds(typical, APPEARANCE) > AVERAGE.log_odds(typical, APPEARANCE)
     assert better.log_odds(typical, STRUCTURE) >= AVERAGE.log_odds(typical, STRUCTURE)
