@@ -29,12 +29,9 @@ StreetWalker, in "others", is of the recording of one of these.
 import sys
 from collections.abc import Sequence
 
-from tricue.cli.arguments import count
-
 from benchmarks.quality.common import comparison, saved_runs
 from benchmarks.quality.common.arguments import add_dataset, add_runs, parser
 from benchmarks.quality.common.color_tables import CSV_COLUMNS, csv_rows, tables
-from benchmarks.quality.common.protocols import TRUE_BOX
 from benchmarks.quality.common.recordings import MirroredRecording, Recording
 from benchmarks.quality.common.sequence_runs import find_tasks, run_sequences
 from benchmarks.quality.common.tables import write_csv
@@ -48,7 +45,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     made = parser("color_video", __doc__, TRACKERS)
     add_dataset(made)
     add_runs(made)
-    made.add_argument("--draws", type=count, metavar="N", help="first boxes a run, beside the true one")
     made.add_argument("--mirrored", action="store_true", help="left and right exchanged")
     options = made.parse_args(arguments)
     try:
@@ -58,8 +54,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except (OSError, TypeError, ValueError) as error:
         made.error(str(error))
     recording = MirroredRecording if options.mirrored else Recording
-    draws = range(1, options.draws + 1) if options.draws else TRUE_BOX
-    results = run_sequences(todo, options.jobs, recording, draws)
+    results = run_sequences(todo, options.jobs, recording, options.draws)
     print(tables(results))
     if options.against:
         print(f"\n{comparison.against_stored(results, before)}")

@@ -4,12 +4,13 @@
     python -m benchmarks.quality.depth_video --shift 0.035 --jobs 2
     python -m benchmarks.quality.depth_video --save before.json --jobs 2
     python -m benchmarks.quality.depth_video --only paper-cup --times without --against before.json
+    python -m benchmarks.quality.depth_video --shift 0.035 --draws 4 --jobs 2
 
-The protocols are those of ``color_video``. A file such as groundtruth_chair.txt beside groundtruth.txt has
-the true boxes of a further target. Where color isn't registered to depth and the true boxes are in the depth
-image's pixels, color is registered to depth by the intrinsics of both cameras and --shift, as in
-``rgbd_people``. With "no times", frames have no time stamps, so that tricue's trackers assume their default
-rate; baselines don't use times and run once.
+The protocols, and the first boxes with --draws, are those of ``color_video``. A file such as
+groundtruth_chair.txt beside groundtruth.txt has the true boxes of a further target. Where color isn't
+registered to depth and the true boxes are in the depth image's pixels, color is registered to depth by the
+intrinsics of both cameras and --shift, as in ``rgbd_people``. With "no times", frames have no time stamps, so
+that tricue's trackers assume their default rate; baselines don't use times and run once.
 
 The first table has the mean success AUC and the mean overlap. The differences are paired, with 95 % bootstrap
 intervals for which recordings are drawn; of so few recordings they are too narrow.
@@ -59,7 +60,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         before = saved_runs.load(options.against) if options.against else {}
     except (OSError, TypeError, ValueError) as error:
         made.error(str(error))
-    results = run_sequences(todo, options.jobs, partial(DepthRecording, shift=options.shift))
+    recording = partial(DepthRecording, shift=options.shift)
+    results = run_sequences(todo, options.jobs, recording, options.draws)
     print(tables(variants, results))
     if options.against:
         print(f"\n{comparison.against_stored(results, before)}")

@@ -8,6 +8,7 @@ from pathlib import Path
 from tricue.cli.arguments import count
 
 from benchmarks.quality.common import sequences
+from benchmarks.quality.common.protocols import TRUE_BOX
 
 PACKAGE = "benchmarks.quality"
 
@@ -55,10 +56,18 @@ def add_dataset(made: argparse.ArgumentParser, folder: str = "color") -> None:
 
 
 def add_runs(made: argparse.ArgumentParser) -> None:
-    """Which sequences, and files to store the numbers in and to compare them with."""
+    """Which sequences, from which first boxes, and files to store the numbers in and to compare them with."""
+    made.add_argument(
+        "--draws", type=draws, default=TRUE_BOX, metavar="N", help="first boxes a run, beside the true one"
+    )
     made.add_argument("--only", nargs="+", default=[], metavar="NAME", help="of these sequences")
     made.add_argument("--save", type=Path, metavar="FILE", help="store the numbers of all runs, JSON")
     made.add_argument("--against", type=Path, metavar="FILE", help="compare with stored runs")
+
+
+def draws(text: str) -> Sequence[int]:
+    """The draws of first boxes, from their number."""
+    return range(1, count(text) + 1)
 
 
 def seeds(text: str) -> tuple[int, ...]:

@@ -48,6 +48,18 @@ def test_a_run_is_compared_with_a_stored_one(walk, tmp_path, capsys):
     assert err == ""
 
 
+def test_runs_from_other_boxes(walk, tmp_path):
+    """Each protocol has as many runs as boxes are drawn, and other numbers than from the true box."""
+    rows = {}
+    for name, how in (("true", []), ("drawn", ["--draws", "2"])):
+        words = [str(walk), *TRACKERS[:2], "--times", "with", *how, "--csv", str(tmp_path / name)]
+        assert depth_video.main(words) == 0
+        rows[name] = list(csv.DictReader((tmp_path / name).read_text().splitlines()))
+    for true, drawn in zip(*rows.values(), strict=True):
+        assert int(drawn["runs"]) == 2 * int(true["runs"])
+        assert drawn["AUC"] != true["AUC"]
+
+
 def test_times():
     """With, without or both; a baseline, which doesn't use them, once and under its name."""
     variants = parse_variants(["fused", "still-box"])
