@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tricue import MultiTracker
+from tricue import Box, MultiTracker
 from tricue.errors import WorkerEndedError
 from tricue.track.multi import remote_targets
 from tricue.track.multi.worker import _portable
@@ -334,6 +334,28 @@ def test_a_tracker_that_can_not_be_pickled_names_the_option(things):
         with pytest.raises(TypeError, match=r"^workers: expected 1, .*; cannot pickle '_thread.lock'"):
             several.add(things.frames[0], things.boxes[1], f"{__name__}:Locked")
         assert list(several.update(things.frames[1])) == [1]
+
+
+def test_a_tracker_that_can_not_be_loaded_names_the_option(things, monkeypatch):
+    """One of the user's script, which a worker doesn't run; the worker's targets go on."""
+    own = type("Own", (Previous,), {"__module__": "__main__"})
+    monkeypatch.setattr(sys.modules["__main__"], "Own", own, raising=False)
+    with MultiTracker(f"{__name__}:Previous", workers=2) as several:
+        for box in things.boxes[:3]:
+            several.add(things.frames[0], box)
+        with pytest.raises(TypeError, match=r"^workers: expected 1, .*; Can't get attribute 'Own'"):
+            several.add(things.frames[0], things.boxes[3], "__main__:Own")
+        assert list(several.update(things.frames[1])) == [1, 2, 3]
+
+
+def test_a_box_may_be_of_a_class_of_the_script(things, monkeypatch):
+    """A worker that can't load the class gets the box all the same."""
+    own = type("Own", (Box,), {"__module__": "__main__"})
+    monkeypatch.setattr(sys.modules["__main__"], "Own", own, raising=False)
+    with MultiTracker(workers=2) as several:
+        for box in things.boxes[:2]:
+            several.add(things.frames[0], own(*box))
+        assert list(several.update(things.frames[1])) == [1, 2]
 
 
 def test_who_keeps_images_may_share_a_worker(things):

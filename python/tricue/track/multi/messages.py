@@ -9,17 +9,25 @@ from tricue.camera.box import Box
 from tricue.track.base.track import Status, Track
 
 WAKE = "wake"  # in the place of a method, without an answer: another request follows at once
+NUMBER_BYTES = 8  # before a message, so that one that can't be unpickled can be answered
 PlainTracks = dict[int, tuple[Any, ...]]
 
 
-def send(connection: Connection, message: tuple[Any, ...]) -> None:
-    """Send a message; OSError where nobody has the other end."""
-    connection.send_bytes(pickle.dumps(message, pickle.HIGHEST_PROTOCOL))
+def send(connection: Connection, number: int, *message: Any) -> None:
+    """Send a request's message or its answer; OSError where nobody has the other end."""
+    data = pickle.dumps(message, pickle.HIGHEST_PROTOCOL)
+    connection.send_bytes(number.to_bytes(NUMBER_BYTES, "little") + data)
 
 
-def receive(connection: Connection) -> Any:
-    """The next message; EOFError, OSError or UnpicklingError where none can come any more."""
-    return pickle.loads(connection.recv_bytes())
+def receive(connection: Connection) -> tuple[int, memoryview]:
+    """The next message, pickled, and its number; EOFError or OSError where none can come any more."""
+    data = memoryview(connection.recv_bytes())
+    return int.from_bytes(data[:NUMBER_BYTES], "little"), data[NUMBER_BYTES:]
+
+
+def unpicklable(error: Exception) -> TypeError:
+    """The error for a tracker that another process can't get."""
+    return TypeError(f"workers: expected 1, or a tracker that can be pickled; {error}")
 
 
 def to_plain(tracks: dict[int, Track]) -> PlainTracks:

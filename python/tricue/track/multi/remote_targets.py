@@ -2,21 +2,21 @@
 """Targets that another process follows."""
 
 import os
+import pickle
 import select
 import socket
 import subprocess
 import sys
 import weakref
 from multiprocessing.connection import Connection
-from pickle import PicklingError, UnpicklingError
 from typing import Any
 
-from tricue.camera.box import BoxLike
+from tricue.camera.box import BoxLike, as_box
 from tricue.camera.shared_frame import SharedFrame
 from tricue.errors import WorkerEndedError
 from tricue.track.base.track import Track, Tracker
 from tricue.track.multi.frame_memory import FrameMemory, Layout
-from tricue.track.multi.messages import WAKE, from_plain, receive, send
+from tricue.track.multi.messages import WAKE, from_plain, receive, send, unpicklable
 
 PATIENCE = 5.0  # seconds that a worker gets to end by itself
 
@@ -49,8 +49,9 @@ class RemoteTargets:
 
     def add(self, target: int, tracker: Tracker, frame: SharedFrame, box: BoxLike | None) -> Track:
         """Start a tracker; it is kept if that succeeds."""
+        plain = None if box is None else as_box(box)  # a class of the user's script isn't known there
         try:
-            self._send("add", target, tracker, self._memory.write(frame), box)
+            self._send("add", target, tracker, self._memory.write(frame), plain)
             track: Track = self._receive_seen(frame)
         except WorkerEndedError:
             raise
@@ -102,11 +103,11 @@ class RemoteTargets:
             )
         self._number += 1
         try:
-            send(self._connection, (self._number, method, arguments))
+            send(self._connection, self._number, method, arguments)
         except OSError:
             raise self._end() from None
-        except (AttributeError, TypeError, PicklingError) as error:
-            raise TypeError(f"workers: expected 1, or a tracker that can be pickled; {error}") from None
+        except (AttributeError, TypeError, pickle.PicklingError) as error:
+            raise unpicklable(error) from None
 
     def _receive(self) -> Any:
         """The answer to the last request; those to earlier ones nobody waited for, as after Ctrl-C.
@@ -118,8 +119,9 @@ class RemoteTargets:
         while number != self._number:
             self._answers.poll()
             try:
-                number, succeeded, value = receive(self._connection)
-            except (EOFError, OSError, UnpicklingError):
+                number, answer = receive(self._connection)
+                succeeded, value = pickle.loads(answer)
+            except (EOFError, OSError, pickle.UnpicklingError):
                 raise self._end() from None
             except BaseException:
                 self._end()

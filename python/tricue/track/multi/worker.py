@@ -11,7 +11,7 @@ from tricue.camera.box import BoxLike
 from tricue.camera.shared_frame import SharedFrame
 from tricue.track.base.track import Track, Tracker
 from tricue.track.multi.frame_memory import FrameMemory, Layout
-from tricue.track.multi.messages import WAKE, PlainTracks, receive, send, to_plain
+from tricue.track.multi.messages import WAKE, PlainTracks, receive, send, to_plain, unpicklable
 from tricue.track.multi.targets import Targets, keeps_images
 
 MAX_POLLS = 1000  # some milliseconds
@@ -49,16 +49,21 @@ def run(connection_file: int, memory_file: int) -> None:
     A request is its number, a method, and arguments; its answer the number, whether that succeeded, and what
     came of it, an error where it didn't.
     """
-    for number in signal.SIGINT, signal.SIGHUP:  # a terminal's, which are for the process that asks
-        signal.signal(number, signal.SIG_IGN)
+    for each in signal.SIGINT, signal.SIGHUP:  # a terminal's, which are for the process that asks
+        signal.signal(each, signal.SIG_IGN)
     connection, worker = Connection(connection_file), Worker(FrameMemory(memory_file))
     with suppress(EOFError, OSError):
         while True:
-            request, method, arguments = receive(connection)
+            number, request = receive(connection)
+            try:
+                method, arguments = pickle.loads(request)
+            except Exception as error:  # of a class that this process can't import
+                send(connection, number, False, unpicklable(error))
+                continue
             if method == WAKE:
                 _stay_awake(connection)
             else:
-                send(connection, (request, *_answer(worker, method, arguments)))
+                send(connection, number, *_answer(worker, method, arguments))
 
 
 def _stay_awake(connection: Connection) -> None:
