@@ -253,6 +253,21 @@ def test_page_is_told_all_of_a_run(client: TestClient) -> None:
         assert pictures <= FRAMES
 
 
+def test_a_target_that_comes_back_is_told_with_its_tracks(client: TestClient) -> None:
+    """A page forgets the tracks of a target that was deleted; undo brings them back with it."""
+    do(client, "add", frame=3, box=BOX, tracker="fused")
+    with live(client) as socket:
+        assert [socket.receive_json()["type"] for _ in range(3)] == ["times", "state", "tracks"]
+        do(client, "delete", target=1)
+        while socket.receive_json().get("targets") != []:
+            pass  # of what is saved meanwhile
+        do(client, "undo")
+        told = [socket.receive_json()]
+        while not told[-1].get("targets"):
+            told.append(socket.receive_json())
+        assert [[row[0] for row in each["tracks"]] for each in told if each["type"] == "tracks"] == [[3]]
+
+
 def test_page_opened_during_a_run(client: TestClient, serving: Serving) -> None:
     """It is told the state, what was tracked before, and then what the run finds; errors of before aren't."""
     do(client, "add", frame=3, box=BOX, tracker="fused")

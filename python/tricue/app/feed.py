@@ -83,6 +83,8 @@ class _Page:
         if now != self.state:
             self.state = now
             await tell(self.socket, {"type": "state", **now})
+            there = {each["id"] for each in now["targets"]}  # the page forgets the tracks of others
+            self.known = {number: tracks for number, tracks in self.known.items() if number in there}
 
     async def _tell_tracks(self) -> None:
         for target in self.serving.session.history.present.targets:
