@@ -268,6 +268,20 @@ def test_a_target_that_comes_back_is_told_with_its_tracks(client: TestClient) ->
         assert [[row[0] for row in each["tracks"]] for each in told if each["type"] == "tracks"] == [[3]]
 
 
+def test_a_run_that_is_undone_while_it_lasts(client: TestClient, serving: Serving) -> None:
+    """A page that was told some of its tracks is told those of before again."""
+    do(client, "add", frame=3, box=BOX, tracker="fused")
+    with live(client) as socket:
+        serving.session.run = Run(3, 1, (1,), [(1, 4, Track(START, 0.5, Status.TRACKED))])
+        while not socket.receive_json().get("run"):
+            pass  # what is told before the state with the run, that with its tracks, too
+        serving.session.run = None  # as undo does, which ends it first
+        told = [socket.receive_json()]
+        while told[-1]["type"] != "state" or told[-1]["run"]:
+            told.append(socket.receive_json())
+        assert [[row[0] for row in each["tracks"]] for each in told if each["type"] == "tracks"] == [[3]]
+
+
 def test_page_opened_during_a_run(client: TestClient, serving: Serving) -> None:
     """It is told the state, what was tracked before, and then what the run finds; errors of before aren't."""
     do(client, "add", frame=3, box=BOX, tracker="fused")

@@ -36,6 +36,7 @@ class _Page:
         self.state: dict[str, Any] | None = None
         self.run: Run | None = None
         self.found = 0  # tracks of the run
+        self.mixed: set[int] = set()  # targets of which some of the run's tracks were told
         self.errors = len(serving.session.errors)
         self.shown, self.sent = True, -1  # whether the last picture has arrived, and its frame
 
@@ -66,6 +67,7 @@ class _Page:
         latest = run.latest  # before the tracks, so that its own are among them
         count = len(run.found)
         tracks, self.found = run.tracks(self.found, count), count
+        self.mixed |= tracks.keys()
         message = {
             "type": "run",
             "frame": run.start if latest is None else latest[0],
@@ -87,9 +89,11 @@ class _Page:
             self.known = {number: tracks for number, tracks in self.known.items() if number in there}
 
     async def _tell_tracks(self) -> None:
+        over = self.serving.session.run is not self.run  # and maybe undone
         for target in self.serving.session.history.present.targets:
-            if self.known.get(target.id) is not target.tracks:
+            if self.known.get(target.id) is not target.tracks or (over and target.id in self.mixed):
                 self.known[target.id] = target.tracks
+                self.mixed.discard(target.id)
                 rows = _rows(target.tracks)
                 await tell(self.socket, {"type": "tracks", "target": target.id, "tracks": rows})
 
