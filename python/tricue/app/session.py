@@ -49,6 +49,7 @@ class Session:
         self._shortened = False  # whether the file has more, in frames that aren't there any more
         self._follower = Follower(recording, self.cameras, seed, self._report)
         self._commands, self._lock = threading.RLock(), threading.RLock()  # taken in this order
+        self._video = threading.RLock()
         self._thread: threading.Thread | None = None
         self._saver = Saver(path, self.footprint, self._kept, lambda: self.run is not None, self._report)
         if path is not None and path.exists():
@@ -220,14 +221,16 @@ class Session:
 
     def make_video(self, path: Path, trail: bool = False) -> None:
         """Write the overlay video in a thread, with the targets' trails or without; ``job`` tells how far."""
-        self.cancel_video()
-        self.job = VideoJob(path, self.tracked(), trail)
+        with self._video:
+            self.cancel_video()
+            self.job = VideoJob(path, self.tracked(), trail)
 
     def cancel_video(self) -> None:
         """Stop writing the overlay video."""
-        if self.job is not None:
-            self.job.stop()
-            self.job = None
+        with self._video:
+            if self.job is not None:
+                self.job.stop()
+                self.job = None
 
     # The file.
 

@@ -20,11 +20,13 @@ class VideoJob:
         self._stopped = False
         self._trail = trail
         whole = replace(tracked, recording=tracked.recording.again())
-        threading.Thread(target=self._write, args=(path, whole), name="overlay", daemon=True).start()
+        self._thread = threading.Thread(target=self._write, args=(path, whole), name="overlay", daemon=True)
+        self._thread.start()
 
     def stop(self) -> None:
-        """End the writing."""
+        """End the writing; the file is closed then, and another job may write it."""
         self._stopped = True
+        self._thread.join()
 
     def _write(self, path: Path, tracked: Tracked) -> None:
         try:
