@@ -49,6 +49,15 @@ def test_a_folder_that_can_not_be_written(tmp_path, monkeypatch):
     assert "can't be written: Read-only file system" in found.text
 
 
+def test_a_folder_that_was_removed(tmp_path, monkeypatch):
+    """The other findings are told all the same."""
+    (tmp_path / "gone").mkdir()
+    monkeypatch.chdir(tmp_path / "gone")
+    (tmp_path / "gone").rmdir()
+    found = machine.find_places()[0]
+    assert (found.verdict, found.text) == (Verdict.WARNING, "was removed")
+
+
 def test_a_port_that_is_taken(monkeypatch):
     """tricue open then takes another one, so that nothing is wrong."""
     with socket.create_server((machine.ADDRESS, 0)) as taken:

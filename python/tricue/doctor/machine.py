@@ -36,7 +36,7 @@ def find_machine() -> list[Finding]:
 
 def find_places() -> list[Finding]:
     """Findings on where tricue writes and listens."""
-    return [_folder(Path.cwd()), _port()]
+    return [_folder(), _port()]
 
 
 def processor() -> str:
@@ -90,8 +90,12 @@ def _memory() -> str:
     return f"{text}, the container may use {_size(int(limit))}" if limit.isdecimal() else text
 
 
-def _folder(folder: Path) -> Finding:
+def _folder() -> Finding:
     name = "current folder"
+    try:
+        folder = Path.cwd()
+    except FileNotFoundError:
+        return Finding("Places", name, Verdict.WARNING, "was removed", "go to another folder")
     try:
         with tempfile.TemporaryFile(dir=folder):
             free = shutil.disk_usage(folder).free
