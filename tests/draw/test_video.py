@@ -67,6 +67,25 @@ def test_videos_are_whole(tmp_path: Path, name: str, width: int, encoder: str) -
     assert np.mean(frames) == pytest.approx(90, abs=4)
 
 
+@pytest.mark.parametrize("name", ["o.mp4", "o.avi"])
+def test_another_size_is_scaled(tmp_path: Path, name: str, encoder: str) -> None:
+    """As of a folder of images of several sizes: no frame is left out."""
+    with OverlayWriter(tmp_path / name, 25.0) as writer:
+        for height, width in ((48, 64), (101, 201), (20, 30)):
+            writer.write(np.full((height, width, 3), 90, np.uint8))
+    assert [frame.shape for frame in decoded(writer.path)] == [(48, 64, 3)] * 3
+
+
+@pytest.mark.parametrize("picture", [np.zeros((48, 64), np.uint8), np.zeros((48, 64, 3))])
+def test_another_kind_of_image_is_refused(tmp_path: Path, picture: NDArray[np.uint8], encoder: str) -> None:
+    """It is named, not the disk or the codec."""
+    with (
+        OverlayWriter(tmp_path / "o.webm", 25.0) as writer,
+        pytest.raises(ValueError, match=r"^picture: expected BGR \(H, W, 3\) uint8, got"),
+    ):
+        writer.write(picture)
+
+
 def test_an_mp4_is_h264(tmp_path: Path) -> None:
     """It proves that browsers can play the default: H.264 in 4:2:0, at the rate asked for."""
     av = pytest.importorskip("av")

@@ -32,6 +32,7 @@ class OverlayWriter:
     def __init__(self, path: str | os.PathLike[str], fps: float) -> None:
         self.path, self.fps, self.note = Path(path), fps, ""
         self._encoder: Encoder | None = None
+        self._size = (0, 0)
         check_name(self.path)
         suffix = self.path.suffix.lower()
         self._by_pyav = suffix != ".avi" and PyAVEncoder.available()
@@ -55,16 +56,21 @@ class OverlayWriter:
         return f"{self.path} ({self.note})" if self.note else str(self.path)
 
     def write(self, picture: Image, seconds: float | None = None) -> None:
-        """Append a BGR image (H, W, 3), of the first one's size.
+        """Append a BGR image (H, W, 3); one of another size than the first is scaled to that.
 
         seconds: its time, rising from any on, so that the video plays as long as the frames took; without it
-        an image is shown for a frame at ``fps``.
+        an image is shown for a frame at ``fps``. ValueError for another kind of image.
         """
+        if picture.dtype != np.uint8 or picture.ndim != 3 or picture.shape[2] != 3:
+            raise ValueError(f"picture: expected BGR (H, W, 3) uint8, got {picture.dtype} {picture.shape}")
         height, width = picture.shape[:2]
         if height % 2 or width % 2:  # colors are stored for 2x2 pixels
             picture = np.pad(picture, ((0, height % 2), (0, width % 2), (0, 0)), mode="edge")
         if self._encoder is None:
-            self._encoder = self._open((picture.shape[1], picture.shape[0]))
+            self._size = picture.shape[1], picture.shape[0]
+            self._encoder = self._open(self._size)
+        elif picture.shape[1::-1] != self._size:  # OpenCV would leave it out
+            picture = np.asarray(cv2.resize(picture, self._size, interpolation=cv2.INTER_AREA), np.uint8)
         self._encoder.write(picture, seconds)
 
     def close(self) -> None:
