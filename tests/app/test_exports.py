@@ -135,6 +135,23 @@ def test_video_shows_the_trails(video: Path, tmp_path: Path) -> None:
     assert changed[50 * scale, 70 * scale] < 30
 
 
+def test_trails_are_broken_where_nothing_is_known(video: Path, tmp_path: Path) -> None:
+    """As in the page: no line leads over frames without a track, and the one before them fades."""
+    project = edits.add_target(Project(), 0, START, "fused")
+    known = [*range(20), *range(40, FRAMES)]
+    tracks = {at: Track(START._replace(x=START.x + at), 0.9, Status.TRACKED) for at in known}
+    whole = Tracked(edits.add_tracks(project, {1: tracks}), Recording(open_source(video)), {})
+    pictures = []
+    for trail in (False, True):
+        exports.write_video(tmp_path / "out.mp4", whole, lambda _: True, trail)
+        pictures.append([image.astype(int) for _, image in Video(tmp_path / "out.mp4")])
+    scale = pictures[0][0].shape[0] // 120
+    without, drawn = pictures
+    changed = {at: np.abs(drawn[at] - without[at]).max(axis=2)[60 * scale] for at in (30, FRAMES - 1)}
+    assert changed[30][50 * scale] > 60
+    assert changed[FRAMES - 1][70 * scale] < 30
+
+
 def test_video_can_be_given_up(tracked: Tracked, tmp_path: Path) -> None:
     """Writing ends when it is told to, with a whole file."""
     exports.write_video(tmp_path / "out.mp4", tracked, lambda count: count < 10)

@@ -119,8 +119,8 @@ def write_video(path: Path, tracked: Tracked, progress: Callable[[int], bool], t
     with OverlayWriter(path, recording.source.fps) as writer:
         for number, frame in recording.frames(0, recording.length):
             here = [(each, each.tracks[number]) for each in tracked.project.targets if number in each.tracks]
-            for target, track in here if trail else ():
-                trails[target.id].add(recording.seconds(number), track)
+            for target in tracked.project.targets if trail else ():
+                trails[target.id].add(recording.seconds(number), target.tracks.get(number))
             writer.write(draw_targets(frame, here, trails), recording.seconds(number))
             if not progress(number + 1):
                 break
@@ -137,9 +137,8 @@ def draw_targets(
     image = picture(frame)
     scale = choose_scale(*image.shape[:2])
     canvas = enlarge(image, scale, cv2.INTER_CUBIC)
-    for target, _ in tracks:
-        if trails and target.id in trails:
-            trails[target.id].draw(canvas, scale, target_color(target.id))
+    for number, trail in (trails or {}).items():
+        trail.draw(canvas, scale, target_color(number))
     for target, track in tracks:
         color = STATUS_COLORS[track.status]
         draw_box(canvas, track.box, scale, color, 2)

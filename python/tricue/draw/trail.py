@@ -28,11 +28,10 @@ class Trail:
         self.seconds = positive(seconds, "trail", "seconds")
         self._centers: deque[tuple[float, tuple[float, float] | None]] = deque()
 
-    def add(self, time: float, track: Track) -> None:
-        """The track of the frame of this time, in seconds, which must not fall."""
-        x, y, width, height = track.box
-        lost = track.status is Status.LOST
-        self._centers.append((time, None if lost else (x + width / 2, y + height / 2)))
+    def add(self, time: float, track: Track | None) -> None:
+        """The track of the frame of this time, in seconds, which must not fall; None without one."""
+        center = None if track is None or track.status is Status.LOST else track.box.center
+        self._centers.append((time, center))
         while self._centers[0][0] < time - self.seconds:
             self._centers.popleft()
 
