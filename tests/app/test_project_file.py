@@ -74,7 +74,15 @@ def test_saving_is_all_or_nothing(
 
 
 @pytest.mark.parametrize(
-    "content", ["", "{}", "[]", '{"format": 1, "targets": [{"id": 1}]}', "\udcff", '{"format": "x"}']
+    "content",
+    [
+        *("", "{}", "[]", '{"format": 1, "targets": [{"id": 1}]}', "\udcff", '{"format": "x"}'),
+        *(
+            f'{{"format": 1, "targets": [{{"id": 1, "name": "a", "tracker": "fused", {rest}}}]}}'
+            for rest in ('"drawn": {"True": [1, 2, 3, 4]}', '"drawn": {"0": [1, 2]}', '"drawn": []')
+        ),
+        '{"format": 1, "targets": [{"id": 1e999, "name": "a", "tracker": "", "drawn": {}, "tracks": []}]}',
+    ],
 )
 def test_broken_file_is_named(content: str, tmp_path: Path) -> None:
     """What isn't a project is an error of one line, not a project without targets."""

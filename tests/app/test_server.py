@@ -196,6 +196,10 @@ def test_overlay_video_is_a_download(client: TestClient) -> None:
         ({"do": "add"}, "missing 3 required positional arguments"),
         ({"do": "add", "frame": 0, "box": [1, 2], "tracker": "fused"}, "box: expected four numbers"),
         ({"do": "add", "frame": -1, "box": BOX, "tracker": "fused"}, "frame: expected a number from 0 to 59"),
+        (
+            {"do": "add", "frame": True, "box": BOX, "tracker": "fused"},
+            "frame: expected a number from 0 to 59",
+        ),
         ({"do": "add", "frame": 0, "box": BOX, "tracker": "os:system"}, "tracker: expected one of"),
         ({"do": "draw", "target": 5, "frame": 0, "box": BOX}, "target: expected one of"),
         ({"do": "track", "frame": 0}, "draw one around a target"),

@@ -118,14 +118,15 @@ def load(path: Path, pose: Pose | None = None) -> tuple[Project, Footprint]:
     """
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
-        if content["format"] > FORMAT:
-            raise ValueError(f"{path}: written by a newer tricue ({content['tricue']}); update this one")
-        targets = tuple(_target(each, pose) for each in content["targets"])
-        return Project(targets, int(content["next_id"])), Footprint(**content["video"])
-    except (KeyError, TypeError, IndexError, UnicodeError, json.JSONDecodeError) as error:
+        if content["format"] <= FORMAT:
+            targets = tuple(_target(each, pose) for each in content["targets"])
+            return Project(targets, int(content["next_id"])), Footprint(**content["video"])
+        newer = content["tricue"]
+    except (AttributeError, KeyError, TypeError, IndexError, OverflowError, ValueError) as error:
         raise ValueError(
             f"{path}: expected a project of tricue open, can't read it; rename it to begin anew ({error!r})"
         ) from None
+    raise ValueError(f"{path}: written by a newer tricue ({newer}); update this one")
 
 
 def save(path: Path, project: Project, video: Footprint) -> None:

@@ -259,7 +259,7 @@ class Session:
     def check_frame(self, frame: Any) -> None:
         """ValueError for what isn't the number of a frame."""
         last = self.recording.length - 1
-        if not isinstance(frame, int) or not 0 <= frame <= last:
+        if not isinstance(frame, int) or isinstance(frame, bool) or not 0 <= frame <= last:
             raise ValueError(f"frame: expected a number from 0 to {last}, got {frame!r:.40}")
 
     def check_tracker(self, name: Any) -> None:
