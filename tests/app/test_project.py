@@ -69,6 +69,11 @@ def test_bad_name_is_refused(one: Project, name: object) -> None:
         edits.rename_target(one, 1, name)
 
 
+def test_name_with_half_a_character(one: Project) -> None:
+    """As a page may cut one; the project's file couldn't hold it."""
+    assert edits.rename_target(one, 1, "a\ud83d").target(1).name == "a?"
+
+
 @pytest.mark.parametrize("box", [None, [1, 2, 3], [0, 0, 0, 5], [np.nan, 0, 1, 1], "box"])
 def test_bad_box_is_refused(one: Project, box: object) -> None:
     """What a page sends is checked as what a script passes."""

@@ -80,6 +80,7 @@ def delete_target(project: Project, number: int) -> Project:
 def checked_name(name: Any) -> str:
     """A target's name with single spaces; ValueError for none, or one of more than MAX_NAME characters."""
     words = " ".join(name.split()) if isinstance(name, str) else ""
+    words = words.encode(errors="replace").decode()  # half of a character couldn't be written to a file
     if not 0 < len(words) <= MAX_NAME:
         raise ValueError(f"name: expected 1 to {MAX_NAME} characters, got {name!r:.100}")
     return words
