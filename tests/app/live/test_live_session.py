@@ -238,6 +238,20 @@ def test_a_table_that_cannot_be_finished(studio: Studio, monkeypatch: pytest.Mon
     assert count_frames(recorder.files[2]) > 0
 
 
+def test_tables_that_are_removed(studio: Studio) -> None:
+    """They are named, as the video is."""
+    studio.begin()
+    studio.session.record()
+    studio.shows(3)
+    assert studio.session.recorder is not None
+    table, other, video = studio.session.recorder.files
+    for path in (table, other):
+        path.unlink()
+    studio.session.stop_recording()
+    told = [f"{path}: was removed while it was written" for path in (table, other)]
+    assert (studio.session.errors, studio.session.recorded) == (told, (video,))
+
+
 def test_a_folder_that_cannot_be_written(studio: Studio, tmp_path: Path) -> None:
     """It proves that the error names the file, and that the camera goes on."""
     studio.begin()

@@ -340,8 +340,11 @@ class LiveSession:
             self.errors.append(f"not recorded: {one_line(error)}")
         if recorder.error:
             self.errors.append(f"the video isn't recorded: {recorder.error}")
+        *tables, _ = recorder.files  # the video tells by itself
+        self.errors += [f"{path}: was removed while it was written" for path in tables if not path.exists()]
         self.recorded = tuple(path for path in recorder.files if path.exists())
-        self._say(f"wrote {', '.join(map(str, self.recorded))}")
+        if self.recorded:
+            self._say(f"wrote {', '.join(map(str, self.recorded))}")
 
     def _record(self, shown: Shown, frame: Frame) -> None:
         if self.recorder is None:
