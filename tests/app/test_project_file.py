@@ -73,6 +73,21 @@ def test_saving_is_all_or_nothing(
     assert load(path) == (full, seen)
 
 
+def test_saving_that_fails_leaves_nothing(
+    full: Project, video: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Least of all on a full disk."""
+
+    def full_disk(_: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    before = sorted(tmp_path.iterdir())
+    monkeypatch.setattr(os, "fsync", full_disk)
+    with pytest.raises(OSError, match="No space left"):
+        save(tmp_path / "project", full, footprint(video, 60, (160, 120)))
+    assert sorted(tmp_path.iterdir()) == before
+
+
 @pytest.mark.parametrize(
     "content",
     [

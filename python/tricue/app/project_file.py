@@ -132,11 +132,15 @@ def load(path: Path, pose: Pose | None = None) -> tuple[Project, Footprint]:
 def save(path: Path, project: Project, video: Footprint) -> None:
     """Write the project: the file has all of it, or all of what it was before."""
     part = path.with_name(f".{path.name}.part")
-    with part.open("w", encoding="utf-8") as file:
-        file.writelines(_lines(project, video))
-        file.flush()
-        os.fsync(file.fileno())
-    part.replace(path)
+    try:
+        with part.open("w", encoding="utf-8") as file:
+            file.writelines(_lines(project, video))
+            file.flush()
+            os.fsync(file.fileno())
+        part.replace(path)
+    except BaseException:
+        part.unlink(missing_ok=True)
+        raise
 
 
 def put_aside(path: Path) -> Path:
