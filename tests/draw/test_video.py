@@ -24,6 +24,14 @@ for i in range(200):
     writer.write(np.roll(noise, i, 1))
 os.kill(os.getpid(), signal.SIGKILL)
 """
+FULL = """
+import sys
+import numpy as np
+from tricue.draw.video import OverlayWriter
+with OverlayWriter(sys.argv[1], 10.0) as writer:
+    for _ in range(100):
+        writer.write(np.zeros((240, 320, 3), np.uint8))
+"""
 
 
 @pytest.fixture(params=["pyav", "opencv"])
@@ -146,6 +154,18 @@ def test_a_full_disk_names_the_file(tmp_path: Path) -> None:
     encoder = PyAVEncoder(path, 5.0, (64, 48))
     with pytest.raises(OSError, match=r"No space left on device: .*o\.mp4"):
         _write_noise(encoder, 100)
+
+
+@pytest.mark.parametrize("name", ["o.mp4", "o.mkv", "o.webm"])
+def test_a_full_disk_ends_no_process(tmp_path: Path, name: str) -> None:
+    """It proves that a video without room for its first bytes is an error, also when it is closed."""
+    pytest.importorskip("av")
+    (tmp_path / name).symlink_to("/dev/full")
+    done = subprocess.run(
+        [sys.executable, "-c", FULL, str(tmp_path / name)], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 1
+    assert f"No space left on device: '{tmp_path / name}'" in done.stderr.splitlines()[-1]
 
 
 def test_what_the_encoder_refuses_names_the_file(tmp_path: Path) -> None:

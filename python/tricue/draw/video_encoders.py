@@ -60,6 +60,7 @@ class PyAVEncoder:
     def __init__(self, path: Path, fps: float, size: tuple[int, int]) -> None:
         av: Any = importlib.import_module("av")
         self._path, self.written = path, 0
+        self._error: Exception | None = None
         suffix = path.suffix.lower()
         codec, options = CODECS[suffix]
         container = {"flush_packets": "1"}
@@ -86,14 +87,26 @@ class PyAVEncoder:
             if frame.pts - self._key >= self._ticks:
                 frame.pict_type, self._key = self._key_frame, frame.pts
             self._time = frame.pts
-            self._file.mux(self._stream.encode(frame))
+            self._mux(frame)
         self.written += 1
 
     def close(self) -> None:
         with _naming(self._path), self._file:  # which closes the file
-            self._file.mux(self._stream.encode())
+            if self._error is not None:
+                raise self._error
+            self._mux(None)
         if self._path.suffix.lower() == ".mp4" and self._path.is_file():
             _defragment(self._path)
+
+    def _mux(self, frame: Any) -> None:
+        """Encode a frame, None for the last ones, and write what comes of it; after an error, as on a full
+        disk, FFmpeg would crash in the next packet.
+        """
+        try:
+            self._file.mux(self._stream.encode(frame))
+        except Exception as error:
+            self._error = error
+            raise
 
     def _due(self, seconds: float | None) -> int:
         """When the next image is shown, ticks from the start; after the one before in any case."""
