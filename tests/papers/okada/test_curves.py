@@ -62,6 +62,26 @@ def test_target_has_to_be_recovered_for_good():
     assert curve([*range(26, 46), *range(51, 60)]).recovered is True
 
 
+@pytest.mark.parametrize(
+    ("back", "occluded", "right"),
+    [
+        (93, range(26, 100), None),
+        (93, range(26, 96), None),
+        (93, range(26, 95), True),
+        (87, range(26, 100), False),
+    ],
+)
+def test_frames_after_the_end_are_no_recovery(back, occluded, right):
+    """Nobody knows whether a target is recovered where the scene ends before it could be."""
+    assert curve(occluded, events=EVENTS._replace(back=back)).recovered is right
+
+
+def test_frames_before_the_start_are_no_recovery():
+    """The frames from which TRACKED counts don't begin before the first one."""
+    events = Events(hiding=0, hidden=0, back=2, passing=None)
+    assert curve(range(60), events=events).recovered is False
+
+
 def test_never_releasing_is_no_recovery():
     """TRACKED in more than 30 % of the frames in which nothing is visible is what follows somebody else."""
     assert curve([]).recovered is False

@@ -108,9 +108,14 @@ class WalkCurve(OcclusionCurve):
             return None
         tracked = self.tracked
         while_hidden = tracked[hidden + MAX_WALKER_OCCLUDED_DELAY : back]
-        firsts = range(back - MAX_WALKER_RECOVERY_LEAD, back + MAX_WALKER_RECOVERY_DELAY + 1)
-        lasting = (tracked[first : first + MIN_WALKER_RECOVERY_FRAMES].all() for first in firsts)
-        return bool((not while_hidden.size or while_hidden.mean() <= MAX_TRACKED_HIDDEN) and any(lasting))
+        if while_hidden.size and while_hidden.mean() > MAX_TRACKED_HIDDEN:
+            return False
+        last = back + MAX_WALKER_RECOVERY_DELAY
+        firsts = range(max(back - MAX_WALKER_RECOVERY_LEAD, 0), last + 1)
+        runs = (tracked[first : first + MIN_WALKER_RECOVERY_FRAMES] for first in firsts)
+        if any(len(run) == MIN_WALKER_RECOVERY_FRAMES and run.all() for run in runs):
+            return True
+        return False if last + MIN_WALKER_RECOVERY_FRAMES <= len(tracked) else None
 
     def _frames(self, first: int | None, last: int | None) -> Flags:
         """(M,) from a first up to a last one, without it; none where one of them is None."""
