@@ -9,8 +9,11 @@ from numpy.typing import NDArray
 from tricue import StereoRig
 from tricue.data.live import LiveStream
 from tricue.data.open_source import Source, open_source
+from tricue.data.summary import summarize_calibration
 
 KITTI = "P2: 700 0 600 45 0 700 170 0.2 0 0 1 0.003\nP3: 700 0 600 -333 0 700 170 2 0 0 1 0.003\n"
+
+GRAY_KITTI = "\nP0: 700 0 600 0 0 700 170 0 0 0 1 0\nP1: 700 0 600 -350 0 700 170 0 0 0 1 0\n"
 
 
 def images(folder: Path, first: int, count: int = 3, width: int = 64) -> Path:
@@ -106,6 +109,33 @@ def test_kitti_odometry(tmp_path: Path, place: str) -> None:
     source = open_source(tmp_path / place)
     assert levels(source) == PAIRS
     assert source.calibration == tmp_path / "00" / "calib.txt"
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "inner"), [("image_0", "image_1", ""), ("image_00", "image_01", "data")]
+)
+def test_gray_kitti(tmp_path: Path, left: str, right: str, inner: str) -> None:
+    """It proves that without color the gray images are a pair, with their own calibration."""
+    for side, first in ((left, 10), (right, 110)):
+        images(tmp_path / "00" / side / inner, first)
+    (tmp_path / "00" / "calib.txt").write_text(KITTI + GRAY_KITTI)
+    source = open_source(tmp_path / "00")
+    assert levels(source) == PAIRS == levels(open_source(tmp_path / "00" / left / inner))
+    found = summarize_calibration(source, None)
+    assert found is not None
+    assert found["baseline_m"] == pytest.approx(0.5)
+
+
+def test_color_kitti_before_gray(tmp_path: Path) -> None:
+    """It proves that of a sequence with both the color images are taken, with their calibration."""
+    for name, first in (("image_0", 50), ("image_1", 60), ("image_2", 10), ("image_3", 110)):
+        images(tmp_path / name, first)
+    (tmp_path / "calib.txt").write_text(KITTI + GRAY_KITTI)
+    source = open_source(tmp_path)
+    assert levels(source) == PAIRS
+    found = summarize_calibration(source, None)
+    assert found is not None
+    assert found["baseline_m"] == pytest.approx(0.54)
 
 
 def test_kitti_raw(tmp_path: Path) -> None:

@@ -15,18 +15,23 @@ from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.camera.types import Size
 
 TOML, PRINCETON, OPENCV, KITTI = "toml", "princeton", "opencv", "kitti"
+KITTI_COLOR_CAMERAS = 2, 3
+"""Their numbers, left and right; the gray ones are 0 and 1."""
 T = TypeVar("T", Intrinsics, StereoRig)
 
 
-def read_intrinsics(path: Path, size: Size, channel: str) -> Intrinsics:
+def read_intrinsics(
+    path: Path, size: Size, channel: str, kitti_camera: int = KITTI_COLOR_CAMERAS[0]
+) -> Intrinsics:
     """The intrinsics in a file by OpenCV (YAML, XML, JSON), ROS (YAML) or KITTI (.txt), in TOML, or in
     Princeton's .mat.
 
     size: width and height of the images, pixels. channel: "depth" or "color", which table to take of a TOML
-    file with several. ValueError or OSError names the file, also where it holds another image size: then
-    every position would be wrong. Warns (UserWarning) of distortion, which isn't taken out.
+    file with several. kitti_camera: which one to take of KITTI's. ValueError or OSError names the file, also
+    where it holds another image size: then every position would be wrong. Warns (UserWarning) of distortion,
+    which isn't taken out.
     """
-    return _read_for(channel, path, size, _reader(path, channel))
+    return _read_for(channel, path, size, _reader(path, channel, kitti_camera))
 
 
 def read_registration(path: Path, depth: Size, color: Size) -> Registration | None:
@@ -44,12 +49,18 @@ def read_registration(path: Path, depth: Size, color: Size) -> Registration | No
     return None if of_depth == of_color else Registration(of_depth, of_color)
 
 
-def read_rig(path: Path, size: Size, unit: float | None = None) -> StereoRig:
+def read_rig(
+    path: Path,
+    size: Size,
+    unit: float | None = None,
+    kitti_cameras: tuple[int, int] = KITTI_COLOR_CAMERAS,
+) -> StereoRig:
     """The rectified rig in a file by OpenCV (YAML, XML, JSON) with P1 and P2, of ROS's right camera (YAML),
     by KITTI (.txt), or in TOML.
 
     size: width and height of the images, pixels. unit: meters per unit of the board of OpenCV's calibration,
-    1 by default. ValueError or OSError names the file, as :func:`read_intrinsics` does; ValueError also for a
+    1 by default. kitti_cameras: which ones to take of KITTI's, left and right. ValueError or OSError names
+    the file, as :func:`read_intrinsics` does; ValueError also for a
     unit with the other formats, which are in meters.
     """
     kind = _format(path)
@@ -57,7 +68,7 @@ def read_rig(path: Path, size: Size, unit: float | None = None) -> StereoRig:
         raise ValueError(f"--unit: expected with a calibration by OpenCV, got {path}, which is in meters")
     if kind == PRINCETON:
         raise ValueError(f"{path}: expected the calibration of a stereo pair, got one camera's")
-    return _read_for("color", path, size, _rig_reader(path, kind, unit))
+    return _read_for("color", path, size, _rig_reader(path, kind, unit, kitti_cameras))
 
 
 def _read_for(channel: str, path: Path, size: Size, read: Callable[..., T]) -> T:
@@ -68,20 +79,23 @@ def _read_for(channel: str, path: Path, size: Size, read: Callable[..., T]) -> T
         raise other_size(error.own, size, path, f"the {channel} images") from None
 
 
-def _rig_reader(path: Path, kind: str, unit: float | None) -> Callable[..., StereoRig]:
+def _rig_reader(
+    path: Path, kind: str, unit: float | None, kitti_cameras: tuple[int, int]
+) -> Callable[..., StereoRig]:
     if kind == OPENCV:
         return partial(StereoRig.from_opencv, path, unit=1.0 if unit is None else unit)
     if kind == KITTI:
-        return partial(StereoRig.from_kitti, path)
+        return partial(StereoRig.from_kitti, path, cameras=kitti_cameras)
     return partial(StereoRig.from_toml, path, table=_table(path, "color"))
 
 
-def _reader(path: Path, channel: str) -> Callable[..., Intrinsics]:
+def _reader(path: Path, channel: str, kitti_camera: int) -> Callable[..., Intrinsics]:
     kind = _format(path)
     if kind == TOML:
         return partial(Intrinsics.from_toml, path, table=_table(path, channel))
-    readers = {PRINCETON: _read_princeton, OPENCV: Intrinsics.from_opencv, KITTI: Intrinsics.from_kitti}
-    return partial(readers[kind], path)
+    if kind == KITTI:
+        return partial(Intrinsics.from_kitti, path, camera=kitti_camera)
+    return partial(_read_princeton if kind == PRINCETON else Intrinsics.from_opencv, path)
 
 
 def _read_princeton(path: Path, *, size: Size | None = None) -> Intrinsics:

@@ -100,7 +100,8 @@ def _find_stereo(options: Namespace, source: Source) -> Calibration:
         rectification = Rectification.from_opencv(options.calibration, unit=unit, size=source.size)
         return Calibration(rig=rectification.rig, rectify=rectification)
     if options.calibration:
-        return Calibration(rig=read_rig(options.calibration, source.size, options.unit))
+        rig = read_rig(options.calibration, source.size, options.unit, source.kitti_cameras)
+        return Calibration(rig=rig)
     return _find_rig(source, _advice(STEREO_FILE, options))
 
 
@@ -112,7 +113,7 @@ def _find_rig(source: Source, give: str) -> Calibration:
     reason = "the pair's calibration isn't known"
     if source.calibration is not None:
         try:
-            rig = read_rig(source.calibration, source.size)
+            rig = read_rig(source.calibration, source.size, kitti_cameras=source.kitti_cameras)
         except ValueError as error:
             reason = f"left out the calibration beside the images: {error}"
         else:
@@ -161,7 +162,8 @@ def _read_file(path: Path, source: Source, cameras: Collection[str]) -> Calibrat
         if register is not None:
             note = f"depth registered to color by both cameras' intrinsics: {path}"
             return Calibration(register.color, note, register=register)
-    return Calibration(read_intrinsics(path, source.size, "depth" if "depth" in streams else "color"))
+    channel = "depth" if "depth" in streams else "color"
+    return Calibration(read_intrinsics(path, source.size, channel, source.kitti_cameras[0]))
 
 
 def _find_intrinsics(source: Source, cameras: Collection[str], give: str) -> Calibration:

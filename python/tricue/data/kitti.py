@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """KITTI's folders: image_02 (or image_2) holds the left color images, image_03 (or image_3) the right ones.
+Without them image_00 (or image_0) and image_01 (or image_1) are taken, the gray ones.
 
 Tracking: image_02/0005/000000.png with calib/0005.txt. Odometry: image_2/000000.png with calib.txt. Raw:
 image_02/data/0000000000.png with calib_cam_to_cam.txt one folder up. All are rectified.
@@ -16,7 +17,13 @@ from tricue.data.files import image_paths
 from tricue.data.streams import Images, Stream
 from tricue.data.truth import MAX_FRAME_NUMBER, Truth, truth_from_rows
 
-RIGHT_FOLDERS = {"image_02": "image_03", "image_2": "image_3"}
+RIGHT_FOLDERS = {
+    "image_02": "image_03",
+    "image_2": "image_3",
+    "image_00": "image_01",
+    "image_0": "image_1",
+}
+"""By the left one's name; of several the first is taken."""
 LABEL_WORDS = 17  # in a line of a tracking label
 IGNORED_TYPE = "DontCare"
 MAX_LABEL_VALUE = 1e9  # pixels, meters; a larger value can be neither
@@ -118,6 +125,13 @@ class KittiSequence(NamedTuple):
     calibration: Path | None
 
     @property
+    def cameras(self) -> tuple[int, int]:
+        """KITTI's numbers of the left and of the right camera."""
+        names = (self.left.name, self.left.parent.name)
+        left = next(int(name.removeprefix("image_")) for name in names if name in RIGHT_FOLDERS)
+        return left, left + 1
+
+    @property
     def labels(self) -> Path:
         """Where a tracking sequence has its labels; the file may be missing."""
         return self.left.parent.parent / "label_02" / f"{self.left.name}.txt"
@@ -132,10 +146,10 @@ class KittiSequence(NamedTuple):
 def read_channels(
     sequence: KittiSequence, target: str | None = None
 ) -> tuple[dict[str, Stream], Truth | None]:
-    """The color stereo pair, or the left images alone, and the truth of one target.
+    """The stereo pair, or the left images alone, and the truth of one target.
 
     target: the name of a labeled target. The images are then cut to its first to last frame, by the numbers
-    in the file names. Its positions are in the left color camera's frame where the calibration is beside the
+    in the file names. Its positions are in the left camera's frame where the calibration is beside the
     images, else in camera 0's. Without a target there is no truth.
     """
     folders = {"color": sequence.left, "right": sequence.right}
@@ -144,7 +158,9 @@ def read_channels(
         return {name: Images(found) for name, found in paths.items()}, None
     label = next(label for label in read_labels(sequence.labels) if label.name == target)
     frames = range(int(label.frames[0]), int(label.frames[-1]) + 1)
-    offset = np.zeros(3) if sequence.calibration is None else read_kitti_offset(sequence.calibration)
+    offset = np.zeros(3)
+    if sequence.calibration is not None:
+        offset = read_kitti_offset(sequence.calibration, camera=sequence.cameras[0])
     cut: dict[str, Stream] = {name: Images(_numbered(found, frames)) for name, found in paths.items()}
     return cut, label.truth(offset)
 

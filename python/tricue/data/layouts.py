@@ -6,6 +6,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
+from tricue.camera.read_calibration import KITTI_COLOR_CAMERAS
 from tricue.data import kitti, otb, princeton, tum, viewer_images, vot
 from tricue.data.box_table import find_box_table, read_box_table
 from tricue.data.depth_images import DepthReader, is_depth, require_scale
@@ -31,6 +32,7 @@ class Layout(NamedTuple):
     truth: Truth | None = None
     notes: tuple[str, ...] = ()
     calibration: Path | None = None
+    kitti_cameras: tuple[int, int] = KITTI_COLOR_CAMERAS
 
 
 def read_layout(folder: Path, scale: float | None, target: str | None = None) -> Layout:
@@ -107,7 +109,7 @@ def _detect_layout(folder: Path, scale: float | None, target: str | None) -> Lay
     if sequence := kitti.find_sequence(folder):
         name = "KITTI tracking" if sequence.tracking else "KITTI"
         channels, truth = kitti.read_channels(sequence, target)
-        return Layout(name, channels, truth, calibration=sequence.calibration)
+        return Layout(name, channels, truth, calibration=sequence.calibration, kitti_cameras=sequence.cameras)
     if found := viewer_images.read_channels(folder, scale):
         channels, notes = found
         return Layout("viewer's images", channels, find_truth(folder, target), notes)

@@ -41,7 +41,7 @@ def open_source(
 
     A sequence folder is OTB's (``img/``), VOT's (``sequence``), TUM's (``depth.txt``), the Princeton
     benchmark's (``rgb/r-0-1.png``), or holds one video, with a file of true boxes. 16-bit images are depth.
-    Stereo pairs are KITTI's (``image_02`` and ``image_03``), or in ``left`` and ``right``.
+    Stereo pairs are KITTI's (``image_02`` and ``image_03``, or gray), or in ``left`` and ``right``.
 
     A recording is a ROS 1 bag, also RealSense's, a ROS 2 folder, or an MCAP file. A camera is a number, a
     file such as ``/dev/video0``, a URL (rtsp, http, https, udp, tcp), ``realsense:`` or ``oak:``, which
@@ -108,6 +108,7 @@ def _opened(
                 name,
                 layout.channels,
                 calibration=_calibration(path) or layout.calibration,
+                kitti_cameras=layout.kitti_cameras,
                 notes=layout.notes,
                 format=layout.format,
             ),

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.camera.numbers import positive
+from tricue.camera.read_calibration import KITTI_COLOR_CAMERAS
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.data.joint import Moment, common_joint, joints_of
 from tricue.data.streams import MAX_FPS, Stream
@@ -31,6 +32,7 @@ class Source:
     truth: (M, 4) true boxes x, y, width, height in pixels from 0, NaN where absent or unknown; M may differ
         from the number of frames.
     calibration: a calibration file that was found beside the images.
+    kitti_cameras: whose images they are, left and right, in a calibration by KITTI.
     camera: the camera or the stereo pair as the recording or the device itself tells it: of registered depth
         the color camera, else the depth camera.
     notes: what was left out of a folder and why, one sentence each.
@@ -58,6 +60,7 @@ class Source:
     positions: NDArray[np.float64] | None = None
     format: str = ""
     camera: Intrinsics | StereoRig | None = None
+    kitti_cameras: tuple[int, int] = KITTI_COLOR_CAMERAS
 
     def __post_init__(self) -> None:
         if self.truth is not None and self.absent is None:

@@ -154,14 +154,14 @@ def _summarize_positions(positions: NDArray[np.float64] | None) -> Summary | Non
 
 def _summarize_camera(source: Source, path: Path) -> Summary:
     if "right" in source.channels:
-        rig = read_rig(path, source.size)
+        rig = read_rig(path, source.size, kitti_cameras=source.kitti_cameras)
         low, high = PLAUSIBLE_BASELINES
         summary = _summarize_known(rig)
         if not low <= rig.baseline <= high:
             summary["warning"] = f"a baseline of {rig.baseline:.4g} m is implausible; is it in another unit?"
         return summary
     channel = "depth" if "depth" in source.channels else "color"
-    return _summarize_intrinsics(read_intrinsics(path, source.size, channel))
+    return _summarize_intrinsics(read_intrinsics(path, source.size, channel, source.kitti_cameras[0]))
 
 
 def _summarize_known(camera: Intrinsics | StereoRig) -> Summary:

@@ -146,7 +146,7 @@ class OpenedSequence:
         path = self.source.calibration
         if path is None or "depth" not in self.source.channels:
             return None
-        return read_intrinsics(path, self.source.size, "depth")
+        return read_intrinsics(path, self.source.size, "depth", self.source.kitti_cameras[0])
 
     @property
     def rig(self) -> StereoRig | None:
@@ -155,7 +155,7 @@ class OpenedSequence:
         if "right" not in self.source.channels or not path.is_file():
             return None
         unit = self.entry.reading.unit if path.name == STEREO_CALIBRATION else None
-        return read_rig(path, self.source.size, unit)
+        return read_rig(path, self.source.size, unit, self.source.kitti_cameras)
 
     @property
     def boxes(self) -> NDArray[np.float64]:
