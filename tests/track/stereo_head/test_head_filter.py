@@ -168,13 +168,13 @@ def test_a_correction_weighs_by_noise(motion, kernels):
 def test_coasting_slows_down():
     """Without a measurement the velocity fades and nothing else changes, nor does the prediction itself."""
     moving = HeadFilter(np.concatenate([VALUES, [1.0, -2.0, 3.0]]), np.eye(10))
-    slowed = coast(moving)
+    slowed = coast(moving, SECONDS)
     np.testing.assert_array_equal(
         slowed.mean, [*VALUES, COASTING_FACTOR, -2 * COASTING_FACTOR, 3 * COASTING_FACTOR]
     )
     np.testing.assert_array_equal(slowed.covariance, moving.covariance)
     assert moving.mean[7] == 1
-    np.testing.assert_array_equal(coast(initialize(VALUES, NOISE, CONSTANT)).mean, VALUES)
+    np.testing.assert_array_equal(coast(initialize(VALUES, NOISE, CONSTANT), SECONDS).mean, VALUES)
 
 
 def test_errors_are_as_large_as_it_says(kernels):
@@ -241,6 +241,6 @@ def test_covariances_stay_covariances(motion, kernels):
     state = initialize(VALUES, NOISE, p)
     for frame in range(300):
         state = predict(kernels, state, SECONDS, p)
-        state = coast(state) if frame // 40 % 2 else correct(kernels, state, VALUES, NOISE)
+        state = coast(state, SECONDS) if frame // 40 % 2 else correct(kernels, state, VALUES, NOISE)
         np.testing.assert_array_equal(state.covariance, state.covariance.T)
         assert np.linalg.eigvalsh(state.covariance).min() > 0

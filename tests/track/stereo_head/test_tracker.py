@@ -202,7 +202,7 @@ def test_a_head_that_stays_away_is_lost(heads, follow):
 def test_a_missed_head_may_come_as_near_as_allowed(heads, follow):
     """A head that is missed on its way to the camera is predicted at ``near``, however large it is there."""
     scene = heads(0)
-    tracker = StereoHeadTracker(rig=scene.rig, near=0.001)
+    tracker = StereoHeadTracker(rig=scene.rig, near=0.001, rate=60.0)  # twice as fast as it was rendered
     coming = [Frame(frame.color, right=frame.right) for frame in scene.frames[24::-1]]
     follow(tracker, coming, scene.boxes[24])
     black = np.zeros_like(coming[0].color)

@@ -11,6 +11,7 @@ from tricue.camera.box import Box, BoxLike, as_box
 from tricue.camera.frame import FrameLike
 from tricue.camera.rig import Intrinsics
 from tricue.track.base import validation
+from tricue.track.base.coasting import velocity_kept
 from tricue.track.base.position_limit import MAX_SIGMA
 from tricue.track.base.random_source import RandomSource
 from tricue.track.base.track import Status, Track
@@ -35,7 +36,8 @@ Floats = NDArray[np.float64]
 
 REFINE_POSITION = (0.06, 0.05, 0.05)  # meters of X, Y, Z, standard deviation of the second sampling
 REFINE_SIZE = 0.05  # of the size, standard deviation of the second sampling
-VELOCITY_KEPT_HIDDEN, VELOCITY_KEPT = 0.97, 0.85  # per frame of coasting: behind an occluder, otherwise
+VELOCITY_KEPT_HIDDEN, VELOCITY_KEPT = 0.97, 0.85  # in 1 / COASTING_RATE: behind an occluder, otherwise
+COASTING_RATE = 15.0  # Hz
 MEAN_RATE = 0.1  # per frame, of the running means
 MAX_COVERED_TO_LEARN = 0.1  # of the target, by what is in front of it
 LOG_SIZE_DEVIATION = np.array([0.25, 0.2])  # of width and height against their running means
@@ -294,9 +296,10 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             occluder = None if index is None else state.objects.states[index, :3]
         missed_seconds = state.missed_seconds + seconds
         spread = np.minimum(state.motion.position_deviation(p, missed_seconds), MAX_SIGMA)
+        kept = velocity_kept(VELOCITY_KEPT_HIDDEN if hidden else VELOCITY_KEPT, seconds, COASTING_RATE)
         return state._replace(
             random=self._random.save(),
-            motion=state.motion.coast(expected, VELOCITY_KEPT_HIDDEN if hidden else VELOCITY_KEPT),
+            motion=state.motion.coast(expected, kept),
             particles=ParticleSet.at_state(expected, p.particles),
             score=0.0,
             missed_seconds=missed_seconds,

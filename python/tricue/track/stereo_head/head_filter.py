@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
+from tricue.track.base.coasting import velocity_kept
 from tricue.track.base.position_limit import limit_covariance
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.stereo_geometry import Point
@@ -18,7 +19,7 @@ Floats = NDArray[np.float64]
 MEASUREMENT_SIZE = 7  # (7): X, Y, Z, three colors, the intersection; in a state the velocity comes after
 INTERSECTION_DRIFT = 1.0  # standard deviation, section 4.1: unity
 MOVING = np.array([0, 1, 2, 7, 8, 9])  # the position and, where a state has one, the velocity
-COASTING_FACTOR = 0.9  # of the velocity, for each frame without a measurement
+COASTING_FACTOR, COASTING_RATE = 0.9, 30.0  # of the velocity, in 1 / rate (Hz) without a measurement
 
 
 class HeadFilter(NamedTuple):
@@ -98,10 +99,10 @@ def _selection(size: int) -> Floats:
     return np.eye(MEASUREMENT_SIZE, size)
 
 
-def coast(predicted: HeadFilter) -> HeadFilter:
-    """The state after a frame without a measurement: the prediction with a smaller velocity."""
+def coast(predicted: HeadFilter, seconds: float) -> HeadFilter:
+    """The state after so many seconds without a measurement: the prediction with a smaller velocity."""
     mean = predicted.mean.copy()
-    mean[MEASUREMENT_SIZE:] *= COASTING_FACTOR
+    mean[MEASUREMENT_SIZE:] *= velocity_kept(COASTING_FACTOR, seconds, COASTING_RATE)
     return HeadFilter(mean, predicted.covariance)
 
 

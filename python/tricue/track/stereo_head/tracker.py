@@ -160,7 +160,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         detected = self._redetect(state, pair) if state.missed > p.search_frame_after else None
         if detected is not None:
             return self._learn(state, detected, None, timestamp)
-        coasting = head_filter.coast(predicted)  # neither size nor model changes
+        coasting = head_filter.coast(predicted, seconds)  # neither size nor model changes
         missed = state.missed + seconds
         return state._replace(filter=coasting, missed=missed, score=0.0, timestamp=timestamp)
 
