@@ -315,6 +315,15 @@ def test_a_frame_without_the_target_is_not_seen(name):
     assert tracks[-1].box.iou(Box(BOX[0] + 15, *BOX[1:])) > 0.6
 
 
+@pytest.mark.parametrize("name", ["black", "white", "gray"])
+def test_the_second_frame_without_texture_is_not_seen(name):
+    """Nor by flow alone, right after the first frame, when nobody knows how many pixels the target has."""
+    tracker = FlowDepthTracker(cues=("flow",))
+    tracker.init(framed(), BOX)
+    assert tracker.update(odd(name)).score == 0
+    assert not tracker.mask.any()
+
+
 @pytest.mark.parametrize("name", ["black", "gray", "another scene", "another scene, nearer"])
 def test_a_cut_is_lost(name):
     """After a cut to another scene, or to nothing, the target is LOST in the end, and nothing runs away."""

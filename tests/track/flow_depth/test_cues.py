@@ -53,6 +53,17 @@ def test_flow_is_what_moved(levels, kernels):
         assert np.nanmedian(found.values[INNER]) == pytest.approx(true, abs=0.1)
 
 
+@pytest.mark.parametrize("value", [0, 128, 255])
+def test_nothing_moves_in_a_uniform_image(value, kernels):
+    """From a picture to a black, gray or white image, and back, there is no flow."""
+    one = pair(5)
+    none = one._replace(gray=np.full_like(one.gray, value))
+    for before, now in ((one, none), (none, one), (none, none)):
+        for found in measure(kernels, before, now, REGION, 5, P).flow:
+            assert np.isnan(found.values).all()
+            assert found.values.shape == found.weights.shape == (40, 50)
+
+
 @pytest.mark.parametrize("expected", [3, 5, 7.5])
 def test_disparity_is_what_was_drawn(expected, kernels):
     """Around an expected disparity that is off, the true one is measured, in the median to 0.1 cells."""

@@ -4,6 +4,7 @@
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
 from tricue.track.flow_depth.params import FlowDepthParams
@@ -66,6 +67,9 @@ def measure(
 def _measure_flow(
     k: Kernels, before: ReducedFrame, now: ReducedFrame, region: Region, p: FlowDepthParams
 ) -> tuple[CueMap, CueMap]:
+    if _is_uniform(before.gray, region) or _is_uniform(now.gray, region):
+        nothing = _no_measurements(region)  # what appears or disappears would look like motion
+        return nothing, nothing
     limits = p.min_angle, p.min_contrast
     if p.flow_levels == 1:
         u, v, angle, _ = k.gradient_flow(before.gray, now.gray, p.sigma, *limits, region)
@@ -74,6 +78,21 @@ def _measure_flow(
             before.gray, now.gray, p.sigma, p.flow_levels, *limits, region, POOLING_RADIUS
         )
     return CueMap(u, angle), CueMap(v, angle)
+
+
+def _is_uniform(gray: NDArray[np.uint8], region: Region) -> bool:
+    """Whether a region has one gray value alone, as in a black image."""
+    x0, y0, x1, y1 = region
+    cells = gray[y0:y1, x0:x1]
+    value = cells[0, 0]
+    return bool((cells[0] == value).all() and (cells == value).all())  # mostly the first row decides
+
+
+def _no_measurements(region: Region) -> CueMap:
+    """A cue that was measured in none of the cells."""
+    x0, y0, x1, y1 = region
+    shape = y1 - y0, x1 - x0
+    return CueMap(np.full(shape, np.nan, np.float32), np.zeros(shape, np.float32))
 
 
 def _measure_disparity(
