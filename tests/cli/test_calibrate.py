@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from tricue import ColorParticleTracker, StereoHeadTracker, reference
 from tricue.cli import main
-from tricue.scenes import StereoScene, static_head
+from tricue.scenes import StereoScene, head, static_head
 
 ColorParams, HeadParams = ColorParticleTracker.Params, StereoHeadTracker.Params
 SKIN, HAIR, REST = (110, 140, 190), (20, 25, 30), (200, 90, 40)
@@ -131,6 +131,18 @@ def test_samples_may_have_boxes(tmp_path):
         assert main(["calibrate", "head-colors", f"--skin={skin}", f"--hair={hair}", f"--output={out}"]) == 0
         models.append(HeadParams.from_toml(out).head_colors)
     assert models[0] == models[1]
+
+
+@pytest.mark.filterwarnings("default")  # they are to be printed
+def test_stereo_noise_of_a_moving_head_is_warned_of(still, tmp_path, capsys):
+    """The noise is written, as the user may know better, and a line tells that it isn't a head's at rest."""
+    moving = head(0, 24)
+    for scene, count in ((moving, 1), (still, 0)):
+        folder, out = write_pair(scene, tmp_path / str(count)), tmp_path / "head.toml"
+        place = [str(folder), "--box", ",".join(map(str, scene.boxes[0]))]
+        calibrated = ["--calibration", str(folder / "rig.toml"), "--output", str(out)]
+        assert main(["calibrate", "stereo-noise", *place, *calibrated]) == 0
+        assert capsys.readouterr().err.count("the head seems to move") == count
 
 
 def test_stereo_noise_is_that_of_a_head_at_rest(still, tmp_path, capsys):

@@ -5,6 +5,7 @@ import argparse
 import os
 import shutil
 import tempfile
+import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain, tee
 from pathlib import Path
@@ -159,6 +160,11 @@ def _stereo_noise(options: argparse.Namespace, params: Any) -> dict[str, Any]:
         raise ValueError(f"{source.name}: {error}") from None
     if options.distance is not None:
         _check_distance(options.distance, float(static.positions[:, 2].mean()))
+    if static.moves:
+        warnings.warn(
+            f"{source.name}: the head seems to move, which counts as noise; record a head at rest",
+            stacklevel=2,
+        )
     measured = static.noise
     pairs = f"{static.frames} stereo pairs after the first, which gives the model"
     print(f"{source.name}: a head measured in {len(static.colors)} of {pairs}")

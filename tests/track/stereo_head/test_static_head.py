@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 from tricue import Frame, StereoHeadTracker
-from tricue.scenes import static_head
+from tricue.scenes import head, static_head
 from tricue.track.stereo_head.color_samples import count_colors, head_colors
 from tricue.track.stereo_head.static_head import measure_static_head, split_noise
 
@@ -44,6 +44,14 @@ def test_a_noisier_camera_has_noisier_measurements():
     assert quiet.frames == len(quiet.positions) == 29
     assert quiet.colors.shape == (29, 3)
     assert quiet.noise["intersection_noise"] < loud.noise["intersection_noise"]
+
+
+@pytest.mark.parametrize("seed", [0, 2, 4])
+def test_a_head_that_moves_is_told_from_a_noisy_one(seed):
+    """However noisy the camera is, and in changing light, a head at rest doesn't seem to move."""
+    moving, *still = head(seed, 60), static_head(seed, 60, noise=6.0), static_head(seed, 60, light=0.3)
+    assert measure_static_head(moving.frames, moving.boxes[0], moving.rig).moves
+    assert not any(measure_static_head(each.frames, each.boxes[0], each.rig).moves for each in still)
 
 
 def test_positions_are_those_of_the_head():
