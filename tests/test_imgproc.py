@@ -157,6 +157,8 @@ REFUSED: dict[str, tuple[Callable[[], Any], type[Exception], str]] = {
     "anchor": (lambda: imgproc.dilate(PLANE, 2, 2), ValueError, "anchor: expected"),
     "size": (lambda: imgproc.resize(PLANE, 0, 5, "area"), ValueError, "height, width: expected"),
     "sigma": (lambda: imgproc.gaussian_blur(PLANE, 0.0), ValueError, "sigma: expected"),
+    "huge sigma": (lambda: imgproc.gaussian_blur(PLANE, 1e5), ValueError, "sigma: expected"),
+    "endless sigma": (lambda: imgproc.gaussian_blur(PLANE, np.inf), ValueError, "sigma: expected"),
     "method": (lambda: imgproc.resize(PLANE, 2, 2, "best"), ValueError, "method: expected one of"),  # type: ignore[arg-type]
     "matrix": (lambda: imgproc.warp_perspective(PLANE, np.eye(2), 2, 2), ValueError, "matrix: expected"),
     "maps": (lambda: imgproc.remap(PLANE, PLANE, PLANE[:5]), ValueError, "rows: expected the shape"),

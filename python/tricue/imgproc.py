@@ -32,6 +32,7 @@ __all__ = [
 ]
 
 Scalar = TypeVar("Scalar", bound=np.generic)
+MAX_SIGMA = 1000  # pixels
 MIDDLE = -1  # the anchor in the middle of a square
 Floats = NDArray[np.float32]
 
@@ -46,7 +47,11 @@ def resize(
 def gaussian_blur(
     image: NDArray[Scalar], sigma: float, border: Literal["reflect", "replicate"] = "reflect"
 ) -> NDArray[Scalar]:
-    """Blur by a Gaussian of ``sigma`` pixels; beyond the border the image is mirrored or repeats its edge."""
+    """Blur by a Gaussian of ``sigma`` pixels, up to 1000: OpenCV's time and memory grow with its size, and at
+    infinity it overflows. Beyond the border the image is mirrored or repeats its edge.
+    """
+    if not 0 < sigma <= MAX_SIGMA:
+        raise ValueError(f"sigma: expected pixels above 0, {MAX_SIGMA} at most, got {sigma!r}")
     return cast("NDArray[Scalar]", _imgproc.gaussian_blur(image, sigma, border))
 
 
