@@ -188,6 +188,22 @@ def test_every_pixel_stands_for_itself(seed: int) -> None:
     assert_array_equal(small, whole[below : y1 - y0 - below, right : x1 - x0 - right])
 
 
+@given(st.integers(0, 2**32 - 1))
+@settings(max_examples=15, deadline=None)
+def test_a_wide_search_is_that_of_its_parts(seed: int) -> None:
+    """Many candidates are compared in strips of columns, whose borders change nothing."""
+    rng = np.random.default_rng(seed)
+    left = rng.integers(0, 256, (9, 900)).astype(np.uint8) // int(rng.choice([1, 64]))
+    right = np.roll(left, -int(rng.integers(0, 700)), 1)
+    first, last = int(rng.integers(-900, 100)), int(rng.integers(2500, 3000))
+    changes = {"left": left, "right": right, "first": first, "last": last, "tolerance": -1}
+    arguments = case(seed, **changes, region=(-5, 0, 905, 9), ellipse=False)
+    whole = _core.sad_disparity(**arguments)
+    edges = range(-5, 905, 70)
+    parts = [_core.sad_disparity(**arguments | {"region": (x, 0, x + 70, 9)}) for x in edges]
+    assert_array_equal(whole, np.concatenate(parts, axis=1))
+
+
 def test_the_ellipse_is_inscribed(kernels: Kernels) -> None:
     """Those pixels are measured whose centers lie in it, pi / 4 of them, as many as at the other side."""
     image = clouds(6, (90, 120))

@@ -20,6 +20,8 @@ namespace tricue {
 namespace {
 
 constexpr int kMaxSide = 16384, kMaxCandidates = 4096;
+/// Columns times candidates that are matched at a time: their sums of costs have to stay in the cache.
+constexpr int kMaxSums = 1 << 19, kMinColumns = 256;
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 using Costs = std::vector<std::uint16_t>;
@@ -162,8 +164,11 @@ Floats cell_disparities(const CellPair& pair, const StereoRegion& region, const 
     const int width = right_end - left_end, height = bottom - top;
     Floats disparity = Floats::Constant(height, width, kNone);
     const Region visible = region.place.clipped({nullptr, left.rows(), left.cols(), 1, 0});
-    const DisparityRange visible_range{std::max(range.first, visible.x0 - (left.cols() - 1)),
-                                       std::min(range.last, visible.x1 - 1)};
+    const auto in_view = [&](const Region& part) {
+        return DisparityRange{std::max(range.first, part.x0 - (left.cols() - 1)),
+                              std::min(range.last, part.x1 - 1)};
+    };
+    const DisparityRange visible_range = in_view(visible);
     if (visible.x0 >= visible.x1 || visible.y0 >= visible.y1 || visible_range.first > visible_range.last)
         return disparity;
 
@@ -172,17 +177,25 @@ Floats cell_disparities(const CellPair& pair, const StereoRegion& region, const 
         const int margin = region.ellipse ? ellipse.margin(y - region.place.y0) : 0;
         return std::pair(region.place.x0 + margin, region.place.x1 - margin);
     };
-    const int candidates = visible_range.last - visible_range.first + 1;
     const auto uniqueness = static_cast<unsigned>(matching.uniqueness);
-    Matcher matcher(left, right, visible, visible_range, matching);
-    std::optional<LeftRightCheck> left_right;
-    if (matching.tolerance >= 0)
-        left_right.emplace(visible.x0 - visible_range.last, visible.x1 - visible_range.first);
-    matcher.run(uniqueness > 0, span, [&](int y, int x0, int x1, const Matches& matches) {
-        float* row = &disparity(y - region.place.y0, x0 - region.place.x0);
-        refine_matches(matches, x1 - x0, visible_range.first, candidates, uniqueness, row);
-        if (left_right) left_right->check(matches, x0, x1, visible_range.first, matching.tolerance, row);
-    });
+    const auto match = [&](const Region& part) {
+        const DisparityRange within = in_view(part);
+        if (within.first > within.last) return;
+        const int candidates = within.last - within.first + 1;
+        Matcher matcher(left, right, part, within, matching);
+        std::optional<LeftRightCheck> left_right;
+        if (matching.tolerance >= 0) left_right.emplace(part.x0 - within.last, part.x1 - within.first);
+        matcher.run(uniqueness > 0, span, [&](int y, int x0, int x1, const Matches& matches) {
+            float* row = &disparity(y - region.place.y0, x0 - region.place.x0);
+            refine_matches(matches, x1 - x0, within.first, candidates, uniqueness, row);
+            if (left_right) left_right->check(matches, x0, x1, within.first, matching.tolerance, row);
+        });
+    };
+    const int candidates = visible_range.last - visible_range.first + 1;
+    const bool whole_rows = matching.tolerance >= 0;  // left and right are checked by these
+    const int strip = whole_rows ? visible.x1 - visible.x0 : std::max(kMaxSums / candidates, kMinColumns);
+    for (int x = visible.x0; x < visible.x1; x += strip)
+        match({x, visible.y0, std::min(x + strip, visible.x1), visible.y1});
     return disparity;
 }
 
