@@ -25,9 +25,7 @@ MAX_LAG = 15  # frames, of the changes by which noise and drift are told apart
 MIN_COLOR_DEVIATION = 0.1  # levels; a filter without noise or drift would never learn another color
 MIN_INTERSECTION_DEVIATION = 0.001
 MIN_DISPARITY_DEVIATION = 0.01  # pixels
-MIN_REST_RATIO = (
-    1 / 3
-)  # von Neumann's ratio of a coordinate: 2 is usual at rest, 0.34 the least of 300 scenes
+MIN_REST_RATIO = 0.33  # von Neumann's ratio of a coordinate: 2 is usual at rest, 0.34 the least of 300 scenes
 
 
 @dataclass(frozen=True, slots=True, eq=False)
