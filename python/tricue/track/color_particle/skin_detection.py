@@ -12,9 +12,11 @@ from tricue.track.color_particle.params import ColorParticleParams
 
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
+Region = tuple[int, int, int, int]
 
 SKIN_PATCH = 1 / 3  # of the target's width and height: the central patch that gives its reference color
 MIN_SKIN_AREA = 0.05  # of the target's area; fewer skin pixels are no detection
+SKIN_ROWS = 64  # of where the target can be next: of more rows, every n-th tells as much
 MIN_PIXEL_VARIANCE = 1.0  # pixels², of a pixel's own extent: keeps the covariance positive definite
 BLOB_SPREAD = 0.25  # standard deviation of candidates at a blob, of its width and height
 CANDIDATE_SCALE = 0.2  # candidates have the mean size up to a factor of exp of plus or minus this
@@ -59,14 +61,15 @@ def detect_skin(
     """The Gaussian of the skin pixels, (11)-(16), where the target can be next or in the whole image."""
     if p.skin_share == 0:
         return NO_DETECTION
-    minor, major = ellipse[2:]
+    (minor, major), step = ellipse[2:], 1
     if p.skin_region == "image":
         region = (0, 0, image.shape[1], image.shape[0])
     else:
         left, top, *_ = prediction.lower
         right, bottom, *_ = prediction.upper
         region = (int(left - minor), int(top - major), int(right + minor) + 1, int(bottom + major) + 1)
-    count, x, y, xx, yy, xy = k.skin_moments(image, skin_color, p.skin_threshold, region).tolist()
+        step = max((region[3] - region[1]) // SKIN_ROWS, 1)
+    count, x, y, xx, yy, xy = _skin_moments(k, image, skin_color, p.skin_threshold, region, step)
     if count < MIN_SKIN_AREA * 4 * minor * major:
         return NO_DETECTION
     # Cholesky decomposition of the covariance.
@@ -74,6 +77,20 @@ def detect_skin(
     cross = xy / first
     second = (yy + MIN_PIXEL_VARIANCE - cross * cross) ** 0.5
     return SkinDetection((x, y), (first, cross, second), p.skin_share)
+
+
+def _skin_moments(
+    k: Kernels, image: Image, skin_color: Image, threshold: float, region: Region, step: int
+) -> list[float]:
+    """Count, mean and covariance of a region's skin pixels, pixels, by every ``step``-th row."""
+    if step == 1:
+        return k.skin_moments(image, skin_color, threshold, region).tolist()
+    left, top, right, bottom = region
+    first = max(top, 0) + step // 2
+    rows = image[first : max(bottom, 0) : step]
+    found = k.skin_moments(rows, skin_color, threshold, (left, 0, right, len(rows)))
+    count, x, y, xx, yy, xy = found.tolist()
+    return [step * count, x, first + step * (y - 0.5) + 0.5, xx, step * step * yy, step * xy]
 
 
 def draw_candidates(
