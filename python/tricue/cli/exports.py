@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tricue.cli.outputs import Step
-from tricue.cli.text_file import TextFile
 from tricue.export.coco import CocoTracks
 from tricue.export.mot import mot_line
+from tricue.export.text_file import TextFile
 
 
 class MotOutput(TextFile):

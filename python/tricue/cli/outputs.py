@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 from tricue.camera.frame import Frame
 from tricue.camera.rig import StereoRig
 from tricue.cli.lost_ranges import LostRanges, as_json
-from tricue.cli.text_file import TextFile
 from tricue.draw.canvas import Image, choose_scale
 from tricue.draw.depth_pictures import depth_picture, depth_range
 from tricue.draw.masks import flow_depth_overlay
@@ -30,6 +29,7 @@ from tricue.draw.targets import target_color, targets_overlay
 from tricue.draw.trail import Trail
 from tricue.draw.video import OverlayWriter
 from tricue.export.table import PLAIN, TableForm, columns, row
+from tricue.export.text_file import TextFile
 from tricue.track.base.track import Track
 
 STANDARD_OUTPUT = Path("-")  # in place of a file

@@ -6,7 +6,6 @@ import errno
 import json
 import warnings
 from pathlib import Path
-from types import SimpleNamespace
 
 import cv2
 import pytest
@@ -227,13 +226,15 @@ def test_a_table_that_cannot_be_finished(studio: Studio, monkeypatch: pytest.Mon
     studio.shows(3)
     recorder = studio.session.recorder
 
-    def full(_text: str) -> None:
+    def full() -> None:
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr(recorder, "_json", SimpleNamespace(write=full, close=recorder._json.close))
+    assert recorder is not None
+    monkeypatch.setattr(recorder._json, "finish", full)
     studio.session.stop_recording()
     assert studio.session.errors == ["not recorded: No space left on device"]
-    assert recorder._csv.closed
+    assert recorder._csv._file.closed
+    assert recorder._json._file.closed
     assert not recorder._thread.is_alive()
     assert count_frames(recorder.files[2]) > 0
 
@@ -248,7 +249,7 @@ def test_tables_that_are_removed(studio: Studio) -> None:
     for path in (table, other):
         path.unlink()
     studio.session.stop_recording()
-    told = [f"{path}: was removed while it was written" for path in (table, other)]
+    told = [f"not recorded: {path}: was removed while it was written" for path in (table, other)]
     assert (studio.session.errors, studio.session.recorded) == (told, (video,))
 
 

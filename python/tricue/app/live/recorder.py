@@ -6,10 +6,10 @@ import io
 import json
 import threading
 from collections.abc import Iterable, Sequence
-from contextlib import ExitStack, suppress
+from contextlib import suppress
 from pathlib import Path
 from queue import Full, Queue
-from typing import Any, NamedTuple, TextIO
+from typing import Any, NamedTuple
 
 from tricue.app.exports import draw_targets
 from tricue.app.project import Target
@@ -17,6 +17,7 @@ from tricue.camera.frame import Frame
 from tricue.draw.video import OverlayWriter
 from tricue.errors import one_line
 from tricue.export.table import TableForm, columns, row
+from tricue.export.text_file import TextFile
 from tricue.track.base.track import Track
 
 MAX_WAITING = 8  # frames that wait to be drawn; with more the video shows one for longer
@@ -45,15 +46,12 @@ class Recorder:
         self.latest = 0.0  # seconds, as of the frames
         self.error = ""
         self._form = form
-        self._targets: dict[int, Target] = {}
-        self._separator = "\n"
         self._video = OverlayWriter(stem.with_name(f"{stem.name}.mp4"), fps)
-        self._csv: TextIO = stem.with_name(f"{stem.name}.csv").open("w", encoding="utf-8", newline="")
-        self._json: TextIO = stem.with_name(f"{stem.name}.json").open("w", encoding="utf-8")
-        self.files = (Path(self._csv.name), Path(self._json.name), self._video.path)
+        self._csv = TextFile(stem.with_name(f"{stem.name}.csv"))
+        self._json = _TracksJson(stem.with_name(f"{stem.name}.json"))
+        self.files = (self._csv.path, self._json.path, self._video.path)
         self._put_rows([columns(form)])
-        head = json.dumps(about, indent=1, allow_nan=False, ensure_ascii=False)
-        self._json.write(head.removesuffix("\n}") + ',\n "tracks": [')
+        self._json.begin(about)
         self._waiting: Queue[VideoFrame | None] = Queue(MAX_WAITING)
         self._thread = threading.Thread(target=self._draw, name="recorder", daemon=True)
         self._thread.start()
@@ -69,32 +67,22 @@ class Recorder:
         self.latest = seconds
         rows = [row(number, seconds, track, target.id, self._form) for target, track in tracks]
         self._put_rows(rows)
-        for values in rows:
-            named = dict(zip(columns(self._form), values, strict=True))
-            self._json.write(f"{self._separator}  {json.dumps(named, allow_nan=False)}")
-            self._separator = ",\n"
-        self._json.flush()
-        self._targets |= {target.id: target for target, _ in tracks}
+        named = [dict(zip(columns(self._form), values, strict=True)) for values in rows]
+        self._json.add([target for target, _ in tracks], named)
         with suppress(Full):  # the video shows the picture before for longer
             self._waiting.put_nowait(VideoFrame(seconds, frame, tracks))
 
-    def close(self) -> None:
-        """Finish the files, each of them even where another can't be. OSError where a table can't."""
-        told = [
-            {"id": each.id, "name": each.name, "tracker": each.tracker} for each in self._targets.values()
-        ]
-        with ExitStack() as finishing:
-            finishing.callback(self._thread.join)
-            finishing.callback(self._waiting.put, None)
-            finishing.callback(self._csv.close)
-            finishing.callback(self._json.close)
-            self._json.write(f'\n ],\n "targets": {json.dumps(told, ensure_ascii=False)}\n}}\n')
+    def close(self) -> list[str]:
+        """Finish the files, each of them even where another can't be; why a table can't, a line each."""
+        problems = [_finished(table) for table in (self._csv, self._json)]
+        self._waiting.put(None)
+        self._thread.join()
+        return [each for each in problems if each]
 
     def _put_rows(self, rows: Iterable[Iterable[Any]]) -> None:
         text = io.StringIO()
         csv.writer(text, lineterminator="\n").writerows(rows)
-        self._csv.write(text.getvalue())
-        self._csv.flush()
+        self._csv.put(text.getvalue())
 
     def _draw(self) -> None:
         """The thread: the video, at a constant rate, by the times of the frames."""
@@ -118,3 +106,38 @@ class Recorder:
             self._video.close()
         except Exception as error:
             self.error = self.error or one_line(error)
+
+
+class _TracksJson(TextFile):
+    """One object: what is known of the run, its tracks, and in the end their targets."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(path)
+        self._targets: dict[int, Target] = {}
+        self._separator = "\n"
+
+    def begin(self, about: dict[str, Any]) -> None:
+        head = json.dumps(about, indent=1, allow_nan=False, ensure_ascii=False)
+        self.put(head.removesuffix("\n}") + ',\n "tracks": [')
+
+    def add(self, targets: Iterable[Target], rows: Sequence[dict[str, Any]]) -> None:
+        if rows:
+            lines = ",\n".join(f"  {json.dumps(each, allow_nan=False)}" for each in rows)
+            self.put(self._separator + lines)
+            self._separator = ",\n"
+        self._targets |= {target.id: target for target in targets}
+
+    def finish(self) -> None:
+        told = [
+            {"id": each.id, "name": each.name, "tracker": each.tracker} for each in self._targets.values()
+        ]
+        self.put(f'\n ],\n "targets": {json.dumps(told, ensure_ascii=False)}\n}}\n')
+
+
+def _finished(table: TextFile) -> str:
+    """Finish a file; why it can't be, "" where it is."""
+    try:
+        with table:
+            return ""
+    except OSError as error:
+        return one_line(error)

@@ -334,14 +334,9 @@ class LiveSession:
             recorder, self.recorder = self.recorder, None
         if recorder is None:
             return
-        try:
-            recorder.close()
-        except (OSError, ValueError) as error:
-            self.errors.append(f"not recorded: {one_line(error)}")
+        self.errors += [f"not recorded: {problem}" for problem in recorder.close()]
         if recorder.error:
             self.errors.append(f"the video isn't recorded: {recorder.error}")
-        *tables, _ = recorder.files  # the video tells by itself
-        self.errors += [f"{path}: was removed while it was written" for path in tables if not path.exists()]
         self.recorded = tuple(path for path in recorder.files if path.exists())
         if self.recorded:
             self._say(f"wrote {', '.join(map(str, self.recorded))}")

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from tricue.cli.text_file import TextFile
+from tricue.export.text_file import TextFile
 
 
 def test_what_was_put_is_there(tmp_path: Path) -> None:
@@ -43,7 +43,7 @@ def test_a_full_disk_keeps_whole_texts(tmp_path: Path, limit: int) -> None:
     program = f"""
 import resource
 from pathlib import Path
-from tricue.cli.text_file import TextFile
+from tricue.export.text_file import TextFile
 
 class Numbers(TextFile):
     def finish(self):
