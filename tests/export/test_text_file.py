@@ -35,7 +35,7 @@ def test_a_full_disk_names_the_file() -> None:
         pass
 
 
-@pytest.mark.parametrize("limit", range(60, 120, 7))
+@pytest.mark.parametrize("limit", [*range(60, 120, 7), *range(403, 418, 7)])
 def test_a_full_disk_keeps_whole_texts(tmp_path: Path, limit: int) -> None:
     """It proves that a file that may not grow beyond some size gets its end all the same, wherever in a text
     the limit is, and that the error is told.
@@ -63,3 +63,4 @@ with Numbers(Path("o.json")) as file:
     assert whole["done"]
     assert whole["numbers"] == [*range(len(whole["numbers"]) - 1), 0]
     assert (tmp_path / "o.json").stat().st_size > limit - 25
+

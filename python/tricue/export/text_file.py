@@ -58,6 +58,9 @@ class TextFile:
             return
         try:
             self.finish()
+        except OSError:
+            self._finish_early()
+            raise
         finally:
             with self._naming():
                 self._file.close()
