@@ -35,10 +35,12 @@ def test_a_full_disk_names_the_file() -> None:
         pass
 
 
-@pytest.mark.parametrize("limit", [*range(60, 120, 7), *range(403, 418, 7)])
-def test_a_full_disk_keeps_whole_texts(tmp_path: Path, limit: int) -> None:
+@pytest.mark.parametrize(
+    ("limit", "end"), [*((each, 1) for each in (*range(60, 120, 7), *range(403, 418, 7))), (300, 30)]
+)
+def test_a_full_disk_keeps_whole_texts(tmp_path: Path, limit: int, end: int) -> None:
     """It proves that a file that may not grow beyond some size gets its end all the same, wherever in a text
-    the limit is, and that the error is told.
+    the limit is, even an end that is longer than many texts, and that the error is told.
     """
     program = f"""
 import resource
@@ -47,7 +49,7 @@ from tricue.export.text_file import TextFile
 
 class Numbers(TextFile):
     def finish(self):
-        self.put("0], 'done': true}}".replace("'", '"'))
+        self.put("0], 'done': [true{", true" * (end - 1)}]}}".replace("'", '"'))
 
 resource.setrlimit(resource.RLIMIT_FSIZE, ({limit}, {limit}))
 with Numbers(Path("o.json")) as file:
@@ -63,4 +65,3 @@ with Numbers(Path("o.json")) as file:
     assert whole["done"]
     assert whole["numbers"] == [*range(len(whole["numbers"]) - 1), 0]
     assert (tmp_path / "o.json").stat().st_size > limit - 25
-

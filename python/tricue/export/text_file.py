@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-ROOM = 8  # of the last texts may be given up for the end of a file on a full disk
+ROOM = 10_000  # of the last texts may be given up for the end of a file on a full disk
 
 
 class TextFile:
