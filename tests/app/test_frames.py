@@ -179,6 +179,17 @@ def test_folder_is_read_at_random(tmp_path: Path) -> None:
         assert np.array_equal(recording.frame(at).color, images[at])
 
 
+def test_image_of_another_size_is_refused(tmp_path: Path) -> None:
+    """Boxes are in pixels of the first frame, which such an image doesn't have; the others are had."""
+    for at, image in enumerate(moving(3)):
+        half = cv2.resize(image, (WIDTH // 2, HEIGHT // 2))
+        cv2.imwrite(str(tmp_path / f"{at}.png"), half if at == 1 else image)
+    recording = Recording(open_source(tmp_path))
+    with pytest.raises(ValueError, match="frame 1: expected the first frame's size 160x120, got 80x60 px"):
+        recording.frame(1)
+    assert [number for number, _ in recording.frames(0, 3)] == [0, 2]
+
+
 def test_pair_of_videos_is_sought_together(video: Path, tmp_path: Path) -> None:
     """Both videos of a stereo pair are at the wanted frame."""
     right = write_video(tmp_path / "right.mp4", moving()[::-1])

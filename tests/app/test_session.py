@@ -454,6 +454,17 @@ def test_image_that_vanishes_ends_the_run(tmp_path: Path, session_of: SessionOf)
     assert max(session.project.target(1).tracks) == 9
 
 
+def test_frames_that_end_the_run_early_are_told(tmp_path: Path, session_of: SessionOf) -> None:
+    """A run ends before images of another size at the end, and says so."""
+    for at, image in enumerate(moving(5)):
+        cv2.imwrite(str(tmp_path / f"{at}.png"), image if at < 3 else image[::2, ::2])
+    session = session_of(tmp_path, tmp_path / "project")
+    session.add(0, START, "fused")
+    run(session, 0, 1)
+    assert [*session.project.targets[0].tracks] == [0, 1, 2]
+    assert session.errors == ["frame 4: expected the first frame's size 160x120, got 80x60 px"]
+
+
 def test_overlay_video_is_made_in_the_background(video: Path, session_of: SessionOf, tmp_path: Path) -> None:
     """The job tells how far it is, and where the file is in the end."""
     session = session_of(video)

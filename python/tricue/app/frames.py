@@ -35,8 +35,7 @@ class Recording:
         self.length: int = self.source.length
         if not self.length:
             raise ValueError(f"{source.name}: expected a recording with frames, this one has none")
-        image = image_of(self.frame(0))
-        self.size = image.shape[1], image.shape[0]
+        self.size = _size_of(self._read(0))
 
     def again(self) -> "Recording":
         """The same recording for another thread."""
@@ -46,7 +45,16 @@ class Recording:
         return other
 
     def frame(self, number: int) -> Frame:
-        """One frame by its number from 0."""
+        """One frame by its number from 0; ValueError for one of another size than the first, in whose pixels
+        boxes are.
+        """
+        frame = self._read(number)
+        if (size := _size_of(frame)) != self.size:
+            first, here = ("x".join(map(str, each)) for each in (self.size, size))
+            raise ValueError(f"frame {number}: expected the first frame's size {first}, got {here} px")
+        return frame
+
+    def _read(self, number: int) -> Frame:
         return next(iter(self.source.frames([number])))
 
     def seconds(self, number: int) -> float:
@@ -62,8 +70,8 @@ class Recording:
     def frames(self, start: int, stop: int) -> Iterator[tuple[int, Frame]]:
         """Frames with their numbers from ``start`` to before ``stop``, backwards if that is less.
 
-        Backwards, time runs on as if the recording were mirrored: trackers know no other. Frames that can't
-        be decoded are left out; ValueError for the first one, and for MAX_UNREADABLE in a row.
+        Backwards, time runs on as if the recording were mirrored: trackers know no other. Frames that
+        :meth:`frame` refuses are left out; ValueError for the first one, and for MAX_UNREADABLE in a row.
         """
         step = 1 if stop > start else -1
         unreadable = 0
@@ -77,6 +85,11 @@ class Recording:
                 continue
             unreadable = 0
             yield number, frame if step > 0 else _mirrored(frame, self.seconds(start))
+
+
+def _size_of(frame: Frame) -> tuple[int, int]:
+    height, width = image_of(frame).shape[:2]
+    return width, height
 
 
 def image_of(frame: Frame) -> NDArray[Any]:

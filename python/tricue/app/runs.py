@@ -96,7 +96,9 @@ class Follower:
                         self._step(run, by_id[one], following, number, frame)
                 run.latest = number, frame
                 if run.stop.is_set() or not following:
-                    break
+                    return
+        if run.latest is not None and run.latest[0] != stop - run.step:
+            recording.frame(stop - run.step)  # its error tells why the run ended before
 
     def _step(
         self, run: Run, target: Target, following: dict[int, Tracker], number: int, frame: Frame
