@@ -10,6 +10,7 @@ from pathlib import Path
 import cv2
 import pytest
 from tricue import Box, Status, Track
+from tricue.app.live.session import Opened
 from tricue.draw.video import count_frames
 
 from tests.app.conftest import START
@@ -65,6 +66,23 @@ def test_pause_and_going_on(studio: Studio) -> None:
     studio.shows(2)
     given = studio.device.given
     assert abs(place(studio).x - START.x - level(given - 1)) < 3
+
+
+def test_pause_before_the_first_picture(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that a target can be added in a frame that came during such a pause."""
+    begin = studio.session._begin
+
+    def begin_paused(opened: Opened) -> None:
+        begin(opened)
+        studio.session.pause()
+
+    monkeypatch.setattr(studio.session, "_begin", begin_paused)
+    studio.session.start()
+    wait(lambda: studio.session._number == 0)
+    assert studio.session.add(0, list(START), "fused") == 1
+    studio.session.go_on()
+    studio.shows()
+    assert studio.session.recent[-1].tracks[1].status is Status.TRACKED
 
 
 def test_targets_are_corrected_named_and_removed(studio: Studio) -> None:

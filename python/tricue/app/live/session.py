@@ -298,7 +298,7 @@ class LiveSession:
         track = with_known_numbers(self._measured(tracker.init(frame, box)), box)
         self._followed[target.id] = Followed(target, tracker, track, number)
         self._backlog.hold(target.id, number)
-        if self.phase == "paused":  # the picture stays, so its tracks are told anew
+        if self.phase == "paused" and self.recent:  # the picture stays, so its tracks are told anew
             self.recent.append(Shown(number, self.recent[-1].seconds, self._tracks()))
 
     def _get(self, target: Any) -> Followed:
