@@ -107,6 +107,28 @@ def test_broken_file_is_named(content: str, tmp_path: Path) -> None:
         load(path)
 
 
+@pytest.mark.parametrize(
+    ("written", "edited"),
+    [
+        ("[9, ", "[-9, "),
+        ('"9": [', '"-9": ['),
+        ('[9, "tracked", 1.0', '[9, "tracked", NaN'),
+        ('"tracked", 1.0, 1.0', '"tracked", 1.0, Infinity'),
+        ('"next_id": 2', '"next_id": 1'),
+        ('"id": 1', '"id": 0'),
+    ],
+)
+def test_numbers_that_cannot_be(written: str, edited: str, video: Path, tmp_path: Path) -> None:
+    """A file that somebody has edited is refused where its numbers would break the page and the exports."""
+    path = tmp_path / "video.mp4.tricue.json"
+    save(path, edits.add_target(Project(), 9, Box(1, 2, 3, 4), "fused"), footprint(video, 60, (160, 120)))
+    text = path.read_text()
+    assert text.count(written) == 1
+    path.write_text(text.replace(written, edited))
+    with pytest.raises(ValueError, match="expected a project of tricue open"):
+        load(path)
+
+
 def test_newer_file_is_not_guessed_at(full: Project, video: Path, tmp_path: Path) -> None:
     """A project of a later format is refused with what to do."""
     path = tmp_path / "project"

@@ -3,6 +3,7 @@
 
 import hashlib
 import json
+import math
 import os
 import sys
 from collections.abc import Iterator, Mapping
@@ -17,6 +18,7 @@ from tricue.app.project import Project, Target
 from tricue.camera.box import Box, as_box
 from tricue.camera.pose import Pose
 from tricue.data.files import image_paths
+from tricue.track.base.adapter import with_known_numbers
 from tricue.track.base.track import Status, Track
 
 SUFFIX = ".tricue.json"
@@ -120,7 +122,10 @@ def load(path: Path, pose: Pose | None = None) -> tuple[Project, Footprint]:
         content = json.loads(path.read_text(encoding="utf-8"))
         if content["format"] <= FORMAT:
             targets = tuple(_target(each, pose) for each in content["targets"])
-            return Project(targets, int(content["next_id"])), Footprint(**content["video"])
+            ids, next_id = [each.id for each in targets], int(content["next_id"])
+            if len({*ids}) < len(ids) or not all(0 < each < next_id for each in ids):
+                raise ValueError(f"expected different ids from 1 to before {next_id}, got {ids}")
+            return Project(targets, next_id), Footprint(**content["video"])
         newer = content["tricue"]
     except (AttributeError, KeyError, TypeError, IndexError, OverflowError, ValueError) as error:
         raise ValueError(
@@ -186,8 +191,8 @@ def _rounded(numbers: Any) -> list[float]:
 
 
 def _target(entry: Mapping[str, Any], pose: Pose | None) -> Target:
-    drawn = {int(at): as_box(box) for at, box in entry["drawn"].items()}
-    tracks = {int(values[0]): _track(values, pose) for values in entry["tracks"]}
+    drawn = {_frame(at): as_box(box) for at, box in entry["drawn"].items()}
+    tracks = {_frame(values[0]): _track(values, pose) for values in entry["tracks"]}
     return Target(
         int(entry["id"]),
         str(entry["name"]),
@@ -195,6 +200,13 @@ def _target(entry: Mapping[str, Any], pose: Pose | None) -> Target:
         MappingProxyType(drawn),
         MappingProxyType(tracks),
     )
+
+
+def _frame(value: Any) -> int:
+    number = int(value)
+    if number < 0:
+        raise ValueError(f"expected the number of a frame, got {value}")
+    return number
 
 
 def _track(values: list[Any], pose: Pose | None) -> Track:
@@ -205,12 +217,16 @@ def _track(values: list[Any], pose: Pose | None) -> Track:
         covariance = np.zeros((3, 3))
         covariance[np.triu_indices(3)] = triangle
         covariance = covariance + np.triu(covariance, 1).T
-    return Track(
-        Box(*map(float, box)),
-        float(score),
+    numbers = [float(score), *map(float, box)]
+    if not all(map(math.isfinite, numbers)):
+        raise ValueError(f"expected a finite score and box, got {values[2:7]}")
+    track = Track(
+        Box(*numbers[1:]),
+        numbers[0],
         Status(status),
-        None if position is None else np.array(position, np.float64),
+        None if position is None else np.array(position, np.float64).reshape(3),
         covariance,
-        depth,
+        None if depth is None else float(depth),
         pose,
     )
+    return with_known_numbers(track, track.box)
