@@ -88,6 +88,16 @@ def test_saving_that_fails_leaves_nothing(
     assert sorted(tmp_path.iterdir()) == before
 
 
+def test_link_stays_one(full: Project, video: Path, tmp_path: Path) -> None:
+    """A project that is a link to a file elsewhere is saved there."""
+    (tmp_path / "elsewhere").mkdir()
+    path, file = tmp_path / "project", tmp_path / "elsewhere" / "kept"
+    path.symlink_to(file)
+    save(path, full, footprint(video, 60, (160, 120)))
+    assert path.is_symlink()
+    assert load(file)[0] == full
+
+
 @pytest.mark.parametrize(
     "content",
     [

@@ -136,6 +136,7 @@ def load(path: Path, pose: Pose | None = None) -> tuple[Project, Footprint]:
 
 def save(path: Path, project: Project, video: Footprint) -> None:
     """Write the project: the file has all of it, or all of what it was before."""
+    path = path.resolve()  # a link stays one
     part = path.with_name(f".{path.name}.part")
     try:
         with part.open("w", encoding="utf-8") as file:
