@@ -2,8 +2,11 @@
 """Trackers that aren't ours, in processes of their own."""
 
 import os
+import pickle
 import re
 import shutil
+import time
+from contextlib import closing
 from functools import cache
 from pathlib import Path
 
@@ -139,6 +142,24 @@ def test_a_hanging_tracker_is_waited_for_once(there):
     assert record.error == f"frame {AT}: no answer within 4 s (--time-limit)"
     assert len(record.starts) > 1
     assert np.isfinite(record.run.boxes).all(axis=1).sum() == AT
+
+
+def test_a_limit_that_ends_between_two_requests(monkeypatch):
+    """It proves that an answer that the time limit overtakes is late, and that no crash is made of it."""
+    load = pickle.load
+
+    def slow_load(stream):
+        answer = load(stream)
+        time.sleep(2 * limit)
+        return answer
+
+    limit = 0.5
+    with closing(process.WorkerProcess(f"{ODD}:Still", limit)) as worker:
+        worker.load("describe", {})
+        monkeypatch.setattr(process.pickle, "load", slow_load)
+        for _ in range(2):
+            with pytest.raises(process.WorkerError, match=re.escape(process.no_answer(limit))):
+                worker.ask("close")
 
 
 def test_time_is_measured_where_the_tracker_runs(there):

@@ -84,6 +84,11 @@ class WorkerProcess:
             raise WorkerError(self.end) from None
         finally:
             timer.cancel()
+            timer.join()
+        if too_slow.is_set():  # it has ended the process since the answer came
+            self._how_it_ended()
+            self.end = late(limit)
+            raise WorkerError(self.end)
         if not succeeded:
             raise WorkerError(value)
         return value
