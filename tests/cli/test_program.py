@@ -310,6 +310,16 @@ def test_a_closed_pipe_is_silent(sequence: Path) -> None:
         assert process.wait(60) == 141
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="closes them by a shell")
+@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
+def test_streams_may_be_closed(sequence: Path, tmp_path: Path, closed: str) -> None:
+    """It proves that what a service without standard streams tracks is written, and is no error."""
+    table = tmp_path / "t.csv"
+    command = tricue_command("track", str(sequence), "--csv", str(table))
+    subprocess.run(["sh", "-c", f'exec "$@" {closed}', "sh", *command], check=True, capture_output=True)
+    assert len(read_csv(table)) == 10
+
+
 def test_letters_that_the_terminal_lacks_are_escaped(sequence: Path) -> None:
     """A name with an accent is printed on a terminal that knows only ASCII."""
     folder = sequence.rename(sequence.with_name("caf\xe9"))

@@ -14,6 +14,7 @@ import sys
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any, NoReturn
 
 import tricue
@@ -55,6 +56,7 @@ class Parser(argparse.ArgumentParser):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; the exit code, of which 2 is an error (one line on stderr), 130 Ctrl-C."""
     silence_opencv()
+    _replace_closed_streams()
     for stream in (sys.stdout, sys.stderr):  # a terminal may not know all letters of a file's name
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
@@ -109,6 +111,13 @@ def _one_line_warnings(command: str) -> Iterator[None]:
     with warnings.catch_warnings():
         warnings.showwarning = show  # type: ignore[assignment]  # it takes all that it is given
         yield
+
+
+def _replace_closed_streams() -> None:
+    """Read nothing, and write nowhere, where a service starts the command without standard streams."""
+    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
+        if getattr(sys, name) is None:
+            setattr(sys, name, Path(os.devnull).open(mode, encoding="utf-8"))  # noqa: SIM115 (until the end)
 
 
 def silence_opencv() -> None:
