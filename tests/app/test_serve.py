@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Serving on 127.0.0.1: ports, one server a project, and what a killed one leaves."""
 
+import asyncio
 import errno
 import json
 import os
@@ -14,6 +15,7 @@ import threading
 import time
 import urllib.request
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -206,6 +208,38 @@ def test_default_port_in_use_is_no_matter(monkeypatch: pytest.MonkeyPatch) -> No
         monkeypatch.setattr(local_server, "DEFAULT_PORT", taken.getsockname()[1])
         with local_server.listening(None) as listener:
             assert listener.getsockname()[1] != local_server.DEFAULT_PORT
+
+
+def test_requests_that_last_are_ended_silently(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A command that waits for a slow tracker at the end makes no traceback."""
+    monkeypatch.setattr(local_server, "CLOSING_TIME", 0)
+    served, asked = local_server.Served(), threading.Event()
+
+    async def endless(scope: Any, receive: Any, send: Any) -> None:
+        asked.set()
+        await asyncio.sleep(PATIENCE)
+
+    def ask(url: str) -> None:
+        with suppress(OSError):
+            urllib.request.urlopen(url, timeout=PATIENCE)
+
+    def end() -> None:
+        asked.wait(PATIENCE)
+        served.finish()
+
+    threads = [threading.Thread(target=end)]
+
+    def announce(url: str) -> None:
+        threads.append(threading.Thread(target=ask, args=(url,)))
+        for thread in threads:
+            thread.start()
+
+    local_server.serve_until_ended(served, endless, 0, False, lambda _: None, announce)
+    for thread in threads:
+        thread.join()
+    assert capsys.readouterr().err == ""
 
 
 @pytest.mark.parametrize("port", ["70000", "-5"])

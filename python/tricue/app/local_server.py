@@ -2,12 +2,14 @@
 """An HTTP server on 127.0.0.1, at a port of one's own choice or a free one, until it is ended."""
 
 import errno
+import logging
 import secrets
 import socket
 import tempfile
 import threading
 import webbrowser
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -59,7 +61,23 @@ def serve_until_ended(
         threading.Thread(
             target=show, args=(url, browser), daemon=True
         ).start()  # some browsers run until closed
-        server.run(sockets=[listener])
+        with _quiet_at_the_end(server):
+            server.run(sockets=[listener])
+
+
+@contextmanager
+def _quiet_at_the_end(server: uvicorn.Server) -> Iterator[None]:
+    """Keep uvicorn from telling of the requests that it ends with itself; other errors are told."""
+
+    def is_told(_: logging.LogRecord) -> bool:
+        return not server.should_exit
+
+    log = logging.getLogger("uvicorn.error")
+    log.addFilter(is_told)
+    try:
+        yield
+    finally:
+        log.removeFilter(is_told)
 
 
 def listening(port: int | None) -> socket.socket:
