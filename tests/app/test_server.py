@@ -3,6 +3,7 @@
 
 import json
 import os
+import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -414,3 +415,21 @@ def test_every_command_is_asked_for_by_the_page() -> None:
     """No command is left of what the page doesn't do any more."""
     text = (PAGE / "app.js").read_text() + (PAGE / "panel.js").read_text()
     assert {name for name in COMMANDS if f'"{name}"' not in text} == set()
+
+
+def test_a_long_recording_keeps_no_other_request_waiting(
+    client: TestClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The times of hours of frames take seconds, in which other requests are answered."""
+    answered, late = threading.Event(), list[int]()
+
+    def slow(_: Recording, number: int) -> float:
+        if not late and not answered.wait(5):
+            late.append(number)
+        return number / 30
+
+    monkeypatch.setattr(Recording, "seconds", slow)
+    with live(client):
+        assert client.get("state").status_code == 200
+        answered.set()
+    assert late == []

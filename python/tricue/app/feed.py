@@ -10,6 +10,7 @@ import numpy as np
 from starlette.concurrency import run_in_threadpool
 from starlette.websockets import WebSocket
 
+from tricue.app.frames import Recording
 from tricue.app.project import Target
 from tricue.app.runs import Run
 from tricue.app.serving import Serving
@@ -46,9 +47,7 @@ class _Page:
 
     async def tell(self) -> None:
         """Tell what is new, again and again."""
-        recording = self.serving.session.recording
-        begin = recording.seconds(0)  # of robots' recordings, seconds since 1970
-        times = [round(recording.seconds(number) - begin, 4) for number in range(recording.length)]
+        times = await run_in_threadpool(_times, self.serving.session.recording)
         await tell(self.socket, {"type": "times", "times": times})
         await self._tell_state(await run_in_threadpool(state, self.serving))
         while True:
@@ -94,7 +93,7 @@ class _Page:
             if self.known.get(target.id) is not target.tracks or (over and target.id in self.mixed):
                 self.known[target.id] = target.tracks
                 self.mixed.discard(target.id)
-                rows = _rows(target.tracks)
+                rows = await run_in_threadpool(_rows, target.tracks)
                 await tell(self.socket, {"type": "tracks", "target": target.id, "tracks": rows})
 
     async def _tell_errors(self) -> None:
@@ -138,6 +137,12 @@ def state(serving: Serving) -> dict[str, Any]:
         else {"written": job.written, "total": job.total, "done": job.path is not None, "error": job.error},
         "targets": [_as_told(target) for target in history.present.targets],
     }
+
+
+def _times(recording: Recording) -> list[float]:
+    """The frames' times from the first one on; those of robots' recordings are seconds since 1970."""
+    begin = recording.seconds(0)
+    return [round(recording.seconds(number) - begin, 4) for number in range(recording.length)]
 
 
 def _as_told(target: Target) -> dict[str, Any]:
