@@ -505,6 +505,22 @@ def test_page_fits_and_reads(
     assert tab.page.evaluate(CONTRASTS) == []
 
 
+@pytest.mark.parametrize("size", [LAPTOP, PHONE], ids=["laptop", "phone"])
+def test_many_targets_leave_room_for_the_picture(
+    server: Server, open_tab: Callable[..., Tab], size: dict[str, int]
+) -> None:
+    """The lanes of 50 targets are as thin as it takes, and each can still be chosen."""
+    for at in range(50):
+        server.do("add", frame=0, box=[at, at, 20, 20], tracker="fused")
+    tab = open_tab(server.url, size, touch=size is PHONE)
+    line = tab.page.locator("#timeline")
+    tab.page.wait_for_function("document.getElementById('timeline').clientHeight > 100")
+    height = line.bounding_box()["height"]
+    assert height <= 200
+    line.click(position={"x": 20, "y": height - 1.5})
+    assert "Target 50" in tab.page.locator("#targets button[aria-pressed=true]").inner_text()
+
+
 NAMELESS = """() => [...document.querySelectorAll("button, input, select, canvas, a, img")]
   .filter((each) => each.checkVisibility())
   .filter((each) => !(each.ariaLabel || each.textContent.trim() || each.alt || each.labels?.length))

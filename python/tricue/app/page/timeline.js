@@ -5,7 +5,8 @@ import { clock } from "./model.js";
 import { LOST, NONE, OCCLUDED, STATUS_NAMES } from "./targets.js";
 
 const RULER = 18, LANE = 22, GAP = 3; // pixels
-const MAX_HEIGHT = 190;
+const MAX_HEIGHT = 190; // unless lanes and gaps are as thin as can be
+const MIN_LANE = 2, MIN_GAP = 1;
 const STEPS = [0.1, 0.2, 0.5, 1, 2, 5, 10, 30, 60, 120, 300, 600, 1800]; // seconds between marks
 
 export class Timeline {
@@ -39,23 +40,26 @@ export class Timeline {
   #go(event, pressed) {
     const { left, top } = this.canvas.getBoundingClientRect();
     const share = (event.clientX - left) / this.canvas.clientWidth;
-    const lane = Math.floor((event.clientY - top - RULER) / (this.#lane() + GAP));
+    const [height, gap] = this.#lane();
+    const lane = Math.floor((event.clientY - top - RULER) / (height + gap));
     const target = this.model.state.targets[lane];
     if (pressed && target && event.clientY - top > RULER) this.model.choose(target.id);
     this.went(Math.floor(share * this.model.state.frames));
   }
 
+  /** The height of a lane, and of the gap below it. */
   #lane() {
-    const count = Math.max(this.model.state.targets.length, 1);
-    return Math.max(6, Math.min(LANE, (MAX_HEIGHT - RULER) / count - GAP));
+    const each = (MAX_HEIGHT - RULER) / Math.max(this.model.state.targets.length, 1);
+    const gap = each < 9 ? MIN_GAP : GAP;
+    return [Math.max(MIN_LANE, Math.min(LANE, each - gap)), gap];
   }
 
   #paint() {
     const { canvas, model } = this;
     const ratio = devicePixelRatio || 1;
     const { targets, frames } = model.state;
-    const lane = this.#lane();
-    const height = RULER + Math.max(targets.length, 1) * (lane + GAP);
+    const [lane, gap] = this.#lane();
+    const height = RULER + Math.max(targets.length, 1) * (lane + gap);
     canvas.style.height = `${height}px`;
     const width = canvas.clientWidth;
     Object.assign(canvas, { width: Math.round(width * ratio), height: Math.round(height * ratio) });
@@ -64,7 +68,7 @@ export class Timeline {
     this.ink = getComputedStyle(canvas);
     this.#paintRuler(pen, width);
     if (!targets.length) this.#paintEmpty(pen, width, lane);
-    targets.forEach((target, index) => this.#paintLane(pen, target, RULER + index * (lane + GAP), width, lane));
+    targets.forEach((target, index) => this.#paintLane(pen, target, RULER + index * (lane + gap), width, lane));
     const at = ((model.frame + 0.5) / frames) * width;
     pen.fillStyle = this.#color("--ink");
     pen.fillRect(at - 0.75, 0, 1.5, height);
@@ -118,13 +122,14 @@ export class Timeline {
     pen.fillStyle = this.#color("--ink");
     pen.strokeStyle = this.#color("--panel");
     pen.lineWidth = 1;
+    const side = Math.min(5, height / 2 + 2); // of a drawn box's mark, half of it
     for (const frame of target.drawn) {
       const x = Math.min(Math.max(((frame + 0.5) / frames) * width, 6), width - 6), y = top + height / 2;
       pen.beginPath();
-      pen.moveTo(x, y - 5);
-      pen.lineTo(x + 5, y);
-      pen.lineTo(x, y + 5);
-      pen.lineTo(x - 5, y);
+      pen.moveTo(x, y - side);
+      pen.lineTo(x + side, y);
+      pen.lineTo(x, y + side);
+      pen.lineTo(x - side, y);
       pen.closePath();
       pen.fill();
       pen.stroke();
