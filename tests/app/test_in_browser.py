@@ -454,7 +454,7 @@ def test_pictures_are_kept_within_bounds(server: Server, open_tab: Callable[...,
 
 
 def test_done_ends_it(video: Path, open_tab: Callable[..., Tab], capsys: pytest.CaptureFixture[str]) -> None:
-    """Of a page that asks for boxes alone; the server's end then is no alarm."""
+    """Of a page that asks for boxes alone, and tracks nothing; the server's end then is no alarm."""
     found: list[Any] = []
     waiting = threading.Thread(
         target=lambda: found.append(select_boxes(video, port=0, browser=False)), daemon=True
@@ -468,6 +468,10 @@ def test_done_ends_it(video: Path, open_tab: Callable[..., Tab], capsys: pytest.
     tab = open_tab(url[0])
     tab.expected += ["net::ERR_", "WebSocket connection to"]
     tab.draw(*START)
+    tab.key("t")
+    tab.page.wait_for_timeout(500)
+    state = tab.page.request.get(url[0] + "state").json()
+    assert (state["run"], state["ended"]) == (None, None)
     tab.page.click("#done")
     tab.page.locator("text=Done. This page can be closed.").wait_for()
     waiting.join(PATIENCE / 1000)

@@ -63,6 +63,7 @@ async function draw(frame, box) {
 }
 
 function track(step) {
+  if (model.state.selecting) return null;
   stopPlaying();
   const all = get("who").value === "all" || !model.target();
   return act("track", { frame: model.frame, step, ...(all ? {} : { targets: [model.chosen] }) });
