@@ -291,6 +291,22 @@ def test_keyboard_alone(server: Server, open_tab: Callable[..., Tab]) -> None:
     assert unseen == []
 
 
+def test_keyboard_keeps_its_place(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """Who presses Track by a key is at Pause while it runs, and at Track again when it has ended."""
+    for at in range(40):  # so that it takes a while
+        server.do("add", frame=0, box=[20 + at, 40, 40, 40], tracker="fused")
+    tab = open_tab(server.url)
+    tab.key("Escape")  # all of them
+    tab.page.focus("#timeline")
+    tab.key("Shift+Tab")
+    focused = "document.activeElement.id"
+    assert tab.page.evaluate(focused) == "track"
+    with tab.done("track"):
+        tab.key("Enter")
+        tab.page.locator("#pause:focus").wait_for()
+    assert tab.page.evaluate(focused) == "track"
+
+
 def test_box_belongs_to_the_picture_pressed_on(server: Server, open_tab: Callable[..., Tab]) -> None:
     """A picture that comes during a drag is shown after it."""
     tab = open_tab(server.url)

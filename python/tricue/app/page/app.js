@@ -221,11 +221,13 @@ function updateControls() {
   get("redo").disabled = !state.redo;
   get("export").disabled = !state.targets.length;
   get("export").hidden = state.selecting;
+  const moves = hasKeyFocus(run ? ["track", "track-back"] : ["pause"]);
   get("pause").hidden = !run;
   for (const id of ["track", "track-back"]) {
     get(id).hidden = run || state.selecting;
     get(id).disabled = !state.targets.length;
   }
+  if (moves) get(run ? "pause" : "track").focus();
   get("who").parentElement.hidden = state.targets.length < 2 || state.selecting;
   const active = playing || run;
   get("play").setAttribute("aria-label", active ? "Pause" : "Play");
@@ -237,6 +239,12 @@ function updateControls() {
   document.documentElement.style.setProperty("--aspect", state.size[0] / state.size[1]);
   updateHint();
   updateVideo(state.video);
+}
+
+/** Whether one of these buttons has the focus that keys move. */
+function hasKeyFocus(ids) {
+  const { activeElement } = document;
+  return ids.includes(activeElement?.id) && activeElement.matches(":focus-visible");
 }
 
 function workText(state) {
