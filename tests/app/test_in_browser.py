@@ -624,6 +624,17 @@ def test_errors_are_said(server: Server, open_tab: Callable[..., Tab], video: Pa
     said.wait_for(state="detached")
 
 
+def test_a_refused_name_is_not_shown(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """The field has the target's name again."""
+    tab = open_tab(server.url)
+    tab.draw(*START)
+    tab.page.fill("#target-name", "   ")
+    tab.key("Enter")
+    tab.page.locator("#toasts >> text=name: expected 1 to 80 characters").wait_for()
+    tab.page.wait_for_timeout(200)
+    assert tab.page.input_value("#target-name") == "Target 1"
+
+
 def test_two_tabs_show_the_same(server: Server, open_tab: Callable[..., Tab]) -> None:
     """What is done in one tab is seen in the other."""
     one, other = open_tab(server.url), open_tab(server.url)

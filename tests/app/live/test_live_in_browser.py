@@ -164,7 +164,9 @@ def test_drawn_while_it_runs(chromium: Any, opened: Callable[..., Any]) -> None:
 
 
 def test_reload_and_two_pages(chromium: Any, opened: Callable[..., Any]) -> None:
-    """A reloaded page and another one have the targets; one removed is gone in both."""
+    """A reloaded page and another one have the targets, by names that were not refused; one removed is gone
+    in both.
+    """
     server = opened()
     tab = Tab(chromium, server.url).ready()
     tab.follow()
@@ -173,6 +175,11 @@ def test_reload_and_two_pages(chromium: Any, opened: Callable[..., Any]) -> None
     other = Tab(chromium, server.url, PHONE).ready()
     for page in (tab.page, other.page):
         page.locator("#targets button", has_text="Target 1").click()
+    other.page.fill("#target-name", "   ")
+    other.page.keyboard.press("Enter")
+    other.page.locator("#toasts >> text=name: expected 1 to 80 characters").wait_for()
+    other.page.wait_for_timeout(200)
+    assert other.page.input_value("#target-name") == "Target 1"
     other.page.click("#delete")
     tab.page.locator("#targets button").wait_for(state="detached")
     assert (tab.troubles, other.troubles) == ([], [])

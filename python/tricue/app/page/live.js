@@ -194,7 +194,10 @@ get("trail").addEventListener("change", (event) => {
   stage.trail = event.target.checked;
   stage.draw();
 });
-get("target-name").addEventListener("change", (event) => model.target() && act("rename", { target: model.chosen, name: event.target.value }));
+get("target-name").addEventListener("change", async (event) => {
+  if (!model.target()) return;
+  if (!(await act("rename", { target: model.chosen, name: event.target.value }))) updateTargets(); // to the name that it has
+});
 get("target-name").addEventListener("keydown", (event) => event.key === "Enter" && event.target.blur());
 get("target-tracker").addEventListener("change", (event) => {
   chosenTracker = event.target.value;

@@ -128,9 +128,10 @@ export class Panel {
     }
   }
 
-  #rename(name) {
+  async #rename(name) {
     const target = this.model.target();
-    if (target && name !== target.name) this.act("rename", { target: target.id, name });
+    if (!target || name === target.name) return;
+    if (!(await this.act("rename", { target: target.id, name }))) this.update(); // to the name that it has
   }
 
   #chooseTracker(tracker) {
