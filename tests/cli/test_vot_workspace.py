@@ -83,6 +83,7 @@ def test_all_trackers_are_in_the_commands() -> None:
         (["--trackers", "color-particle", "--python", "nowhere/python"], "found none at nowhere/python"),
         (["--trackers", "color-particle", "--sequences", "nowhere"], "nowhere: there is no such folder"),
         (["--trackers", "color-particle", "--sequences", "empty"], "empty: expected folders of sequences"),
+        (["--trackers", "fused,nope"], "argument --trackers: expected one of .* got 'nope'"),
         (["--trackers", ","], "argument --trackers: expected names separated by commas"),
         ([], "the following arguments are required: --trackers"),
     ],

@@ -149,8 +149,8 @@ def tracker_name(text: str) -> str:
 
 
 def tracker_names(text: str) -> list[str]:
-    """Tracker names separated by commas; those of the form ``module:Class`` are imported now."""
-    return [tracker_name(name) if ":" in name else name for name in words(text)]
+    """Tracker names as :func:`tracker_name` takes them, separated by commas."""
+    return [tracker_name(name) for name in words(text)]
 
 
 def any_tracker_names(text: str) -> list[str]:
