@@ -97,6 +97,16 @@ def test_the_background_is_left_out(wall, known):
     assert spread == 0
 
 
+@pytest.mark.parametrize(("width", "height"), [(6, 120), (120, 6), (8, 130)])
+def test_a_thin_target_is_measured(width, height):
+    """A pole in front of a wall is measured, not the wall beside it."""
+    y, x = np.indices((160, 200)) + 0.5
+    inside = (abs(x - TARGET.x) < width / 2) & (abs(y - TARGET.y) < height / 2)
+    z, spread, _ = measure_depth(observation(np.where(inside, Z, 4.0)), Target(100, 80, width, height), None)
+    assert z == Z
+    assert spread == 0
+
+
 def test_what_is_expected_is_found_beside_more_of_something_else():
     """A third of the target that is visible beside an occluder, which covers its center, is measured."""
     depth = flat()

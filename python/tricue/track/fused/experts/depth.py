@@ -25,6 +25,7 @@ MAX_GROWTH_PER_FRAME = 1.25  # times
 SURROUND_SIZE = 2.0  # of the box: what depth_continuity compares it with
 FULL_WEIGHT_SIGMA = 0.25  # meters; a vaguer expected depth counts less in depth_continuity
 DEPTH_CENTER_SHARE = 0.5  # of the box's sides: the part that is the target's where no depth is expected
+MAX_CENTER_SIDE = 1.5  # of the box's shorter side: two thirds of that part are a thin target's
 MAX_DEPTH_OFFSET = 0.5  # meters from the median of that part
 
 
@@ -118,7 +119,10 @@ def measure_center_depths(
     """The depths of the centers of boxes, where none is expected; None where too little is measured."""
     if observation.depth_source is None:
         return [None] * len(targets)
-    sides = [DEPTH_CENTER_SHARE * each.side for each in targets]
+    sides = [
+        min(DEPTH_CENTER_SHARE * each.side, MAX_CENTER_SIDE * min(each.width, each.height))
+        for each in targets
+    ]
     squares = np.array([(each.x, each.y, side, side) for each, side in zip(targets, sides, strict=True)])
     gate = MAX_DEPTH_OFFSET, MIN_MEASURED_SHARE
     return _measurements(observation.depth_source.medians(observation.k, squares, DEPTH_SAMPLES, None, gate))
