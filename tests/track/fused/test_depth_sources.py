@@ -110,6 +110,16 @@ def test_a_target_in_front_of_a_wall(kernels):
         assert np.median(measured) == pytest.approx(disparity, abs=0.3)
 
 
+@pytest.mark.parametrize("side", [4.0, 8.0, 20.0])
+@pytest.mark.parametrize("disparity", [3.0, 30.0, 70.0])
+def test_a_small_box_is_measured(disparity, side):
+    """However small a box is, what is near is measured in it, to a hundredth."""
+    boxes = np.array([[200.0, 120.0, side, side]])
+    stereo = pair(disparity)
+    z, _, _ = stereo.medians(stereo.k, boxes, 48, None, (0.5, 0.1))[0]
+    assert FOCAL_BASELINE / z == pytest.approx(disparity, rel=0.01, abs=0.2)
+
+
 def test_sets_of_kernels_agree():
     """Native and reference kernels measure the same bits."""
     native, reference = (

@@ -22,6 +22,8 @@ SAD_TOLERANCE = 1  # samples between the disparities from left to right and back
 MAX_DISPARITY_ABOVE_EXPECTED = 16  # samples
 MAX_DISPARITY_BELOW_EXPECTED = 8  # samples
 MAX_DISPARITY_OF_WIDTH = 0.25  # of the image's width, where no depth is expected
+MAX_DISPARITY_OF_SIDE = 4  # sides of the sampled square, which limits the time
+MIN_NEARER_SHARE = 0.5  # of a small box: what is nearer than its samples can find
 DISPARITY_NOISE = 0.15  # samples, standard deviation
 DEPTH_IMAGE_NOISE = 0.005  # of the depth, standard deviation of a pixel
 
@@ -110,7 +112,8 @@ class StereoSource(NamedTuple):
     def sample(self, grid: Grid, side: int, expected: ExpectedDepth | None) -> Plane:
         """(side, side) depths of a grid's squares in meters, NaN where nothing is measured.
 
-        Only those near the expected depth are found; where none is expected, all.
+        Only those near the expected depth are found; where none is expected, disparities up to a quarter of
+        the image's width, and up to four sides of the grid.
 
         By sums of absolute differences (Moreno et al. 2002, section 3.2) between samples of both images.
 
@@ -122,7 +125,7 @@ class StereoSource(NamedTuple):
         max_disparity = MAX_DISPARITY_OF_WIDTH * self.left.shape[1]
         first = 0 if expected is None else -MAX_DISPARITY_BELOW_EXPECTED
         last = int(np.ceil(max_disparity / step)) if expected is None else MAX_DISPARITY_ABOVE_EXPECTED
-        last = min(last, 4 * side)
+        last = min(last, MAX_DISPARITY_OF_SIDE * side)
         width = side + last
         part = np.array([[x - last * step, y, width * step, side * step]])
         left = self.k.reduce_gray(self.k.sample_windows(self.left, part, side, width)[0], 1)
@@ -140,15 +143,43 @@ class StereoSource(NamedTuple):
     def medians(
         self, k: Kernels, boxes: Floats, samples: int, expected: ExpectedDepth | None, gate: Gate
     ) -> Floats:
-        """Each box is matched by itself, in the square that has its samples."""
+        """Each box is matched by itself, in the square that has its samples.
+
+        Those of a small box are too fine for the disparities of what is near. So where no depth is expected,
+        coarser ones look for what is nearer than they can find.
+        """
         z, found = expected.z if expected else math.nan, []
-        for x, y, width, height in boxes.tolist():
-            side = max(width, height)
-            step = side / samples
-            depths = self.sample((x - side / 2, y - side / 2, step), samples, expected)
-            box = np.array([[samples / 2, samples / 2, width / step, height / step]])
-            found.append(k.median_depths(depths, box, samples, z, *gate))
+        for box in boxes.tolist():
+            step = max(box[2:]) / samples
+            depths, part = self._sample_around(box, step, samples, expected)
+            medians = k.median_depths(depths, part, samples, z, *gate)
+            nearer = None if expected else self._nearer(k, box, step, samples, gate)
+            found.append(medians if nearer is None else nearer)
         return np.concatenate(found)
+
+    def _nearer(self, k: Kernels, box: list[float], step: float, samples: int, gate: Gate) -> Floats | None:
+        """(1, 3) as of ``medians``, of what fills most of a box and is nearer than ``sample`` can find with
+        samples so many pixels apart; None without that.
+        """
+        coarse = MAX_DISPARITY_OF_WIDTH * self.left.shape[1] / (MAX_DISPARITY_OF_SIDE * samples)
+        if step >= coarse:
+            return None
+        depths, part = self._sample_around(box, coarse, samples, None)
+        medians = k.median_depths(depths, part, samples, math.nan, *gate)
+        z = float(medians[0, 0])
+        if not z < self.rig.depth(MAX_DISPARITY_OF_SIDE * samples * step):
+            return None
+        share = k.median_depths(depths, part, samples, z, *gate)[0, 2]  # of the box, not of what is measured
+        return medians if share >= MIN_NEARER_SHARE else None
+
+    def _sample_around(
+        self, box: list[float], step: float, samples: int, expected: ExpectedDepth | None
+    ) -> tuple[Plane, Floats]:
+        """The depths of a square of samples so many pixels apart around a box, and the box (1, 4) in it."""
+        x, y, width, height = box
+        half = step * samples / 2
+        depths = self.sample((x - half, y - half, step), samples, expected)
+        return depths, np.array([[samples / 2, samples / 2, width / step, height / step]])
 
     def posterior(
         self, k: Kernels, grid: Grid, side: int, expected: ExpectedDepth, margin: float
