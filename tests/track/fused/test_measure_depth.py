@@ -107,6 +107,16 @@ def test_a_thin_target_is_measured(width, height):
     assert spread == 0
 
 
+@pytest.mark.parametrize("x", [-12.0, -18.0])
+def test_the_visible_part_is_measured(x):
+    """Of a target that is mostly outside of the image, what is inside is measured, not the wall beside it."""
+    columns = np.indices((160, 200))[1] + 0.5
+    for seen, target in ((columns < x + 20, x), (columns > 180 - x, 200 - x)):
+        z, spread, _ = measure_depth(observation(np.where(seen, Z, 4.0)), Target(target, 80, 40, 60), None)
+        assert z == Z
+        assert spread == 0
+
+
 def test_what_is_expected_is_found_beside_more_of_something_else():
     """A third of the target that is visible beside an occluder, which covers its center, is measured."""
     depth = flat()

@@ -119,13 +119,22 @@ def measure_center_depths(
     """The depths of the centers of boxes, where none is expected; None where too little is measured."""
     if observation.depth_source is None:
         return [None] * len(targets)
-    sides = [
-        min(DEPTH_CENTER_SHARE * each.side, MAX_CENTER_SIDE * min(each.width, each.height))
-        for each in targets
-    ]
-    squares = np.array([(each.x, each.y, side, side) for each, side in zip(targets, sides, strict=True)])
+    squares = np.array([_center_square(each, observation.shape) for each in targets])
     gate = MAX_DEPTH_OFFSET, MIN_MEASURED_SHARE
     return _measurements(observation.depth_source.medians(observation.k, squares, DEPTH_SAMPLES, None, gate))
+
+
+def _center_square(target: Target, shape: tuple[int, int]) -> tuple[float, float, float, float]:
+    """Center and sides of the square in which a target's depth is measured where none is expected.
+
+    Of a target whose center isn't in the image it is that of its visible part.
+    """
+    height, width = shape
+    x, y, *sides = target[:4]
+    if not (0 <= x <= width and 0 <= y <= height) and (visible := target.box.clip(width, height)).area:
+        (x, y), sides = visible.center, [visible.width, visible.height]
+    side = min(DEPTH_CENTER_SHARE * target.side, MAX_CENTER_SIDE * min(sides))
+    return x, y, side, side
 
 
 def _measurements(medians: Floats) -> list[DepthMeasurement | None]:
