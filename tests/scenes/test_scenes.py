@@ -7,6 +7,24 @@ from tricue import scenes
 
 pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
 
+SEEDED = [
+    scenes.crossing,
+    scenes.face_over_clutter,
+    scenes.hand,
+    scenes.head,
+    scenes.hidden_face,
+    scenes.jump,
+    scenes.light_change,
+    scenes.lit_walker,
+    scenes.overtaking,
+    scenes.pan_tilt_scene,
+    scenes.room_scene,
+    scenes.skin_picture,
+    scenes.static_head,
+    scenes.stress_scene,
+    scenes.walker,
+]
+
 
 def centers(scene):
     """The centers of the true boxes, (M, 2)."""
@@ -132,6 +150,14 @@ def test_bad_arguments_are_named(make, arguments, words):
     """Arguments that no scene can be made of are refused by name."""
     with pytest.raises(ValueError, match=words):
         make(**arguments)
+
+
+@pytest.mark.parametrize("seed", [-1, 1.5, None, "1"])
+@pytest.mark.parametrize("make", SEEDED, ids=lambda make: make.__name__)
+def test_bad_seeds_are_named(make, seed):
+    """A seed is a whole number: None, which numpy takes, would give another scene each time."""
+    with pytest.raises(ValueError, match=rf"seed: expected a whole number from 0, got {seed!r}"):
+        make(seed=seed)
 
 
 @pytest.mark.parametrize("make", [scenes.face_over_clutter, scenes.light_change])

@@ -9,6 +9,7 @@ from tricue.scenes import motion
 from tricue.scenes.rendering import photographs
 from tricue.scenes.rendering.paste import ellipse_mask, expose, paste
 from tricue.scenes.scene import Scene
+from tricue.scenes.seeds import make_generator
 
 CLUTTER_HEIGHT, CLUTTER_WIDTH = 240, 320
 FACE_HEIGHT, FACE_WIDTH = 63, 50
@@ -33,7 +34,7 @@ def face_over_clutter(
     """
     if not 0 <= brightness[0] < brightness[1] < np.inf:
         raise ValueError(f"brightness: expected a low and a higher gain, got {brightness}")
-    rng = np.random.default_rng(seed)
+    rng = make_generator(seed)
     clutter = photographs.crop_background(background, CLUTTER_HEIGHT, CLUTTER_WIDTH, rng).astype(np.float32)
     portrait = photographs.crop(photographs.load_photograph("astronaut"), photographs.ASTRONAUT_FACE)
     face = photographs.resize(portrait, FACE_HEIGHT, FACE_WIDTH).astype(np.float32)

@@ -14,6 +14,7 @@ from tricue.scenes.arrays import Picture
 from tricue.scenes.rendering import photographs
 from tricue.scenes.rendering.paste import ellipse_mask, expose, paste
 from tricue.scenes.scene import Scene
+from tricue.scenes.seeds import make_generator
 
 PHOTOGRAPH_SCALE = 0.625  # from the photograph's upper 512x384 to 320x240
 MAX_HEAD_OFFSET = (40.0, 10.0)  # pixels from the center, horizontally and vertically
@@ -36,7 +37,7 @@ def light_change(seed: int = 0, frames: int = 90, *, max_speed: float = 6.0, noi
     each light, so that colors shift. The target is the face, about 61x77 pixels. max_speed: pixels per
     frame. noise: standard deviation in levels of 255. The seed decides the path, the curves and the noise.
     """
-    rng = np.random.default_rng(seed)
+    rng = make_generator(seed)
     cabin, head, corner, face = _cabin_and_head()
     opacity = ellipse_mask(head.shape[0], head.shape[1], edge=6.0)
     offsets = motion.sample_path(frames, MAX_HEAD_OFFSET, max_speed, rng)

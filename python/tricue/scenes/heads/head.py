@@ -26,6 +26,7 @@ from tricue.scenes.rendering.stereo_camera import (
     expose_lit,
 )
 from tricue.scenes.scene import StereoScene
+from tricue.scenes.seeds import make_generator
 
 HEAD_KINDS = ("normal", "distractor", "turning", "jump", "ramp", "hidden")
 MIN_HEAD_DISTANCE, MAX_HEAD_DISTANCE = 0.9, 4.05  # meters, of the head's center
@@ -61,7 +62,7 @@ def head(
     ValueError or TypeError names the argument that is wrong.
     """
     _check(frames, camera, kind, light, noise)
-    rng = np.random.default_rng(seed)
+    rng = make_generator(seed)
     rig = _rig(camera, rng)
     moves = head_moves.sample_walk(frames, _range(rig, kind), kind == "turning", rng)
     gain = _light(kind, frames, light, rng)
@@ -92,7 +93,7 @@ def static_head(
     _check(frames, camera, "normal", light, noise)
     if not 0.5 <= finite(distance, "distance", "meters") <= 10:
         raise ValueError(f"distance: expected 0.5 to 10 m, got {distance!r}")
-    rng = np.random.default_rng(seed)
+    rng = make_generator(seed)
     rig = _rig(camera, rng)
     gain = head_moves.sample_smooth_light(frames, light, rng) if light else np.ones(frames)
     view = _range(rig, "normal")

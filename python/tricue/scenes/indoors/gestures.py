@@ -21,6 +21,7 @@ from tricue.scenes.rendering.paste import expose
 from tricue.scenes.rendering.textures import Looks
 from tricue.scenes.rendering.zbuffer import box_of_mask
 from tricue.scenes.scene import Scene
+from tricue.scenes.seeds import make_generator
 
 Image = NDArray[np.uint8]
 
@@ -103,7 +104,7 @@ def _start(seed: int, frames: int, noise: float) -> tuple[np.random.Generator, _
     positive_whole(frames, "frames", "a count")
     if finite(noise, "noise", "levels of 255") < 0:
         raise ValueError(f"noise: expected levels of 255, 0 or more, got {noise!r}")
-    rng = np.random.default_rng(seed)
+    rng = make_generator(seed)
     lamp, looks, size = Lamp.sample(rng), Looks.sample(rng), float(rng.uniform(0.95, 1.05))
     paints = Paints.sample(looks, rng)
     return rng, _Still(paints, lamp, render_room(looks.skin, lamp, 1.5, rng), size)

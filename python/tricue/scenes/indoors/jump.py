@@ -18,6 +18,7 @@ from tricue.scenes.rendering.paste import expose
 from tricue.scenes.rendering.textures import Looks
 from tricue.scenes.rendering.zbuffer import box_of_mask
 from tricue.scenes.scene import Scene
+from tricue.scenes.seeds import make_generator
 
 FRAME_RATE = 15.0  # frames per second, as of a web camera indoors
 SHUTTER = 0.5  # of the time between two frames
@@ -46,7 +47,7 @@ def jump(seed: int = 0, frames: int = 90, *, noise: float = 2.0) -> Scene:
     positive_whole(frames, "frames", "a count")
     if finite(noise, "noise", "levels of 255") < 0:
         raise ValueError(f"noise: expected levels of 255, 0 or more, got {noise!r}")
-    rng = np.random.default_rng(seed)
+    rng = make_generator(seed)
     lamp, looks, size = Lamp.sample(rng), Looks.sample(rng), float(rng.uniform(0.95, 1.05))
     paints = Paints.sample(looks, rng)
     room = render_room(looks.skin, lamp, 2.2, rng)

@@ -30,6 +30,7 @@ from tricue.scenes.people.pedestrian import Outfit, Pedestrian
 from tricue.scenes.rendering.depth_sensor import DEPTH_SENSORS
 from tricue.scenes.rendering.stereo_camera import RAYS_PER_PIXEL, Lamp, RayCamera, expose_lit
 from tricue.scenes.scene import Events, WalkScene
+from tricue.scenes.seeds import make_generator
 
 OVERTAKING_KINDS = ("plain", "varied")
 MAX_OVERTAKING_FRAMES = 2 * STORY_FRAMES  # later the camera would pan out of the hall
@@ -71,7 +72,7 @@ def overtaking(
     shadow. ValueError or TypeError names the argument that is wrong.
     """
     _check(frames, camera, kind, noise, vergence)
-    rng = np.random.default_rng(seed)
+    rng = make_generator(seed)
     plan = PLAIN_PLAN if kind == "plain" else sample_plan(rng)
     geometry, depths = _sample_geometry(plan, camera, max(frames, STORY_FRAMES), rng)
     stage = _PanningStage.build(geometry, depths, RAYS_PER_PIXEL[camera], rng)

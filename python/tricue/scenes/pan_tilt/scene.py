@@ -24,6 +24,7 @@ from tricue.scenes.pan_tilt.head import HeadLimits
 from tricue.scenes.people.body import Person
 from tricue.scenes.people.pedestrian import Outfit, Pedestrian
 from tricue.scenes.rendering.stereo_camera import RAYS_PER_PIXEL, Lamp, RayCamera, expose_lit
+from tricue.scenes.seeds import make_generator
 
 PAN_TILT_RATE = 15.0  # frames per second, as the paper's system
 WIDTH, HEIGHT = 160, 120  # pixels
@@ -120,7 +121,7 @@ def pan_tilt_scene(
     crossed: somebody nearer walks the other way, and hides the target for some frames. limits: of the head.
     """
     positive_whole(frames, "frames", "a count")
-    rng = np.random.default_rng(seed)
+    rng = make_generator(seed)
     target = Person.sample(rng)._replace(build=rng.uniform(1.08, 1.2))
     camera = Intrinsics.from_fov(WIDTH, HEIGHT, FIELD_OF_VIEW)
     depth = target.height * camera.fx / TARGET_HEIGHT

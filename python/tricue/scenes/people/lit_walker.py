@@ -26,6 +26,7 @@ from tricue.scenes.rendering.ellipsoids import Ellipsoids
 from tricue.scenes.rendering.rectangles import make_rectangle_texture, make_upright_rectangle
 from tricue.scenes.rendering.stereo_camera import Lamp, RayCamera, RayImage, TexturedRectangle
 from tricue.scenes.scene import DepthScene
+from tricue.scenes.seeds import make_generator
 from tricue.scenes.sensor.low_light import LowLightSensor
 from tricue.scenes.sensor.time_of_flight import SPEED_OF_LIGHT, TimeOfFlightCamera
 
@@ -75,7 +76,7 @@ def lit_walker(
     Nothing hides the person. ValueError or TypeError names the argument that is wrong.
     """
     _check(frames, light, wall, unambiguous_range, min_reflectance)
-    rng = np.random.default_rng(seed)
+    rng = make_generator(seed)
     stage = _Stage.sample(frames, wall, rng)
     camera = TimeOfFlightCamera(
         stage.view.intrinsics,

@@ -19,6 +19,7 @@ from tricue.scenes.rendering.depth_sensor import DEPTH_SENSORS, DepthSensor
 from tricue.scenes.rendering.depth_view import DepthWindow, MountedCamera
 from tricue.scenes.rendering.ellipsoids import Ellipsoids
 from tricue.scenes.scene import Bystander, DepthScene
+from tricue.scenes.seeds import make_generator
 
 MIN_WALKER_DISTANCE = {"tof": 2.4, "rgbd": 2.0}  # meters; a body fits into the image from there on
 MAX_WALKER_DISTANCE = 6.2  # meters; within the range of both sensors
@@ -42,7 +43,7 @@ def walker(
     image. ValueError or TypeError names the argument that is wrong.
     """
     _check(frames, camera, missing, noise)
-    rng = np.random.default_rng(seed)
+    rng = make_generator(seed)
     stage = _sample_stage(camera, rng)
     person, rate = Person.sample(rng), stage.sensor.rate
     gestures = walks.sample_gestures(frames, rate, rng)
@@ -69,7 +70,7 @@ def crossing(
     The other arguments and errors are those of :func:`walker`.
     """
     _check(frames, camera, missing, noise)
-    rng = np.random.default_rng(seed)
+    rng = make_generator(seed)
     stage = _sample_stage(camera, rng)
     rate = stage.sensor.rate
     time = walks.compute_sweep_times(frames, rate)

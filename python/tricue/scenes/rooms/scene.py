@@ -17,6 +17,7 @@ from tricue.scenes.arrays import Array, Mask
 from tricue.scenes.rendering.stereo_camera import expose_lit
 from tricue.scenes.rooms.plan import ROOM_PLANS, plan_room
 from tricue.scenes.rooms.stage import RoomStage, RoomTruth
+from tricue.scenes.seeds import check_seed
 from tricue.scenes.sensor.depth_camera import DepthFaults, FaultyDepthCamera
 from tricue.scenes.sensor.stereo_faults import StereoFaults
 
@@ -186,8 +187,7 @@ def _check(kind: str, seed: int, size: tuple[int, int], channels: str, noise: fl
     for value, name, known in ((kind, "kind", ROOM_KINDS), (channels, "channels", ROOM_CHANNELS)):
         if value not in known:
             raise ValueError(f"{name}: expected one of {', '.join(known)}, got {value!r}")
-    if not isinstance(seed, (int, np.integer)) or seed < 0:
-        raise ValueError(f"seed: expected a whole number from 0, got {seed!r}")
+    check_seed(seed)
     if len(size) != 2 or min(positive_whole(side, "size", "pixels") for side in size) < MIN_ROOM_SIDE:
         raise ValueError(f"size: expected width and height of {MIN_ROOM_SIDE} pixels or more, got {size!r}")
     if finite(noise, "noise", "levels of 255") < 0:

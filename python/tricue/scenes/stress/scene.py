@@ -19,6 +19,7 @@ from tricue.data.depth_images import METERS_PER_MILLIMETER
 from tricue.scenes.arrays import Array, Mask, Picture
 from tricue.scenes.rendering.depth_sensor import DEPTH_SENSORS, DepthSensor
 from tricue.scenes.rendering.stereo_camera import BLUR_DEVIATION, expose_lit
+from tricue.scenes.seeds import check_seed
 from tricue.scenes.stress.cards import CardCamera, CardImage
 from tricue.scenes.stress.events import STRESS_FRAME_RATE
 from tricue.scenes.stress.plan import AWAY_FRAMES, FRAME_COUNTS
@@ -187,8 +188,7 @@ def _check(kind: str, seed: int, size: tuple[int, int], channels: str, noise: fl
     for value, name, known in ((kind, "kind", STRESS_KINDS), (channels, "channels", STRESS_CHANNELS)):
         if value not in known:
             raise ValueError(f"{name}: expected one of {', '.join(known)}, got {value!r}")
-    if not isinstance(seed, (int, np.integer)) or seed < 0:
-        raise ValueError(f"seed: expected a whole number from 0, got {seed!r}")
+    check_seed(seed)
     if len(size) != 2 or min(positive_whole(side, "size", "pixels") for side in size) < MIN_IMAGE_SIDE:
         raise ValueError(f"size: expected width and height of {MIN_IMAGE_SIDE} pixels or more, got {size!r}")
     if finite(noise, "noise", "levels of 255") < 0:
