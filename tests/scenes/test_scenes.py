@@ -162,8 +162,16 @@ def test_bad_seeds_are_named(make, seed):
 
 @pytest.mark.parametrize("make", [scenes.face_over_clutter, scenes.light_change])
 def test_short_scenes_are_scenes(make):
-    """A scene of one frame has one true box."""
-    assert len(make(frames=1).frames) == len(make(frames=1).boxes) == 1
+    """A scene of one frame has one true box, and nothing changes in it."""
+    scene = make(frames=1)
+    assert len(scene.frames) == len(scene.boxes) == 1
+    assert scene.changes == ()
+
+
+@pytest.mark.parametrize(("frames", "changes"), [(2, (1,)), (3, (1, 2))])
+def test_light_changes_of_short_scenes(frames, changes):
+    """The light can't change in the first frame."""
+    assert scenes.light_change(frames=frames).changes == changes
 
 
 def test_missing_scikit_image_names_the_extra(monkeypatch):

@@ -41,17 +41,17 @@ def light_change(seed: int = 0, frames: int = 90, *, max_speed: float = 6.0, noi
     cabin, head, corner, face = _cabin_and_head()
     opacity = ellipse_mask(head.shape[0], head.shape[1], edge=6.0)
     offsets = motion.sample_path(frames, MAX_HEAD_OFFSET, max_speed, rng)
-    changes = frames // 3, 2 * frames // 3
+    courses = np.searchsorted([frames // 3, 2 * frames // 3], np.arange(frames), side="right")
     lights = [_daylight(), _warm(rng), _cold(rng)]
     images = (
-        lights[np.searchsorted(changes, index, side="right")](paste(cabin, head, opacity, *(corner + offset)))
-        for index, offset in enumerate(offsets)
+        lights[course](paste(cabin, head, opacity, *(corner + offset)))
+        for course, offset in zip(courses.tolist(), offsets, strict=True)
     )
     return Scene(
         name=f"light change, seed {seed}",
         frames=tuple(Frame(color=expose(image, noise, rng)) for image in images),
         boxes=tuple(face._replace(x=face.x + x, y=face.y + y) for x, y in offsets.tolist()),
-        changes=changes,
+        changes=tuple((np.flatnonzero(np.diff(courses)) + 1).tolist()),
     )
 
 
