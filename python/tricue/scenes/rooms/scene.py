@@ -51,8 +51,8 @@ class RoomScene:
     visible: Array
     """(N,) share of the target's pixels that are visible; those beyond the image count as hidden."""
     positions: Array
-    """(N, 3) meters in the camera's frame: the mean of the surface points at the target's pixels, as if
-    nothing hid it. NaN where the box is NaN."""
+    """(N, 3) meters in the camera's frame: the mean of the surface points at the target's pixels in the
+    image, as if nothing hid it. NaN where the box is NaN."""
     masks: tuple[Mask, ...]
     """(H, W) each: the target's visible pixels."""
     spans: dict[str, range]
