@@ -83,13 +83,15 @@ def _skin_moments(
     k: Kernels, image: Image, skin_color: Image, threshold: float, region: Region, step: int
 ) -> list[float]:
     """Count, mean and covariance of a region's skin pixels, pixels, by every ``step``-th row."""
+    found: list[float]
     if step == 1:
-        return k.skin_moments(image, skin_color, threshold, region).tolist()
+        found = k.skin_moments(image, skin_color, threshold, region).tolist()
+        return found
     left, top, right, bottom = region
     first = max(top, 0) + step // 2
     rows = image[first : max(bottom, 0) : step]
-    found = k.skin_moments(rows, skin_color, threshold, (left, 0, right, len(rows)))
-    count, x, y, xx, yy, xy = found.tolist()
+    found = k.skin_moments(rows, skin_color, threshold, (left, 0, right, len(rows))).tolist()
+    count, x, y, xx, yy, xy = found
     return [step * count, x, first + step * (y - 0.5) + 0.5, xx, step * step * yy, step * xy]
 
 
