@@ -5,5 +5,9 @@ FRAME_DIGITS = 3  # after the point, of a time in frames: rounding of timestamps
 
 
 def velocity_kept(share: float, seconds: float, rate: float) -> float:
-    """The share of a velocity that is kept after so many seconds, if ``share`` is kept after 1 / ``rate``."""
-    return float(share ** round(seconds * rate, FRAME_DIGITS))
+    """The share of a velocity that is kept over a frame of so many seconds.
+
+    ``share`` of frames at ``rate``, less over longer ones. Over shorter ones it is not more: a velocity that
+    was measured over a short time is less certain.
+    """
+    return float(share ** max(round(seconds * rate, FRAME_DIGITS), 1.0))

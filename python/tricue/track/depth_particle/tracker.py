@@ -36,8 +36,8 @@ Floats = NDArray[np.float64]
 
 REFINE_POSITION = (0.06, 0.05, 0.05)  # meters of X, Y, Z, standard deviation of the second sampling
 REFINE_SIZE = 0.05  # of the size, standard deviation of the second sampling
-VELOCITY_KEPT_HIDDEN, VELOCITY_KEPT = 0.97, 0.85  # in 1 / COASTING_RATE: behind an occluder, otherwise
-COASTING_RATE = 15.0  # Hz
+VELOCITY_KEPT_HIDDEN, VELOCITY_KEPT = 0.97, 0.85  # in a frame of coasting: behind an occluder, otherwise
+COASTING_RATE = 15.0  # Hz, of frames over which so much is kept, and less over longer ones
 MEAN_RATE = 0.1  # per frame, of the running means
 MAX_COVERED_TO_LEARN = 0.1  # of the target, by what is in front of it
 LOG_SIZE_DEVIATION = np.array([0.25, 0.2])  # of width and height against their running means
