@@ -19,10 +19,8 @@ Floats = NDArray[np.float64]
 MEASUREMENT_SIZE = 7  # (7): X, Y, Z, three colors, the intersection; in a state the velocity comes after
 INTERSECTION_DRIFT = 1.0  # standard deviation, section 4.1: unity
 MOVING = np.array([0, 1, 2, 7, 8, 9])  # the position and, where a state has one, the velocity
-COASTING_FACTOR, COASTING_RATE = (
-    0.9,
-    30.0,
-)  # of the velocity, in a frame at that rate, Hz, without a measurement
+COASTING_RATE = 30.0  # Hz
+COASTING_FACTOR = 0.9  # of the velocity, in a frame at that rate without a measurement
 
 
 class HeadFilter(NamedTuple):
