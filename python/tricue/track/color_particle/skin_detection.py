@@ -16,7 +16,7 @@ Region = tuple[int, int, int, int]
 
 SKIN_PATCH = 1 / 3  # of the target's width and height: the central patch that gives its reference color
 MIN_SKIN_AREA = 0.05  # of the target's area; fewer skin pixels are no detection
-SKIN_ROWS = 64  # of where the target can be next: of more rows, every n-th tells as much
+SKIN_ROWS = 128  # of where the target can be next, or up to twice that: of more, every n-th tells as much
 MIN_PIXEL_VARIANCE = 1.0  # pixels², of a pixel's own extent: keeps the covariance positive definite
 BLOB_SPREAD = 0.25  # standard deviation of candidates at a blob, of its width and height
 CANDIDATE_SCALE = 0.2  # candidates have the mean size up to a factor of exp of plus or minus this
