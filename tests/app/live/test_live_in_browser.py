@@ -13,6 +13,7 @@ from typing import Any
 import cv2
 import pytest
 
+from tests.app.browser.tab import CONTRASTS, NAMELESS
 from tests.app.conftest import HEIGHT, START, WIDTH
 from tests.app.live.conftest import IMAGES, level, wait
 from tests.app.test_serve import Server
@@ -229,8 +230,6 @@ def test_page_fits_and_reads(
     chromium: Any, opened: Callable[..., Any], size: dict[str, int], scheme: str
 ) -> None:
     """Nothing is wider than the screen, every control has a name, and text stands out by 4.5 to 1."""
-    from tests.app.test_in_browser import CONTRASTS, NAMELESS
-
     tab = Tab(chromium, opened().url, size).ready()
     tab.page.emulate_media(color_scheme=scheme)
     tab.follow()
