@@ -42,6 +42,16 @@ CONTRASTS = """() => {
 }"""
 
 
+def place_in_page(page: Any, x: float, y: float) -> tuple[float, float]:
+    """Where a pixel of the picture is in the page."""
+    left, top, width, height = page.locator("#picture").bounding_box().values()
+    scale = min(width / WIDTH, height / HEIGHT)
+    return (
+        left + (width - WIDTH * scale) / 2 + x * scale,
+        top + (height - HEIGHT * scale) / 2 + y * scale,
+    )
+
+
 class Tab:
     """A page of the server, and what a user does in it."""
 
@@ -67,12 +77,7 @@ class Tab:
 
     def place(self, x: float, y: float) -> tuple[float, float]:
         """Where a pixel of the frame is in the page."""
-        left, top, width, height = self.page.locator("#picture").bounding_box().values()
-        scale = min(width / WIDTH, height / HEIGHT)
-        return (
-            left + (width - WIDTH * scale) / 2 + x * scale,
-            top + (height - HEIGHT * scale) / 2 + y * scale,
-        )
+        return place_in_page(self.page, x, y)
 
     def drag(self, start: tuple[float, float], end: tuple[float, float]) -> None:
         mouse = self.page.mouse

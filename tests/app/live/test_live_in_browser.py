@@ -13,8 +13,8 @@ from typing import Any
 import cv2
 import pytest
 
-from tests.app.browser.tab import CONTRASTS, NAMELESS
-from tests.app.conftest import HEIGHT, START, WIDTH
+from tests.app.browser.tab import CONTRASTS, NAMELESS, place_in_page
+from tests.app.conftest import START
 from tests.app.live.conftest import IMAGES, level, wait
 from tests.app.test_serve import Server
 from tests.data.mjpeg_server import MjpegServer
@@ -86,12 +86,7 @@ class Tab:
 
     def place(self, x: float, y: float) -> tuple[float, float]:
         """Where a pixel of the picture is in the page."""
-        left, top, width, height = self.page.locator("#picture").bounding_box().values()
-        scale = min(width / WIDTH, height / HEIGHT)
-        return (
-            left + (width - WIDTH * scale) / 2 + x * scale,
-            top + (height - HEIGHT * scale) / 2 + y * scale,
-        )
+        return place_in_page(self.page, x, y)
 
     def draw(self, x: float, y: float, width: float, height: float, pause: int = 0) -> None:
         """Drag a box. pause: milliseconds that it takes."""
