@@ -120,6 +120,16 @@ def test_a_small_box_is_measured(disparity, side):
     assert FOCAL_BASELINE / z == pytest.approx(disparity, rel=0.01, abs=0.2)
 
 
+def test_what_the_right_image_does_not_show_has_no_depth(kernels):
+    """Near the left border, where the other image ends before what matches, chance finds depth in at most one
+    box of ten.
+    """
+    boxes = np.array([[x, y, 40.0, 50.0] for x in (16.0, 25.0, 35.0, 44.0) for y in range(40, 201, 20)])
+    stereo = pair(70.0, kernels)
+    found = stereo.medians(kernels, boxes, 48, None, (0.5, 0.1))
+    assert np.isfinite(found[:, 0]).mean() < 0.1
+
+
 def test_sets_of_kernels_agree():
     """Native and reference kernels measure the same bits."""
     native, reference = (

@@ -23,6 +23,9 @@ MAX_DISPARITY_ABOVE_EXPECTED = 16  # samples
 MAX_DISPARITY_BELOW_EXPECTED = 8  # samples
 MAX_DISPARITY_OF_WIDTH = 0.25  # of the image's width, where no depth is expected
 MAX_DISPARITY_OF_SIDE = 4  # sides of the sampled square, which limits the time
+# Of matches by chance at most a fifth agree with their median, of recorded targets' a third at least.
+MIN_AGREEING_SHARE = 0.3  # of the measured samples
+AGREEING_OFFSET, AGREEING_SAMPLES = 0.1, 2  # meters, and samples of disparity, from the median
 MIN_NEARER_SHARE = 0.5  # of a small box: what is nearer than its samples can find
 DISPARITY_NOISE = 0.15  # samples, standard deviation
 DEPTH_IMAGE_NOISE = 0.005  # of the depth, standard deviation of a pixel
@@ -148,14 +151,31 @@ class StereoSource(NamedTuple):
         Those of a small box are too fine for the disparities of what is near. So where no depth is expected,
         coarser ones look for what is nearer than they can find.
         """
-        z, found = expected.z if expected else math.nan, []
+        found = []
         for box in boxes.tolist():
             step = max(box[2:]) / samples
-            depths, part = self._sample_around(box, step, samples, expected)
-            medians = k.median_depths(depths, part, samples, z, *gate)
-            nearer = None if expected else self._nearer(k, box, step, samples, gate)
-            found.append(medians if nearer is None else nearer)
+            if expected is None:
+                nearer = self._nearer(k, box, step, samples, gate)
+                found.append(self._unexpected(k, box, step, samples, gate) if nearer is None else nearer)
+            else:
+                depths, part = self._sample_around(box, step, samples, expected)
+                found.append(k.median_depths(depths, part, samples, expected.z, *gate))
         return np.concatenate(found)
+
+    def _unexpected(self, k: Kernels, box: list[float], step: float, samples: int, gate: Gate) -> Floats:
+        """(1, 3) as of ``medians``, NaN where the depths don't agree with their median.
+
+        What the right image doesn't show, left of its border or covered there, has matches by chance.
+        """
+        depths, part = self._sample_around(box, step, samples, None)
+        medians = k.median_depths(depths, part, samples, math.nan, *gate)
+        z = float(medians[0, 0])
+        if math.isnan(z):
+            return medians
+        sample = step * z * z / (self.rig.intrinsics.fx * self.rig.baseline)  # of disparity, in meters
+        agreeing = AGREEING_OFFSET + AGREEING_SAMPLES * sample, MIN_AGREEING_SHARE
+        agree = not math.isnan(k.median_depths(depths, part, samples, math.nan, *agreeing)[0, 0])
+        return medians if agree else np.full((1, 3), np.nan)
 
     def _nearer(self, k: Kernels, box: list[float], step: float, samples: int, gate: Gate) -> Floats | None:
         """(1, 3) as of ``medians``, of what fills most of a box and is nearer than ``sample`` can find with
