@@ -104,6 +104,23 @@ def test_the_papers_peak_is_the_highest_from_the_start(overtaken: WalkScene):
     assert model.peaks == pytest.approx((2.6, 0.0), abs=0.1)
 
 
+def test_the_papers_peak_is_the_highest_however_far_it_is(overtaken: WalkScene):
+    """Section 4.2: the disparity is the highest peak of the histogram, also where one that is 0.2 % lower is
+    just where the disparity was.
+    """
+    tracker = FlowDepthTracker(dataclasses.replace(PAPER, cues=("disparity",)))
+    tracker.init(overtaken.frames[0], overtaken.boxes[0])
+    state = tracker._state
+    x0, _, x1, _ = state.temporal_window
+    left = np.arange(160) < (x0 + x1) / 2
+    inside = (np.arange(160) + 0.5 >= x0) & (np.arange(160) + 0.5 < x1)
+    values = np.where(left, state.disparity, state.disparity + 8)
+    weights = np.where(left, 1 / (left & inside).sum(), 1.002 / (~left & inside).sum())
+    planes = (np.tile(each.astype(np.float32), (120, 1)) for each in (values, weights))
+    model = estimate(tracker._k, state, Cues((0, 0, 160, 120), None, CueMap(*planes)), tracker.params)
+    assert model.peaks == pytest.approx((state.disparity + 8,), abs=0.3)
+
+
 @pytest.mark.parametrize("depth", [False, True])
 def test_the_paper_follows_until_the_overtaking(depth, overtakings, follow):
     """As printed, the target is held as long as nothing hides it, before a stereo pair and a depth camera."""

@@ -12,6 +12,7 @@ if typing.TYPE_CHECKING:
 
 OURS = "our experiment: benchmarks/README.md"
 NEVER = 1e9  # seconds
+ANY_CHANGE = 1e12  # cells: no peak is preferred to a higher one
 PAPER_COLUMNS = 160  # of the paper's images, to which lengths in the parameters refer
 
 
@@ -441,8 +442,8 @@ class FlowDepthParams(Params):
             histogram_region="window",
             min_prominence=0.0,
             disparity_half_range=10.0,
-            flow_change=100.0,
-            disparity_change=100.0,
+            flow_change=ANY_CHANGE,
+            disparity_change=ANY_CHANGE,
             velocity_smoothing=False,
             surround_weight=0.0,
             depth_camera_scale=1.0,
