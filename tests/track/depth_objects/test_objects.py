@@ -243,6 +243,13 @@ def test_a_person_cut_by_the_border_may_be_narrow(objects_of):
     assert len(find_people(objects_of([person(width=1.9)], cut), P)) == 0
 
 
+def test_as_printed_who_is_cut_is_as_wide_as_is_seen(objects_of):
+    """Section IV.A knows no cuts: whatever the border cuts is no human candidate where it is too narrow."""
+    narrow, paper = objects_of([person(width=0.2)], [[1, 0, 0, 0]]), Params.paper()
+    assert len(find_people(narrow, paper)) == 0
+    assert len(find_people(objects_of([person(width=0.4)], [[1, 0, 0, 0]]), paper)) == 1
+
+
 def test_nobody_is_an_error_that_asks_for_a_box(objects_of):
     """Without a candidate the error names the box, and, where there is nothing else either, the range."""
     with pytest.raises(TargetNotFoundError, match=r"^box: expected .*nobody was found in this frame$"):

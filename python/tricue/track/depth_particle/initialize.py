@@ -28,7 +28,8 @@ def find_people(objects: Objects, p: DepthParticleParams) -> NDArray[np.intp]:
     width, height = objects.states[:, 3], objects.states[:, 4]
     aspect, filled = height / width, objects.area / (width * height)
     tall = (height >= p.human_height[0]) & (height <= p.human_height[1])
-    upright = (aspect >= p.aspect[0]) & ((aspect <= p.aspect[1]) | ~objects.whole[:, 0])
+    wider = p.complete & ~objects.whole[:, 0]  # than what is visible
+    upright = (aspect >= p.aspect[0]) & ((aspect <= p.aspect[1]) | wider)
     # A full rectangle's area may exceed width times height by rounding: 1 admits all.
     slender, cut = (filled <= p.max_fill) | (p.max_fill == 1), objects.cut.any(axis=1)
     return np.concatenate([np.flatnonzero(tall & upright & each) for each in (slender, ~slender & cut)])
