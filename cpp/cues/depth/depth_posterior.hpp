@@ -40,7 +40,7 @@ struct DepthPosterior {
 /// @param depth float32 (H, W), meters; may be empty
 /// @param x0, y0 top left corner of the grid, pixels, finite
 /// @throws std::invalid_argument on numbers out of range
-/// Source: ours; a Gaussian and a constant as likelihoods, as Sabeti, Parvizi, Wu 2008 have a Gaussian of depth.
+/// Source: ours.
 DepthPosterior depth_posterior(const DepthView& depth, const SampleGrid& grid, const ExpectedDepth& target);
 
 }  // namespace tricue
