@@ -88,7 +88,7 @@ def mahalanobis_distance(predicted: HeadFilter, measured: Point, noise: Floats) 
 
 
 def correct(k: Kernels, predicted: HeadFilter, measured: Floats, noise: Floats) -> HeadFilter:
-    """The correction (8) by a measurement (7,) and its covariance (7, 7)."""
+    """The correction, steps 3 to 5 of section 4.2, by a measurement (7,) as (8) and its covariance (7, 7)."""
     selection = _selection(len(predicted.mean))
     mean, covariance, *_ = k.kalman_update(predicted.mean, predicted.covariance, measured, selection, noise)
     return HeadFilter(mean, covariance)
