@@ -217,7 +217,9 @@ class DepthParticleParams(SegmentationParams):
           box one fills. The limits aren't printed, and stay ours.
         - Which candidate is the target: by place and extent along the image's axes and in depth, by its
           horizontal and vertical distribution, and by the depth histogram of its rectangle, (38). No measure
-          of likeness is printed: it is the cost of :mod:`tricue.track.depth_particle.matching`.
+          of likeness is printed: it is the cost of :mod:`tricue.track.depth_particle.matching`. Of who the
+          image's border cuts it leaves out the distributions; a size that was never wholly in the image is a
+          lower bound.
         - State: "a scalable rectangle"; ours is in meters, with a depth. The location is the expected value,
           the rectangle's center. Particles, (39): A = I, and K grows with the speed, that of the last step
           (``velocity_rate``); K's numbers, and the share drawn from the segmented object, aren't printed.
