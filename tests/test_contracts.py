@@ -139,6 +139,11 @@ def test_struct_fields_become_parameters(tmp_path: Path) -> None:
         (r"(?m)^/// .*\n|^///\n", "", "no contract: a /// comment is needed in front of the declaration"),
         (r"shift\(", "move(", "the header declares no function of this name"),
         (r"///< .*", "", "parameter low is described neither by @param nor by a struct's field"),
+        (
+            r"double low",
+            "double low;  ///< of others\n    double low",
+            "parameter low is described more than once: it needs one @param",
+        ),
         (r"@param values", "@param value", "@param of what the binding doesn't take: value"),
         (r"/// @returns .*\n", "", "no @returns, and no struct with commented fields is returned"),
     ],

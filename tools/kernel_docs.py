@@ -189,10 +189,14 @@ def _fill(
     if stale:
         raise ContractError(f"@param of what the binding doesn't take: {', '.join(sorted(stale))}")
     for name in wanted:
-        entry = next((entry for entry in told + taken if name in entry.names), None)
-        if entry is None:
+        entries = [entry for entry in told if name in entry.names] or [
+            entry for entry in taken if name in entry.names
+        ]
+        if not entries:
             raise ContractError(f"parameter {name} is described neither by @param nor by a struct's field")
-        kept = Entry(tuple(other for other in entry.names if other in wanted), entry.text)
+        if len(entries) > 1:
+            raise ContractError(f"parameter {name} is described more than once: it needs one @param")
+        kept = Entry(tuple(other for other in entries[0].names if other in wanted), entries[0].text)
         if kept not in contract.parameters:
             contract.parameters.append(kept)
     texts = [text for tag, text in tags if tag == "returns"]

@@ -895,8 +895,7 @@ def depth_posterior(
     Raises:
         ValueError: on numbers out of range
 
-    Source: ours; a Gaussian and a constant as likelihoods, as Sabeti, Parvizi, Wu 2008 have a Gaussian
-    of depth.
+    Source: ours.
     """
 
 def divide_depth(
@@ -957,7 +956,7 @@ def ellipse_disparity(
         subpixel: whether disparities keep their fractions; else each becomes the nearest whole number,
             of halves the smaller
         median: their median, else their mean
-        tolerance: of the left-right check, pixels; negative for no check
+        tolerance: pixels, by which a pixel near that disparity may differ from it, 0 or more
 
     Returns:
         disparity: pixels; NaN without any
@@ -1406,7 +1405,7 @@ def head_cells(
         chroma: as color_bins takes it
         gains: as color_bins takes them, or None
         expected: the head's disparity, cells, finite
-        tolerance: by which a cell's may differ, cells, 0 or more
+        tolerance: by which a cell's disparity may differ from the head's, cells, 0 or more
         fill: side of the square by whose majority gaps are filled, cells, odd, 1 to 127
         first, last: range of disparities, cells, both included, at most 4096 of them
         window: side of the matching window, cells, as sad_disparity takes it

@@ -29,6 +29,7 @@ struct EllipseDisparity {
 /// @param left uint8 (H, W, 3) BGR, rectified, at least one pixel
 /// @param right uint8 (H, W, 3) BGR, or gray (H, W), of the same size
 /// @param region (x0, y0, x1, y1), pixels, sides of 1 to 16384; may reach over the image's edge
+/// @param tolerance pixels, by which a pixel near that disparity may differ from it, 0 or more
 /// @throws std::invalid_argument on images of unlike sizes, or values out of range
 /// Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.2, equations (3) to (5); the median is ours.
 EllipseDisparity ellipse_disparity(const ImageView& left, const ImageView& right, const Region& region,

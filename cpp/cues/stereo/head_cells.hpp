@@ -37,6 +37,7 @@ struct HeadCells {
 /// @param bins (n_0, n_1, n_2), as color_bins takes them
 /// @param chroma as color_bins takes it
 /// @param gains as color_bins takes them, or None
+/// @param tolerance by which a cell's disparity may differ from the head's, cells, 0 or more
 /// @param first, last range of disparities, cells, both included, at most 4096 of them
 /// @param window side of the matching window, cells, as sad_disparity takes it
 /// @throws std::invalid_argument on images of unlike sizes, or values out of range
