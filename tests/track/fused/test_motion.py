@@ -79,6 +79,13 @@ def test_time_counts():
     assert STEADY.penalty(target(172), target(188), SECONDS, WEIGHT) > 0
 
 
+def test_a_velocity_over_hardly_any_time_tells_nothing():
+    """The timestamp of a frame that came late, just before the next one's, makes it far too fast."""
+    late = STEADY.follow(target(172), target(180), SECONDS / 100)
+    assert late.penalty(target(180), target(188), SECONDS, WEIGHT) == 0
+    assert late.follow(target(180), target(188), SECONDS).typical == late.typical
+
+
 def test_nothing_is_known_at_first():
     """Nor after frames without the target, which may have gone anywhere; typical jumps stay known."""
     assert Motion().penalty(target(100), target(300), SECONDS, WEIGHT) == 0
@@ -111,3 +118,13 @@ def test_the_one_beside_it_is_not_taken_for_it(weight):
     tracks = [tracker.update(scene(140)) for _ in range(20)]
     assert all(each.status is Status.TRACKED for each in tracks)
     assert (tracker.update(scene(None)).status is Status.TRACKED) == (weight == 0)
+
+
+def test_frames_that_come_in_bursts_are_followed():
+    """As from a network: every second frame has nearly the timestamp of the next."""
+    tracker = FusedTracker()
+    tracker.init(Frame(scene(10).color, timestamp=0.0), Box(10, 100, 32, 40))
+    for index in range(1, 20):
+        late = index + 0.98 * (index % 2)
+        frame = Frame(scene(10 + 6 * index).color, timestamp=late / 30)
+        assert tracker.update(frame).status is Status.TRACKED
