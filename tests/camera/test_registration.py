@@ -159,12 +159,14 @@ def slowly_reprojected(depth: NDArray[np.float32], way: Reprojection) -> NDArray
     for (v, u), z in np.ndenumerate(depth):
         if not (np.isfinite(z) and z > 0):
             continue
-        corners = way.depth.back_project([u - 0.5, u + 0.5, u], [v - 0.5, v + 0.5, v], z)
+        right, down = np.array([[-0.5, -0.5], [-0.5, 0.5], [0.5, -0.5], [0.5, 0.5], [0, 0]]).T
+        corners = way.depth.back_project(u + right, v + down, z)
         placed = corners @ way.extrinsics.rotation.T + way.extrinsics.translation
-        low, high = np.sort(way.color.project(placed[:2]), axis=0)
+        outline = way.color.project(placed[:4])
+        low, high = outline.min(axis=0), outline.max(axis=0)
         for y in range(max(0, math.ceil(low[1])), min(way.color.height, math.ceil(high[1]))):
             for x in range(max(0, math.ceil(low[0])), min(way.color.width, math.ceil(high[0]))):
-                found[y, x] = min(found[y, x], placed[2, 2])
+                found[y, x] = min(found[y, x], placed[4, 2])
     return np.where(np.isinf(found), np.nan, found)
 
 
@@ -231,6 +233,15 @@ def test_a_color_camera_upside_down_sees_the_depth_so() -> None:
     depth = np.random.default_rng(0).uniform(0.5, 4, (24, 32)).astype(np.float32)
     turned = Reprojection(camera, camera, Extrinsics(np.diag([-1.0, -1.0, 1.0])))(depth)
     np.testing.assert_allclose(turned, depth[::-1, ::-1], rtol=1e-6)
+
+
+@pytest.mark.parametrize("degrees", [2, 45, -45, 70])
+def test_a_color_camera_that_is_turned_sees_a_wall_without_gaps(degrees: float) -> None:
+    """At any angle about the line of sight every pixel inside of the depth image has a depth."""
+    camera, turn = Intrinsics(40, 40, 15.5, 15.5, 32, 32), np.array([0, 0, math.radians(degrees)])
+    way = Reprojection(camera, camera, Extrinsics(cv2.Rodrigues(turn)[0]))
+    found = way(np.full((32, 32), 2.0, np.float32))
+    np.testing.assert_allclose(found[6:26, 6:26], 2.0, rtol=1e-6)
 
 
 def test_what_is_near_hides_what_is_behind() -> None:

@@ -3,7 +3,7 @@
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -110,33 +110,36 @@ class Reprojection:
     def __call__(self, meters: NDArray[Any]) -> NDArray[np.float32]:
         """The depth (H, W) of each pixel of the color image, from a depth image (h, w); both in meters.
 
-        A depth pixel covers what lies between the projections of its corners, so that a finer color image has
-        no gaps; where several fall on one pixel, the nearest surface hides the others. NaN where none does:
-        beside of edges, and outside of the depth image. ValueError where the depth image has another size
-        than its camera.
+        A depth pixel covers what lies between the projections of its four corners, so that a finer or turned
+        color image has no gaps; where several fall on one pixel, the nearest surface hides the others. NaN
+        where none does: beside of edges, and outside of the depth image. ValueError where the depth image has
+        another size than its camera.
         """
         image = np.asarray(meters, np.float32)
         _check("depth", image.shape, self.depth)
         with np.errstate(invalid="ignore"):
             z = np.where((image > 0) & np.isfinite(image), image, np.float32(np.nan))
-        first, last = (self._project(corner, z) for corner in self._corners)
-        columns, rows = (_covered(first[axis], last[axis]) for axis in (0, 1))
+        corners = [self._project(corner, z) for corner in self._corners]
+        columns, rows = (_covered([corner[axis] for corner in corners]) for axis in (0, 1))
         depth = z * self._middle[..., 2] + np.float32(self.extrinsics.translation[2])
         return self._nearest_of(depth, columns, rows)
 
     @cached_property
-    def _corners(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-        """Of each pixel: where the rays through two opposite corners go, in the color camera's frame."""
-        return self._rays(-0.5), self._rays(0.5)
+    def _corners(self) -> list[NDArray[np.float32]]:
+        """Of each pixel: where the rays through its corners go, in the color camera's frame."""
+        return [self._rays(right, down) for right in (-0.5, 0.5) for down in (-0.5, 0.5)]
 
     @cached_property
     def _middle(self) -> NDArray[np.float32]:
-        return self._rays(0.0)
+        return self._rays(0.0, 0.0)
 
-    def _rays(self, offset: float) -> NDArray[np.float32]:
-        """(h, w, 3): the point of each pixel at a depth of 1 m, turned into the color camera's frame."""
+    def _rays(self, right: float, down: float) -> NDArray[np.float32]:
+        """(h, w, 3): the point of each pixel at a depth of 1 m, turned into the color camera's frame.
+
+        right, down: pixels from the pixel's center.
+        """
         u, v = np.meshgrid(np.arange(self.depth.width), np.arange(self.depth.height))
-        points = self.depth.back_project(u + offset, v + offset, 1.0)
+        points = self.depth.back_project(u + right, v + down, 1.0)
         rays: NDArray[np.float32] = (points @ np.asarray(self.extrinsics.rotation).T).astype(np.float32)
         return rays
 
@@ -174,12 +177,10 @@ class Reprojection:
         return nearest.reshape(height, width)
 
 
-def _covered(
-    start: NDArray[np.float32], end: NDArray[np.float32]
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """The first pixel whose center lies between two coordinates, and how many do; 0 for NaN."""
-    low, high = np.fmin(start, end), np.fmax(start, end)
-    known = np.isfinite(start) & np.isfinite(end)
+def _covered(corners: list[NDArray[np.float32]]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """The first pixel whose center lies between coordinates, and how many do; 0 where one is NaN."""
+    low, high = reduce(np.minimum, corners), reduce(np.maximum, corners)
+    known = np.isfinite(low) & np.isfinite(high)
     first = np.ceil(np.where(known, low, 0)).clip(-_FAR_OUTSIDE, _FAR_OUTSIDE).astype(np.intp)
     behind = np.ceil(np.where(known, high, 0)).clip(-_FAR_OUTSIDE, _FAR_OUTSIDE).astype(np.intp)
     return first, behind - first
