@@ -104,6 +104,15 @@ def test_depth_that_comes_late(depth, kind, run, follows, errors):
 
 
 @pytest.mark.parametrize("kind", KINDS)
+def test_a_target_without_depth_is_where_the_picture_shows_it(kind, drawn, run):
+    """In a second of color alone the direction of the position is that of the target, to a degree."""
+    positions = np.array([track.position for track in run(kind, 20 * ["rgbd"] + 30 * ["color"])])
+    true = drawn(kind).positions[:50]
+    found, wanted = (each[20:, :2] / each[20:, 2:] for each in (positions, true))
+    assert np.abs(found - wanted).max() < np.radians(1)
+
+
+@pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("without", ["color", "blank"])
 @pytest.mark.parametrize("depth", ["rgbd", "pair"])
 def test_depth_that_is_lost_for_a_while(depth, without, kind, shoot, run, follows, errors):

@@ -137,6 +137,23 @@ def test_one_long_step_is_as_many_short_ones(kernels):
     np.testing.assert_allclose(long.position, START + SPEED, rtol=1e-12)
 
 
+def test_a_place_in_the_picture_tells_no_depth(kernels):
+    """It moves the position to its ray and tells the velocity there; depth and its variance stay."""
+    camera, estimate = (
+        Intrinsics(300.0, 250.0, 159.5, 119.5, 320, 240),
+        PositionFilter.at_rest(START, NOISE, P),
+    )
+    for index in range(1, 31):
+        estimate = before = estimate.predict(kernels, SECONDS, P)
+        column, row = camera.project([0.4 + 0.03 * index, -0.2, 2.0])
+        estimate = before.aim(kernels, Target(float(column) + 0.5, float(row) + 0.5, 20.0, 20.0), camera)
+        assert estimate.position[2] == before.position[2] == 2.0
+        assert estimate.covariance[2, 2] == before.covariance[2, 2]
+    assert estimate.position[:2] == pytest.approx([1.3, -0.2], abs=0.01)
+    assert estimate.mean[3:] == pytest.approx([0.9, 0, 0], abs=0.1)
+    assert np.linalg.eigvalsh(estimate.covariance).min() > 0
+
+
 def test_slow_down_keeps_the_position():
     """Coming to rest takes from the velocity alone; of 1 m/s under 1 cm/s is left after 30 frames."""
     moving = PositionFilter(np.concatenate([START, SPEED]), np.eye(6))

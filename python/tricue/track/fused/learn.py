@@ -127,9 +127,16 @@ def _update_outline(state: State, match: Match, p: FusedParams) -> State:
 def _update_depth(
     state: State, observation: TargetObservation, match: Match, was_lost: bool, p: FusedParams
 ) -> State:
-    """Correct the position filter by the measured depth; after LOST it starts anew, once recognized."""
-    if state.depth is None or state.position is None or match.depth is None:
+    """Correct the position filter by the measured depth; after LOST it starts anew, once recognized.
+
+    Where none is measured, a recognized target is still at a known place in the picture.
+    """
+    if state.depth is None or state.position is None:
         return state
+    if match.depth is None:
+        if state.missed_frames:
+            return state
+        return state.replace(position=state.position.aim(observation.k, state.target, observation.camera))
     if was_lost and state.missed_frames:
         return state
     point, noise = back_project(observation, state.target, match.depth)

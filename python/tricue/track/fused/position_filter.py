@@ -23,6 +23,7 @@ from tricue.track.fused.target_observation import TargetObservation
 LATERAL_NOISE = 0.02  # of the target's side, standard deviation of its center
 MIN_POSITION_Z = 0.05  # meters in front of the camera
 MAX_POSITION_SIGMA = 3.0  # meters, in the expected depth
+LATERAL, AHEAD = [0, 1, 3, 4], [2, 5]  # of a state: X and Y, and Z, and their velocities
 MOVING = np.arange(6)  # all of a state: its position and velocity
 MAX_INNOVATION = 2.0  # standard deviations; a larger one widens the state
 POSITION_MATRIX = np.eye(3, 6)  # from a state to the position that is measured
@@ -129,6 +130,29 @@ class PositionFilter(NamedTuple):
         mean, covariance, *_ = k.kalman_update(
             self.mean, self.covariance, point, POSITION_MATRIX, noise, MAX_INNOVATION
         )
+        return PositionFilter(mean, covariance)
+
+    def aim(self, k: Kernels, target: Target, camera: Intrinsics) -> "PositionFilter":
+        """The state after a target was seen at a place in the picture; how deep it is stays as it was.
+
+        Depth and its errors count as independent of the rest: else what the motion model got wrong to the
+        right or down would change the depth.
+        """
+        z, variance = max(float(self.mean[2]), MIN_POSITION_Z), (LATERAL_NOISE * target.side) ** 2
+        x, y = (target.x - 0.5 - camera.cx) / camera.fx, (target.y - 0.5 - camera.cy) / camera.fy
+        noise = variance * np.diag([(z / camera.fx) ** 2, (z / camera.fy) ** 2])
+        noise += self.covariance[2, 2] * np.diag([x * x, y * y])
+        lateral, ahead = np.ix_(LATERAL, LATERAL), np.ix_(AHEAD, AHEAD)
+        mean, covariance = self.mean.copy(), np.zeros((6, 6))
+        mean[LATERAL], covariance[lateral], *_ = k.kalman_update(
+            mean[LATERAL],
+            self.covariance[lateral],
+            np.array([x * z, y * z]),
+            np.eye(2, 4),
+            noise,
+            MAX_INNOVATION,
+        )
+        covariance[ahead] = self.covariance[ahead]
         return PositionFilter(mean, covariance)
 
 
