@@ -91,8 +91,8 @@ class Box(NamedTuple):
 def as_box(value: BoxLike, name: str = "box") -> Box:
     """A checked :class:`Box` from any sequence or array of four numbers (x, y, width, height).
 
-    Raises TypeError for what is not four numbers, ValueError for NaN, infinity, coordinates beyond a million
-    pixels, and a width or height that isn't above 0. ``name`` is the argument that the message names.
+    Raises TypeError for anything but four numbers, and ValueError for NaN, infinity, coordinates beyond a
+    million pixels, and a width or height that isn't above 0. Messages name the argument as ``name``.
     """
     box = Box(*_four_numbers(value, name))
     if not all(-MAX_COORDINATE <= number <= MAX_COORDINATE for number in box):

@@ -2,9 +2,8 @@
 """One reader for each calibration format: OpenCV's (and ROS's), KITTI's, the Princeton Benchmark's, TOML.
 
 The readers return checked numbers; :class:`tricue.Intrinsics` and :class:`tricue.StereoRig` are made of them.
-Many files don't hold the image's size: then ``size=(width, height)`` gives it. It is an error where the file
-holds another size, ImageSizeError. Errors name the file and the key: ValueError, or OSError for a file that
-isn't there.
+Many files don't hold the image's size: then ``size=(width, height)`` gives it. ImageSizeError is raised if
+the file holds another size. Errors name the file and the key: ValueError, or OSError for a missing file.
 """
 
 import difflib
@@ -22,19 +21,19 @@ from tricue.camera.pose import Pose
 from tricue.camera.types import Matrix, PathLike, Size
 
 T = TypeVar("T")
-# Names that OpenCV's samples and tutorials write. In the file of a rectified stereo pair P1 is the camera's.
+# Names that OpenCV's samples and tutorials write. In the file of a rectified rig P1 is the left camera's.
 _OPENCV_KEYS = ("camera_matrix", "cameraMatrix", "K", "P1", "M1", "K1")
 NUMBERED_DISTORTION_KEYS = ("D{}", "distCoeffs{}", "dist_coeffs_{}", "distortion_{}")
-"""Of the left camera (1) and of the right one (2): first that of OpenCV's sample stereo_calib."""
+"""For the left camera (1) and the right one (2): first the name in OpenCV's sample stereo_calib."""
 _DISTORTION_KEYS = ("distortion_coefficients", "distCoeffs", "dist_coeffs", "dist_coeff", "distortion", "D")
 
 POSE_KEYS = ("pose", "rotation", "translation")
 LIKELY_MISSPELLED = 0.85
-"""A ratio of difflib, from which an unknown key is taken for a misspelled one."""
+"""The similarity (difflib's ratio) from which an unknown key is taken for a misspelled one."""
 
 
 class ImageSizeError(ValueError):
-    """A calibration is for images of another size than those that it is read for. own: the file's size."""
+    """A calibration is for another image size than expected. own: the file's size."""
 
     def __init__(self, message: str, own: Size = (0, 0)) -> None:
         super().__init__(message)
@@ -54,7 +53,7 @@ class PinholeParameters(NamedTuple):
 
 
 class RigParameters(NamedTuple):
-    """A rectified stereo rig: the camera matrix of both cameras, and the baseline in meters."""
+    """A rectified stereo rig: the camera matrix that both cameras have, and the baseline in meters."""
 
     camera: PinholeParameters
     baseline: float
@@ -63,11 +62,11 @@ class RigParameters(NamedTuple):
 def read_opencv_camera(
     path: PathLike, *, key: str | None = None, size: Size | None = None
 ) -> PinholeParameters:
-    """The camera matrix in a file of ``cv2.FileStorage``, YAML, XML or JSON, or in ROS's camera_info, YAML.
+    """The camera matrix in a file of ``cv2.FileStorage`` (YAML, XML, JSON) or a camera_info of ROS (YAML).
 
     key: its name in the file; by default the first of camera_matrix, cameraMatrix, K, P1, M1, K1. Rectified
         images have a projection matrix (3, 4): P1 or, in a camera_info, projection_matrix.
-    Warns (UserWarning) where the file tells of distortion, unless the matrix is a projection matrix.
+    Warns (UserWarning) if the file has distortion, unless the matrix is a projection matrix.
     """
     with OpenCVFile(path) as file:
         keys = (key,) if key else _OPENCV_KEYS
@@ -82,10 +81,10 @@ def read_opencv_camera(
 
 
 def read_opencv_rig(path: PathLike, *, unit: float = 1.0, size: Size | None = None) -> RigParameters:
-    """The rectified rig in a file of ``cv2.FileStorage`` with P1 and P2 of ``cv2.stereoRectify``, or in the
-    right camera's camera_info of ROS, YAML, whose projection_matrix has the baseline.
+    """The rectified rig in a file of ``cv2.FileStorage`` or in the camera_info (ROS, YAML) of a right camera.
 
-    unit: meters per unit of the calibration board, 0.001 where its squares were given in millimeters.
+    The file has P1 and P2 of ``cv2.stereoRectify``; the camera_info's projection_matrix has the baseline.
+    unit: meters per unit of the calibration board, 0.001 if its squares were given in millimeters.
     """
     with OpenCVFile(path) as file:
         left, right = file.matrix("P1"), file.matrix("P2")
@@ -133,7 +132,7 @@ def read_kitti_offset(path: PathLike, *, camera: int = 2) -> Matrix:
 def read_princeton_camera(path: PathLike, *, size: Size | None = None) -> PinholeParameters:
     """The camera matrix K in a frames.mat, which counts pixels from 1, as MATLAB does.
 
-    It takes SciPy; ValueError where that isn't installed.
+    This needs SciPy; ValueError if it isn't installed.
     """
     try:
         from scipy.io import loadmat
@@ -142,7 +141,7 @@ def read_princeton_camera(path: PathLike, *, size: Size | None = None) -> Pinhol
     with pathlib.Path(path).open("rb") as file:
         try:
             matrix = np.array(loadmat(file, simplify_cells=True)["frames"]["K"], np.float64)
-        except Exception:  # loadmat has no error of its own: zlib's, its stream's and others come through
+        except Exception:  # loadmat has no error of its own: zlib's and others come through
             raise ValueError(f"{path}: expected MATLAB's file of a struct frames with the matrix K") from None
     if matrix.shape == (3, 3):
         matrix[:2, 2] -= 1
@@ -152,17 +151,16 @@ def read_princeton_camera(path: PathLike, *, size: Size | None = None) -> Pinhol
 def read_toml_camera(
     path: PathLike, *, table: str | None = None, size: Size | None = None
 ) -> PinholeParameters:
-    """The keys fx, fy, cx, cy, and width, height or else ``size``; and, where there is one, the pose.
+    """A camera from the keys fx, fy, cx, cy, and width, height or else ``size``; and its pose, if any.
 
-    The pose is the key ``pose``, (4, 4), or ``rotation``, (3, 3), and ``translation``, (3,), one of them or
-    both.
+    The pose is the key ``pose``, (4, 4), or one or both of ``rotation``, (3, 3), and ``translation``, (3,).
     table: the TOML table that holds them; by default the top of the file, or its only table with fx.
     """
     return _toml_camera(_toml_table(path, table), size, path)
 
 
 def read_toml_rig(path: PathLike, *, table: str | None = None, size: Size | None = None) -> RigParameters:
-    """The keys of :func:`read_toml_camera` and ``baseline`` in meters."""
+    """A rig from the keys of :func:`read_toml_camera` and ``baseline`` in meters."""
     values = _toml_table(path, table)
     camera = _toml_camera(values, size, path)
     baseline = _required(values, "baseline", path)
@@ -170,14 +168,14 @@ def read_toml_rig(path: PathLike, *, table: str | None = None, size: Size | None
 
 
 def image_size(own: Size | None, given: Size | None, path: PathLike) -> Size | None:
-    """The size that the file holds, else the given one; ImageSizeError where they differ."""
+    """The size that the file holds, else the given one; ImageSizeError if they differ."""
     if own is not None and given is not None and tuple(given) != own:
         raise other_size(own, given, path)
     return given if own is None else own
 
 
 def other_size(own: Size, given: Size, path: PathLike, images: str = "images") -> ImageSizeError:
-    """The error of a file for images of its own size, where those of another size are given."""
+    """The error for a file whose images have another size than the given ones."""
     return ImageSizeError(
         f"{path}: expected a calibration for {images} of {given[0]}x{given[1]} pixels, "
         f"got one for {own[0]}x{own[1]}",
@@ -191,7 +189,7 @@ def rig_of_projections(
     """The rig of two rectified cameras, from their projection matrices (3, 4).
 
     unit: meters per unit of the matrices' last column. path: named in errors. ValueError unless both cameras
-    have one camera matrix and stand side by side, left first.
+    have the same camera matrix and are side by side, left first.
     """
     camera = _camera_of_matrix(left, size, path)
     if left.shape != (3, 4) or right.shape != (3, 4):
@@ -220,7 +218,7 @@ def _camera_of_matrix(matrix: Matrix, size: Size | None, path: PathLike) -> Pinh
 
 
 def _ros_projections(right: Matrix | None, path: PathLike) -> tuple[Matrix, Matrix] | tuple[None, None]:
-    """The projections (3, 4) of both cameras, from that of ROS's right one; None without one."""
+    """Both cameras' projection matrices (3, 4), from ROS's of the right camera; None if it isn't there."""
     if right is None or right.shape != (3, 4):
         return None, None
     if not right[:, 3].any():
@@ -233,7 +231,7 @@ def _ros_projections(right: Matrix | None, path: PathLike) -> tuple[Matrix, Matr
 
 
 def _is_distorted(file: OpenCVFile, key: str) -> bool:
-    """Whether the file has distortion, other than 0, of the camera whose matrix has this name."""
+    """Whether the file has nonzero distortion for the camera whose matrix has this name."""
     number = key[-1] if key[-1].isdigit() else ""
     names = [each.format(number) for each in NUMBERED_DISTORTION_KEYS] if number else _DISTORTION_KEYS
     found = next((numbers for numbers in map(file.numbers, names) if numbers is not None), None)
@@ -241,7 +239,7 @@ def _is_distorted(file: OpenCVFile, key: str) -> bool:
 
 
 def _name_file(path: PathLike, check: Callable[[], T]) -> T:
-    """The value of a check; ValueError with the file's name where it raises TypeError or ValueError."""
+    """The result of a check; its TypeError or ValueError becomes a ValueError that names the file."""
     try:
         return check()
     except (TypeError, ValueError) as error:
@@ -249,7 +247,7 @@ def _name_file(path: PathLike, check: Callable[[], T]) -> T:
 
 
 def _kitti_values(path: PathLike) -> dict[str, list[float]]:
-    """The numbers of each line "key: numbers" or "key numbers"; other lines, such as dates, are left out."""
+    """The numbers of each line "key: numbers" or "key numbers"; other lines, such as dates, are skipped."""
     lines = pathlib.Path(path).read_text(encoding="utf-8-sig", errors="replace").splitlines()
     split = filter(None, (line.replace(":", " ", 1).split() for line in lines))
     return {key: numbers for key, *words in split if (numbers := _numbers(words)) is not None}

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Notices depth that isn't registered to color, by the edges of both.
+"""Detects depth that isn't registered to color, by the edges of both.
 
-Edges of depth are laid on those of color after each of many shifts and scales. Depth that was taken as the
-camera gave it fits best after another shift and scale than none. Edges match as far as they have one
-direction: each is a complex number with twice the direction's angle, and the match is their correlation.
+Edges of depth are compared with those of color after each of many shifts and scales. Unregistered depth fits
+best after some shift or scale. Edges match as far as their directions agree: each edge is a complex number at
+twice the angle of its direction, and the match is their correlation.
 """
 
 from typing import NamedTuple
@@ -28,15 +28,15 @@ MIN_WIDTH = 120  # cells; in a smaller image a few edges are most of it
 MIN_DEPTH_STEP = 0.1  # of the logarithm of depth over two cells: an edge
 MAX_COLOR_SLOPE = 15.0  # levels a cell; a steeper one counts as much
 MIN_PEAK, MIN_ADVANTAGE = (4.2, 5.2), (1.3, 1.4)
-"""Of a shift alone, and of a shift and a scale, which are more and so fit better by chance."""
+"""For shifts alone, and for shifts with scales: there are more of these, so one fits better by chance."""
 
 
 class Fit(NamedTuple):
     """The shift and scale of depth after which its edges fit best to those of color.
 
-    right, down: pixels. error: pixels that it moves the image's pixels by, root mean square. peak: how far it
-    stands above the median of all shifts and scales, in their standard deviations. advantage: the same as a
-    multiple of the best that registered depth may have.
+    right, down: pixels. error: by how many pixels it moves the image's pixels, root mean square. peak: how
+    far its match is above the median of all shifts and scales, in their standard deviations. advantage: the
+    match as a multiple of the best one with an error that registered depth may have.
     """
 
     right: int
@@ -50,9 +50,9 @@ class Fit(NamedTuple):
 class DepthCheck(NamedTuple):
     """The fits of a depth image to color.
 
-    edges: cells with an edge of depth, 0 where none were looked for. width: the image's, pixels. fits: the
-    best of shifts alone, and of shifts and scales; none with fewer edges than MIN_EDGE_CELLS, and in an image
-    less than MIN_WIDTH cells wide or MIN_HEIGHT high.
+    edges: number of cells with an edge of depth, 0 if the image is too small to look for any. width: of the
+    image, pixels. fits: the best shift alone, and the best shift with a scale; none with fewer edges than
+    MIN_EDGE_CELLS, and in an image less than MIN_WIDTH cells wide or MIN_HEIGHT high.
     """
 
     edges: int
@@ -115,7 +115,7 @@ def check_depth(color: NDArray[np.uint8], depth: Plane) -> DepthCheck:
 
 
 def warn_of_depth(frame: Frame, stacklevel: int = 2) -> DepthCheck:
-    """Check a frame's depth against its color, warn (UserWarning) of a problem, and return what was found.
+    """Check a frame's depth against its color, warn (UserWarning) of a problem, and return the check.
 
     stacklevel: as in warnings.warn, counted from the caller: 2 is the line that calls the caller.
     ValueError for a frame without color or depth.
@@ -137,7 +137,7 @@ def _step(width: int) -> int:
 def _depth_edges(depth: Plane) -> Plane:
     """The direction of each cell's edge (h, w, 2), 0 where there is none.
 
-    Steps are those of the logarithm, as near and far things have the same edges.
+    Edges are steps of the logarithm of depth, so that near and far things are treated alike.
     """
     filled = _fill_shadows(depth)
     known = np.isfinite(filled)
@@ -152,7 +152,7 @@ def _depth_edges(depth: Plane) -> Plane:
 
 
 def _color_edges(color: NDArray[np.uint8], size: tuple[int, ...]) -> Plane:
-    """The direction of each cell's slope (h, w, 2), as long as the slope is steep."""
+    """The direction of each cell's slope (h, w, 2), as a vector whose length is the steepness."""
     small = cv2.resize(color, size, interpolation=cv2.INTER_AREA)
     gray = (cv2.cvtColor(small, cv2.COLOR_BGR2GRAY) if small.ndim == 3 else small).astype(np.float32)
     along = [cv2.Sobel(gray, cv2.CV_32F, *axis, scale=1 / 8) for axis in ((1, 0), (0, 1))]
@@ -161,14 +161,14 @@ def _color_edges(color: NDArray[np.uint8], size: tuple[int, ...]) -> Plane:
 
 
 def _doubled(slopes: Plane, length: Plane) -> Plane:
-    """Vectors (h, w, 2) of that length at twice the angle of slopes (2, h, w): opposite ones are the same."""
+    """Vectors (h, w, 2) of that length at twice the angle of slopes (2, h, w): opposite slopes give one."""
     x, y = slopes
     doubled = np.stack([x * x - y * y, 2 * x * y], axis=-1)
     return np.asarray(doubled * (length / (x * x + y * y + 1e-9))[..., None], np.float32)
 
 
 def _fill_shadows(depth: Plane) -> Plane:
-    """Depth with holes filled along rows by the farther of both neighbors, as shadows lie on it."""
+    """Depth with holes filled along rows by the farther neighbor, the surface on which shadows fall."""
     known, columns = np.isfinite(depth), np.arange(depth.shape[1])
     before = np.maximum.accumulate(np.where(known, columns, 0), axis=1)
     after = np.minimum.accumulate(np.where(known, columns, len(columns) - 1)[:, ::-1], axis=1)[:, ::-1]
@@ -179,7 +179,7 @@ def _fill_shadows(depth: Plane) -> Plane:
 def _matches(edges: Plane, color_edges: Plane) -> Plane:
     """How well edges fit after each scale and shift down and right (scales, shifts, shifts).
 
-    A scale leaves the image's middle where it is.
+    Scaling keeps the image's center in place.
     """
     height, width = edges.shape[:2]
     padded = [cv2.getOptimalDFTSize(side + 2 * MAX_SHIFT) for side in (height, width)]

@@ -30,16 +30,17 @@ class Frame:
         ``depth_scale``. It is kept as float32, with NaN where the input is 0, negative, NaN, beyond
         a million meters or masked. Its size may differ from the color image's.
     right: the right image of a rectified stereo pair, of the same shape as ``color``.
-    timestamp: seconds of any clock. Trackers take more than a second between two frames for one.
-    pose: where the camera stands in this frame, a :class:`tricue.Pose` or its (4, 4) matrix, of the camera in
-        whose frame positions are: it counts before that of the tracker's camera. None for no other.
+    timestamp: seconds of any clock. Trackers treat longer gaps between two frames as one second.
+    pose: the camera's pose when the frame was taken, a :class:`tricue.Pose` or its (4, 4) matrix. The camera
+        is the one whose coordinates positions have. It replaces the pose of the tracker's camera; None
+        doesn't.
     depth_scale: meters per unit of ``depth``, 0.001 for millimeters.
 
     Color images are not copied where the pixels of a row are contiguous, as in whole arrays and crops. Any
     other layout (mirrored, channels reversed, Fortran order) is copied once. A TypeError or ValueError
     names the channel. Warns (UserWarning) where the median depth is above 50 m, which looks like millimeters,
-    or below 5 cm, where all depths are beyond a million meters, and where a timestamp is so late that it
-    looks like milliseconds or less.
+    or below 5 cm, where all depths are beyond a million meters, and where a timestamp is so large that it
+    looks like milliseconds or a smaller unit.
     """
 
     color: NDArray[np.uint8] | None
@@ -76,7 +77,7 @@ class Frame:
         return tuple(name for name in _CHANNELS if getattr(self, name) is not None)
 
     def require(self, *channels: str) -> None:
-        """Raise ValueError where the frame lacks one of ``channels``; it names the first that is missing."""
+        """Raise ValueError if the frame lacks one of ``channels``; the error names the first missing one."""
         for name in channels:
             if getattr(self, name) is None:
                 got = " and ".join(self.channels)
@@ -103,7 +104,7 @@ FrameLike = Frame | NDArray[Any]
 
 
 def as_frame(value: FrameLike, name: str = "frame") -> Frame:
-    """The frame itself, or a frame with the given image array as its ``color``.
+    """The frame itself, or a frame whose ``color`` is the given image array.
 
     TypeError or ValueError for anything else; ``name`` is the argument that the message names.
     """
@@ -121,7 +122,7 @@ def as_frame(value: FrameLike, name: str = "frame") -> Frame:
 
 
 def _conversion(value: Any) -> str:
-    """What an object that is no array may be, or how it becomes a BGR image; "" where that isn't known."""
+    """A hint about an object that is no array: what it may be, or how to make a BGR image of it; or ""."""
     if value is None:
         return " (cv2.imread and VideoCapture.read give None for what they can't read)"
     kind = type(value)
@@ -217,7 +218,7 @@ def _warn_of_unit(sample: NDArray[np.float32], scale: float | None) -> None:
 
 
 def _unit_problem(measured: NDArray[np.float32], scale: float | None) -> str:
-    """What is wrong with depths' unit, "" where nothing was noticed."""
+    """What seems wrong with the unit of depth; "" if nothing does."""
     median = float(np.median(measured))
     if MIN_MEDIAN_DEPTH <= median <= MAX_MEDIAN_DEPTH:
         return ""
@@ -231,7 +232,7 @@ def _unit_problem(measured: NDArray[np.float32], scale: float | None) -> str:
 
 
 def _loss(sample: NDArray[np.float32]) -> str:
-    """What removed all depths, "" where nothing was measured, for which drivers write one large number."""
+    """Why no depth is left; "" where nothing was measured, for which drivers write one large number."""
     far = sample[(sample > MAX_DEPTH) & np.isfinite(sample)]
     if not far.size or far.min() == far.max():
         return ""

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Files of ``cv2.FileStorage`` (YAML, XML, JSON), whose failures are exceptions that name the file.
+"""Files of ``cv2.FileStorage`` (YAML, XML, JSON), read with exceptions that name the file.
 
 ROS's camera_info in YAML, as camera_calibration writes it, is read too: it has no header, and its matrices
-don't tell the type of their numbers.
+lack the type of their numbers.
 
-cv2 gets the text, not the path, as it can't open every path, and only text that is nested no deeper than a
+cv2 gets the text, not the path, as it can't open every path; and only text nested no deeper than a
 calibration, as its parser crashes on some thousand levels.
 """
 
@@ -61,7 +61,7 @@ class OpenCVFile:
         self.storage.release()
 
     def matrix(self, key: str) -> Matrix | None:
-        """The matrix of that name, None where there is none; ValueError for a wrong count of numbers."""
+        """The matrix of that name, or None; ValueError for a wrong count of numbers."""
         node = self.storage.getNode(key)
         try:
             matrix = _matrix(node) if node.isMap() else None
@@ -72,7 +72,7 @@ class OpenCVFile:
         return None if matrix is None else np.asarray(matrix, np.float64)
 
     def numbers(self, key: str) -> Matrix | None:
-        """The numbers (n,) of a list or a matrix, None where there is neither; ValueError as ``matrix``."""
+        """The numbers (n,) of a list or a matrix, or None; ValueError as ``matrix``."""
         node = self.storage.getNode(key)
         if not node.isSeq():
             matrix = self.matrix(key)
@@ -83,7 +83,7 @@ class OpenCVFile:
             raise ValueError(f"{self.path}: {key}: expected at most {MAX_NUMBERS} numbers") from None
 
     def size(self) -> Size | None:
-        """Width and height of the images, None where the file doesn't hold them."""
+        """Width and height of the images, or None if the file doesn't hold them."""
         for names in (("image_width", "image_height"), ("width", "height"), ("imageWidth", "imageHeight")):
             nodes = [self.storage.getNode(name) for name in names]
             if all(node.isInt() for node in nodes):
@@ -95,14 +95,14 @@ class OpenCVFile:
 
 
 def _with_head(text: str) -> str:
-    """The text as cv2 can read it: YAML gets the first line that cv2 knows it by."""
+    """The text as cv2 can read it: YAML gets the first line by which cv2 recognizes it."""
     if not text.strip() or text.lstrip().startswith(_HEADS):
         return text
     return "%YAML:1.0\n" + _NAME.sub("", text)
 
 
 def _matrix(node: cv2.FileNode) -> Any:
-    """A map as a matrix; ValueError or cv2.error where it isn't a whole one."""
+    """A map as a matrix; ValueError or cv2.error if it isn't a complete one."""
     shape = _shape(node)
     if not node.getNode("dt").empty():
         return node.mat()
@@ -110,9 +110,9 @@ def _matrix(node: cv2.FileNode) -> Any:
 
 
 def _shape(node: cv2.FileNode) -> list[int]:
-    """Rows and columns, or the one number that cv2 5 writes of a vector.
+    """Rows and columns, or the one number that cv2 5 writes for a vector.
 
-    ValueError for anything else: cv2 writes outside of a matrix without cols, and of one of many dimensions.
+    ValueError for anything else: for a matrix without cols or of many dimensions cv2 writes out of bounds.
     """
     rows, cols, sizes = (node.getNode(name) for name in ("rows", "cols", "sizes"))
     listed = sizes.isSeq()  # in XML a list of one is a number

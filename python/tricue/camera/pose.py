@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where a camera stands: the transform from its frame to the world's."""
+"""The pose of a camera: the transform from its coordinates to the world's."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -10,15 +10,15 @@ from numpy.typing import ArrayLike, NDArray
 Floats = NDArray[np.float64]
 
 MAX_SKEW = 1e-3
-"""By which RᵀR may differ from the identity, as in a rotation that was written with few digits."""
+"""How much RᵀR may differ from the identity, as for a rotation written with few digits."""
 
 
 @dataclass(frozen=True, slots=True, init=False)
 class Pose:
     """A camera in the world: p_world = R p_camera + t, with the camera frame x right, y down, z forward.
 
-    rotation: R, (3, 3), rows first. translation: t, (3,) meters: where the camera is in the world. Any
-    right-handed world frame will do. A rotation matrix that was rounded is made orthogonal.
+    rotation: R, (3, 3), in row-major order. translation: t, (3,) meters: the camera's position in the world.
+    Any right-handed world frame will do. A rounded rotation matrix is made orthogonal.
     TypeError or ValueError names what is wrong.
     """
 
@@ -48,27 +48,27 @@ class Pose:
 
     @property
     def inverse(self) -> "Pose":
-        """From the world's frame to the camera's."""
+        """The inverse transform, from the world's frame to the camera's."""
         back = np.array(self.rotation).T
         return Pose(back, -back @ np.array(self.translation))
 
     def to_world(self, points: ArrayLike) -> Floats:
-        """Points (..., 3) of the camera's frame in the world's, meters."""
+        """Transform points (..., 3), meters, from the camera's frame to the world's."""
         return np.asarray(np.asarray(points, np.float64) @ np.array(self.rotation).T + self.translation)
 
     def covariance_to_world(self, covariance: ArrayLike) -> Floats:
-        """R C Rᵀ of covariances (..., 3, 3), square meters."""
+        """Rotate covariances C (..., 3, 3), square meters, into the world's frame: R C Rᵀ."""
         turn = np.array(self.rotation)
         return np.asarray(turn @ np.asarray(covariance, np.float64) @ turn.T)
 
 
 def as_pose(value: Any) -> Pose | None:
-    """A pose or None unchanged, or a pose of a matrix (4, 4); TypeError or ValueError for anything else."""
+    """A pose or None unchanged, or the pose of a (4, 4) matrix; TypeError or ValueError for anything else."""
     return value if value is None or isinstance(value, Pose) else Pose.from_matrix(value)
 
 
 def _numbers(value: ArrayLike, name: str, shape: tuple[int, ...], *others: tuple[int, ...]) -> Floats:
-    """Finite numbers of the shape, or of one of the others."""
+    """An array of finite numbers that has the shape, or one of the other shapes."""
     try:
         array = np.asarray(value, np.float64)
     except (TypeError, ValueError, OverflowError):
@@ -81,7 +81,7 @@ def _numbers(value: ArrayLike, name: str, shape: tuple[int, ...], *others: tuple
 
 
 def _orthogonal(turn: Floats) -> Floats:
-    """The rotation nearest to a matrix; ValueError for a matrix that is none."""
+    """The rotation nearest to a matrix; ValueError if the matrix isn't close to a rotation."""
     if not np.allclose(turn.T @ turn, np.eye(3), rtol=0, atol=MAX_SKEW):
         raise ValueError(f"rotation: expected a rotation matrix, got {turn.tolist()}")
     if np.linalg.det(turn) < 0:

@@ -16,31 +16,31 @@ from tricue.camera.types import Size
 
 TOML, PRINCETON, OPENCV, KITTI = "toml", "princeton", "opencv", "kitti"
 KITTI_COLOR_CAMERAS = 2, 3
-"""Their numbers, left and right; the gray ones are 0 and 1."""
+"""KITTI's numbers of the left and right color camera; the gray ones are 0 and 1."""
 T = TypeVar("T", Intrinsics, StereoRig)
 
 
 def read_intrinsics(
     path: Path, size: Size, channel: str, kitti_camera: int = KITTI_COLOR_CAMERAS[0]
 ) -> Intrinsics:
-    """The intrinsics in a file by OpenCV (YAML, XML, JSON), ROS (YAML) or KITTI (.txt), in TOML, or in
-    Princeton's .mat.
+    """The intrinsics in a calibration file of any known format.
 
-    size: width and height of the images, pixels. channel: "depth" or "color", which table to take of a TOML
-    file with several. kitti_camera: which one to take of KITTI's. ValueError or OSError names the file, also
-    where it holds another image size: then every position would be wrong. Warns (UserWarning) of distortion,
-    which isn't taken out.
+    These are OpenCV's (YAML, XML, JSON), ROS's (YAML), KITTI's (.txt), Princeton's (.mat) and TOML.
+    size: width and height of the images, pixels. channel: "depth" or "color", the table to read in a TOML
+    file with several. kitti_camera: the camera to read in KITTI's file. ValueError or OSError names the file;
+    a file for another image size is an error, as every position would be wrong. Warns (UserWarning) of
+    distortion, which isn't corrected.
     """
     return _read_for(channel, path, size, _reader(path, channel, kitti_camera))
 
 
 def read_registration(path: Path, depth: Size, color: Size) -> Registration | None:
-    """What brings depth images into the color camera's pixels, from a TOML file with both cameras.
+    """The registration of depth images to the color camera, from a TOML file with both cameras.
 
-    The file has the tables ``depth`` and ``color``. None for any other file, and where both cameras are the
-    same, for then the images are registered already. Their poses don't change that both are taken to be in
-    one place, which the only pose is of. depth, color: width and height of the images, pixels. ValueError as
-    :func:`read_intrinsics`.
+    The file has the tables ``depth`` and ``color``. None for any other file, and if both cameras are equal:
+    then the images are registered already. Whatever their poses, both cameras are assumed to be in one place;
+    a color camera without a pose gets that of the depth camera. depth, color: width and height of the images,
+    pixels. ValueError as :func:`read_intrinsics`.
     """
     if _format(path) != TOML or not all(_table(path, name) for name in ("depth", "color")):
         return None
@@ -55,13 +55,13 @@ def read_rig(
     unit: float | None = None,
     kitti_cameras: tuple[int, int] = KITTI_COLOR_CAMERAS,
 ) -> StereoRig:
-    """The rectified rig in a file by OpenCV (YAML, XML, JSON) with P1 and P2, of ROS's right camera (YAML),
-    by KITTI (.txt), or in TOML.
+    """The rectified rig in a calibration file of any known format.
 
+    These are OpenCV's (YAML, XML, JSON; P1, P2), ROS's (YAML) of the right camera, KITTI's (.txt), TOML.
     size: width and height of the images, pixels. unit: meters per unit of the board of OpenCV's calibration,
-    1 by default. kitti_cameras: which ones to take of KITTI's, left and right. ValueError or OSError names
-    the file, as :func:`read_intrinsics` does; ValueError also for a
-    unit with the other formats, which are in meters.
+    1 by default. kitti_cameras: the left and right camera to read in KITTI's file. ValueError or OSError
+    names the file, as :func:`read_intrinsics` does; ValueError also for a unit with the other formats, which
+    are in meters.
     """
     kind = _format(path)
     if unit is not None and kind != OPENCV:
@@ -72,7 +72,7 @@ def read_rig(
 
 
 def _read_for(channel: str, path: Path, size: Size, read: Callable[..., T]) -> T:
-    """What ``read`` finds; the error about another size says whose images these are."""
+    """The result of ``read``; the error about another size says which camera's images these are."""
     try:
         return read(size=size)
     except ImageSizeError as error:
@@ -119,5 +119,5 @@ def _format(path: Path) -> str:
 
 
 def _table(path: Path, channel: str) -> str | None:
-    """The TOML table named like the channel; None where there is none, so that the only table is taken."""
+    """The TOML table named like the channel; None if there is none, so that the only table is read."""
     return channel if isinstance(toml.read(path).get(channel), dict) else None

@@ -35,18 +35,19 @@ class StereoCalibration(NamedTuple):
 
 
 class RectifyingTransforms(NamedTuple):
-    """The rotations and projections of both rectified cameras, as cv2.stereoRectify gives them."""
+    """The rotations and projection matrices of both rectified cameras, as cv2.stereoRectify gives them."""
 
     rotations: tuple[Matrix, Matrix]  # R1, R2 (3, 3)
     projections: tuple[Matrix, Matrix]  # P1, P2 (3, 4)
 
 
 class Rectification:
-    """Rectifies the stereo pairs of one calibrated rig; made once, called for each pair.
+    """Rectifies the stereo pairs of one calibrated rig; made once, called for each stereo pair.
 
-    raw: the calibrated cameras. size: width and height of the raw images, pixels; the rectified images are as
-        large, and black where the raw ones saw nothing. unit: meters per unit of the translation. rectified:
-        the transforms to apply; by default those that nearly keep focal length and principal point.
+    raw: the calibrated cameras. size: width and height of the raw images, pixels; the rectified images have
+        the same size, and are black where the raw ones have no pixels. unit: meters per unit of the
+        translation. rectified: the transforms to apply; by default those that nearly keep focal length and
+        principal point.
     rig: the rig of the rectified images.
     """
 
@@ -66,10 +67,10 @@ class Rectification:
     def from_opencv(cls, *paths: PathLike, unit: float = 1.0, size: Size | None = None) -> "Rectification":
         """From files of ``cv2.FileStorage``: M1, D1, M2, D2 with R1, R2, P1, P2 or, without these, with R, T.
 
-        paths: one file, or several that together hold all, as intrinsics.yml and extrinsics.yml of OpenCV's
-            sample. unit: meters per unit of the board, 0.001 for millimeters. size: of the raw images, needed
-            where the files don't hold it.
-        ValueError or OSError names the file and what it lacks, or that it is for images of another size.
+        paths: one file, or several that together hold all of them, as intrinsics.yml and extrinsics.yml of
+            OpenCV's sample. unit: meters per unit of the board, 0.001 for millimeters. size: of the raw
+            images, needed if the files don't hold it.
+        ValueError or OSError names the file, and says what it lacks or that its images have another size.
         """
         if not paths:
             raise ValueError("paths: expected a calibration file, got none")
@@ -122,9 +123,9 @@ class Rectification:
 def _rectify(raw: StereoCalibration, size: Size) -> RectifyingTransforms:
     """Bouguet's rotations by OpenCV, and one camera matrix for both cameras.
 
-    It has the mean focal length, and the principal point that leaves the mean optical axis where it was. The
-    camera matrix of cv2.stereoRectify isn't used: it depends on the undistorted image corners, which lie
-    anywhere, for distortion coefficients hold only where the calibration board was seen.
+    The matrix has the mean focal length, and the principal point that keeps the mean optical axis in place.
+    The camera matrix of cv2.stereoRectify isn't used: it depends on the undistorted image corners, which may
+    be anywhere, as distortion coefficients hold only where the calibration board was seen.
     """
     (left, right), (left_distortion, right_distortion) = raw.cameras, raw.distortions
     transforms = cv2.stereoRectify(
@@ -192,7 +193,7 @@ class _CalibrationFiles(NamedTuple):
         return RectifyingTransforms(rotations, projections)
 
     def pair(self, patterns: Sequence[str]) -> tuple[Matrix, Matrix] | None:
-        """The left and right matrix of the first key pattern that has both; None without one."""
+        """The left and right matrix of the first key pattern for which the files have both; else None."""
         for pattern in patterns:
             left, right = (self._first((pattern.format(number),)) for number in (1, 2))
             if left is not None and right is not None:
@@ -200,7 +201,7 @@ class _CalibrationFiles(NamedTuple):
         return None
 
     def size(self, size: Size | None) -> Size:
-        """The raw images' size, in the files or given; ValueError where there is none, or more than one."""
+        """The raw images' size, from the files or given; ValueError for no size, or for different ones."""
         for file in self.files:
             size = image_size(file.size(), size, file.path)
         if size is None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Registration: color images in the depth camera's pixels, and depth images in the color camera's."""
+"""Registration: maps color images to the depth camera's pixels, and depth images to the color camera's."""
 
 import math
 from dataclasses import dataclass
@@ -35,12 +35,12 @@ def color_in_depth(
     """The color (h, w, 3) at the 3D point of each pixel of a depth image (h, w).
 
     It is black where the point isn't in the color image (H, W, 3). Occlusion isn't handled: a point that the
-    color camera can't see gets the color of what hides it.
+    color camera can't see gets the color of the surface that hides it.
 
-    depth: meters, NaN or 0 where nothing was measured; such a pixel is assumed infinitely far.
-    extrinsics: by default both cameras are assumed to have one center and orientation, so that they differ
+    depth: meters, NaN or 0 where nothing was measured; such a pixel is assumed to be infinitely far away.
+    extrinsics: by default the cameras are assumed to share one center and orientation, so that they differ
         in their intrinsics alone. A real baseline of b meters then shifts the color by fx b / z pixels.
-    ValueError where an image has another size than its camera.
+    ValueError if an image has another size than its camera.
     """
     points = np.asarray(depth, np.float64)
     _check("depth", points.shape, depth_camera)
@@ -59,9 +59,9 @@ def color_in_depth(
 
 @dataclass(frozen=True)
 class Registration:
-    """Brings depth images into a color camera's pixels.
+    """Maps depth images to a color camera's pixels.
 
-    Both cameras are assumed to have one center and orientation. A real baseline of b meters shifts the depth
+    Both cameras are assumed to share one center and orientation. A real baseline of b meters shifts the depth
     by fx b / z pixels.
     depth, color: the intrinsics of the two cameras.
     """
@@ -72,9 +72,9 @@ class Registration:
     def __call__(self, meters: NDArray[Any]) -> NDArray[np.float32]:
         """The depth (H, W) of each pixel of the color image, from a depth image (h, w); both in meters.
 
-        It is that of the nearest depth pixel, for a mean over an edge would be the depth of no surface. NaN
-        outside of the depth image. As the cameras share one center and orientation, z stays the same, and
-        columns map to columns and rows to rows. ValueError where the depth image has another size than its
+        It is the depth of the nearest depth pixel, as a mean over an edge would be the depth of no surface;
+        NaN outside the depth image. As the cameras share one center and orientation, z stays the same,
+        columns map to columns, and rows to rows. ValueError if the depth image has another size than its
         camera.
         """
         image = np.asarray(meters, np.float32)
@@ -87,7 +87,7 @@ class Registration:
         return np.pad(image, 1, constant_values=np.nan)[np.ix_(rows, columns)]
 
     def boxes(self, in_depth: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Boxes (N, 4), x, y, width, height, of the depth image in color pixels; NaN stays NaN."""
+        """Convert boxes (N, 4), x, y, width, height, from depth pixels to color pixels; NaN stays NaN."""
         color, depth = self.color, self.depth
         scale = np.array([color.fx / depth.fx, color.fy / depth.fy])
         depth_center, color_center = (
@@ -98,7 +98,7 @@ class Registration:
 
 @dataclass(frozen=True)
 class Reprojection:
-    """Brings depth images into the pixels of a color camera in another place.
+    """Maps depth images to the pixels of a color camera in another place.
 
     depth, color: the intrinsics of the two cameras. extrinsics: depth to color camera.
     """
@@ -110,10 +110,10 @@ class Reprojection:
     def __call__(self, meters: NDArray[Any]) -> NDArray[np.float32]:
         """The depth (H, W) of each pixel of the color image, from a depth image (h, w); both in meters.
 
-        A depth pixel covers what lies between the projections of its four corners, so that a finer or turned
-        color image has no gaps; where several fall on one pixel, the nearest surface hides the others. NaN
-        where none does: beside of edges, and outside of the depth image. ValueError where the depth image has
-        another size than its camera.
+        A depth pixel covers the area between the projections of its four corners, so that a finer or rotated
+        color image has no gaps. Where several fall on one color pixel, the nearest surface hides the others;
+        where none does, it is NaN: beside edges, and outside the depth image. ValueError if the depth image
+        has another size than its camera.
         """
         image = np.asarray(meters, np.float32)
         _check("depth", image.shape, self.depth)
@@ -126,7 +126,7 @@ class Reprojection:
 
     @cached_property
     def _corners(self) -> list[NDArray[np.float32]]:
-        """Of each pixel: where the rays through its corners go, in the color camera's frame."""
+        """The directions of the rays through each pixel's corners, in the color camera's frame."""
         return [self._rays(right, down) for right in (-0.5, 0.5) for down in (-0.5, 0.5)]
 
     @cached_property
@@ -144,7 +144,7 @@ class Reprojection:
         return rays
 
     def _project(self, rays: NDArray[np.float32], z: NDArray[np.float32]) -> list[NDArray[np.float32]]:
-        """Columns and rows (h, w) in the color image; NaN where there is no depth or it is behind."""
+        """Columns and rows (h, w) in the color image; NaN where there is no depth, or behind the camera."""
         x, y, forward = (
             z * rays[..., axis] + np.float32(self.extrinsics.translation[axis]) for axis in range(3)
         )
@@ -178,7 +178,7 @@ class Reprojection:
 
 
 def _covered(corners: list[NDArray[np.float32]]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """The first pixel whose center lies between coordinates, and how many do; 0 where one is NaN."""
+    """The first pixel whose center lies between the corners, and how many do; 0 where one is NaN."""
     low, high = reduce(np.minimum, corners), reduce(np.maximum, corners)
     known = np.isfinite(low) & np.isfinite(high)
     first = np.ceil(np.where(known, low, 0)).clip(-_FAR_OUTSIDE, _FAR_OUTSIDE).astype(np.intp)

@@ -23,10 +23,10 @@ class Intrinsics:
     fx, fy: focal lengths. cx, cy: the principal point. width, height: the image's size. All in pixels.
 
     Coordinates (u, v) are OpenCV's: (0, 0) is the *center* of the first pixel. In a :class:`Box` (0, 0) is
-    that pixel's corner, so a point (x, y) of a box is at ``(x - 0.5, y - 0.5)`` here.
+    that pixel's corner, so a point (x, y) of a box has u = x - 0.5 and v = y - 0.5.
 
-    pose: where the camera stands, a :class:`tricue.Pose` or its (4, 4) matrix; then tracks also have
-    positions in the world. None where it isn't known.
+    pose: the camera's pose in the world, a :class:`tricue.Pose` or its (4, 4) matrix; then tracks also have
+    positions in the world. None if it isn't known.
     """
 
     fx: float
@@ -60,7 +60,7 @@ class Intrinsics:
     def from_fov(
         cls, width: int, height: int, horizontal_deg: float, vertical_deg: float | None = None
     ) -> "Intrinsics":
-        """From the angles of view over the whole image, with the principal point at its center.
+        """From the angles of view, in degrees, of the whole image; the principal point is at its center.
 
         Pixels are square unless the vertical angle is given. The SR-3000 time-of-flight camera is
         ``from_fov(176, 144, 47.5, 39.5)``.
@@ -73,12 +73,12 @@ class Intrinsics:
 
     @classmethod
     def from_opencv(cls, path: PathLike, *, key: str | None = None, size: Size | None = None) -> "Intrinsics":
-        """From a file of ``cv2.FileStorage`` or ROS's camera_info: the camera matrix named ``key``, or the
-        first known name.
+        """From the camera matrix in a file of ``cv2.FileStorage`` or in a camera_info file of ROS.
 
-        Warns (UserWarning) of distortion in the file, for it isn't taken out. Rectified images have none;
-        their matrix is the projection matrix, ``key="P1"`` or, in a camera_info, ``key="projection_matrix"``.
-        ValueError for a ``size`` other than the file's.
+        key: the matrix's name in the file; by default the first known name. Warns (UserWarning) if the file
+        has distortion, as it isn't corrected. Rectified images have none; their matrix is the projection
+        matrix, ``key="P1"`` or, in a camera_info, ``key="projection_matrix"``. ValueError for a ``size``
+        other than the file's.
         """
         from tricue.camera.calibration_formats import read_opencv_camera
 
@@ -95,8 +95,8 @@ class Intrinsics:
     def from_toml(cls, path: PathLike, *, table: str | None = None, size: Size | None = None) -> "Intrinsics":
         """From the keys fx, fy, cx, cy, width, height of a TOML file or of one of its tables.
 
-        The key ``pose``, rows of a (4, 4) matrix, or ``rotation`` and ``translation`` may say where the
-        camera stands.
+        The keys ``pose``, the rows of a (4, 4) matrix, or ``rotation`` and ``translation`` may give the
+        camera's pose.
         """
         from tricue.camera.calibration_formats import read_toml_camera
 
@@ -109,7 +109,7 @@ class Intrinsics:
 
     @property
     def vector(self) -> NDArray[np.float64]:
-        """fx, fy, cx, cy, pixels (4,), as kernels take a camera."""
+        """fx, fy, cx, cy in pixels, (4,): the form in which kernels take a camera."""
         return np.array([self.fx, self.fy, self.cx, self.cy], np.float64)
 
     def back_project(self, u: ArrayLike, v: ArrayLike, z: ArrayLike) -> NDArray[np.float64]:
@@ -137,7 +137,7 @@ class Intrinsics:
 
 @dataclass(frozen=True, slots=True)
 class StereoRig:
-    """Two rectified cameras side by side, of the same intrinsics, and their baseline.
+    """Two rectified cameras side by side with the same intrinsics, and their baseline.
 
     baseline: meters between the optical centers. Disparity is positive: x_right = x_left - d. The pose is
     that of the left camera, in ``intrinsics``.
@@ -185,11 +185,11 @@ class StereoRig:
 
     @property
     def pose(self) -> Pose | None:
-        """Where the left camera stands, or None."""
+        """The left camera's pose, or None."""
         return self.intrinsics.pose
 
     def depth(self, disparity: ArrayLike) -> NDArray[np.float64]:
-        """Depth z = fx b / d in meters, of the disparity's shape; NaN where the disparity isn't above 0."""
+        """Depth z = fx b / d in meters, in the disparity's shape; NaN where the disparity isn't above 0."""
         disparity = np.asarray(disparity, np.float64)
         return self.intrinsics.fx * self.baseline / np.where(disparity > 0, disparity, np.nan)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A frame that several trackers look at: what all compute of it alike is computed once, and told once."""
+"""A frame that several trackers use: what they share is computed once, and each warning is given once."""
 
 import warnings
 from collections.abc import Callable, Hashable
@@ -12,9 +12,9 @@ _ATTRIBUTES = ("color", "depth", "right", "timestamp", "pose")
 
 
 class SharedFrame(Frame):
-    """A frame with what was computed of it, and with the warnings about it in place of their being shown.
+    """A frame that caches results computed from it, and collects the warnings about it.
 
-    messages: what trackers warn of, each text once.
+    messages: the texts of the trackers' warnings, each once.
     """
 
     __slots__ = ("_computed", "messages")
@@ -22,7 +22,7 @@ class SharedFrame(Frame):
     messages: list[str]
 
     def __init__(self, **channels: Any) -> None:
-        """channels: the attributes of a checked :class:`Frame`, which are taken as they are."""
+        """channels: the attributes of a checked :class:`Frame`, which aren't checked again."""
         for name in _ATTRIBUTES:
             object.__setattr__(self, name, channels.get(name))
         object.__setattr__(self, "_computed", {})
@@ -35,9 +35,10 @@ class SharedFrame(Frame):
 
 
 def once(frame: Frame, function: Callable[..., T], *arguments: Any) -> T:
-    """``function(frame, *arguments)``, of a shared frame computed once for the same, hashable arguments.
+    """``function(frame, *arguments)``; for a shared frame it is computed once for each set of arguments.
 
-    The result must not hold the frame itself, which would keep its images after their time.
+    Arguments must be hashable. The result must not hold the frame itself, or its images would be kept too
+    long.
     """
     if not isinstance(frame, SharedFrame):
         return function(frame, *arguments)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Notices stereo pairs that are swapped or not rectified.
+"""Detects stereo pairs that are swapped or not rectified.
 
 Corners of the left image are tracked into the right one and back by pyramidal Lucas-Kanade optical flow
-(Bouguet, 2000). In a rectified pair they stay in their row, and none moves to the right.
+(Bouguet, 2000). In a rectified pair they stay in their rows, and none moves to the right.
 """
 
 from typing import NamedTuple
@@ -30,8 +30,8 @@ class StereoCheck(NamedTuple):
 
     matches: int
     row_error: float
-    """Pixels between the rows of one point in both images, root mean square over the image. It is taken from
-    the plane that fits the matches, in which a shift, a rotation and a scale show."""
+    """Pixels between a point's rows in the two images, root mean square over the image. It is that of a plane
+    fitted to the matches, which a shift, a rotation and a scale change."""
     negative_share: float
     """Share of the matches with a negative disparity, which no point in front of the cameras has."""
 
@@ -55,7 +55,7 @@ class StereoCheck(NamedTuple):
 
 
 def check_stereo(left: NDArray[np.uint8], right: NDArray[np.uint8]) -> StereoCheck:
-    """Match corners of two images of one size, uint8, BGR (H, W, 3) or gray (H, W).
+    """Match corners of two images of the same size, uint8, BGR (H, W, 3) or gray (H, W).
 
     It is deterministic and takes a few milliseconds.
     """
@@ -71,7 +71,7 @@ def check_stereo(left: NDArray[np.uint8], right: NDArray[np.uint8]) -> StereoChe
 
 
 def warn_of_stereo(frame: Frame, stacklevel: int = 2) -> StereoCheck:
-    """Check a frame's stereo pair, warn (UserWarning) of a problem, and return what was found.
+    """Check a frame's stereo pair, warn (UserWarning) of a problem, and return the check.
 
     stacklevel: as in warnings.warn, counted from the caller: 2 is the line that calls the caller.
     ValueError for a frame without a stereo pair.
@@ -108,9 +108,9 @@ def _track_corners(left: NDArray[np.uint8], right: NDArray[np.uint8]) -> tuple[A
 
 
 def _mean_row_error(points: Array, errors: Array, shape: tuple[int, ...]) -> float:
-    """The root mean square over the image of the plane that fits the row errors (n,) at points (n, 2).
+    """The root mean square over the image of a plane fitted to the row errors (n,) at points (n, 2).
 
-    Outliers are trimmed: in each iteration the plane is fitted to what lies within three medians of the last.
+    Outliers are trimmed: each iteration fits the plane to the points within three medians of the last one.
     """
     size = np.array([shape[1], shape[0]])
     design = np.column_stack([np.ones(len(points)), points / size - 0.5])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Types that the modules of cameras share."""
+"""Types that the camera modules share."""
 
 import os
 
