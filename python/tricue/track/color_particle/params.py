@@ -19,7 +19,7 @@ class ColorParticleParams(Params):
     """Lengths are in pixels. "target" is the side of a square of the box's area, 2 sqrt(minor major)."""
 
     particles: int = parameter(
-        100, unit="particles", source="section V", low=2, high=100_000, doc="of the filter"
+        100, unit="particles", source="section V", low=2, high=100_000, doc="number of particles"
     )
 
     observation: ObservationName = parameter(
@@ -32,7 +32,7 @@ class ColorParticleParams(Params):
         "exponential",
         unit="-",
         source="(18) is the linear form; " + OURS,
-        doc="of a distance d: 1 - d, or exp(-sharpness d²)",
+        doc="likelihood of a distance d: 1 - d, or exp(-sharpness d²)",
     )
     sharpness: float | None = parameter(
         None,
@@ -60,12 +60,14 @@ class ColorParticleParams(Params):
         unit="nats",
         source=OURS,
         low=0,
-        doc="of the color contrast in the log-likelihood; 0: not used",
+        doc="weight of the color contrast in the log-likelihood; 0: not used",
     )
     ring: tuple[float, float] = parameter(
         (1.3, 1.8), unit="semi-axes", source=OURS, low=1, high=8, doc="inner and outer radius of the surround"
     )
-    ring_samples: int = parameter(40, unit="samples", source=OURS, low=1, high=4096, doc="in the surround")
+    ring_samples: int = parameter(
+        40, unit="samples", source=OURS, low=1, high=4096, doc="samples in the surround"
+    )
 
     skin_threshold: float = parameter(
         0.45,
@@ -73,7 +75,7 @@ class ColorParticleParams(Params):
         source="(10); ROC",
         low=-1,
         high=1,
-        doc="of the boundary value, above which a pixel is skin",
+        doc="boundary value above which a pixel is skin",
     )
     skin_share: float = parameter(
         0.1,
@@ -81,7 +83,7 @@ class ColorParticleParams(Params):
         source="section III.A; " + OURS,
         low=0,
         below=1,
-        doc="drawn from the Gaussian of the skin pixels",
+        doc="share drawn from the Gaussian of the skin pixels",
     )
     skin_region: Literal["reach", "image"] = parameter(
         "reach",
@@ -94,7 +96,8 @@ class ColorParticleParams(Params):
         unit="pixels",
         source="section V",
         low=0,
-        doc="of a particle per frame, along each axis; the greater of this and max_step_sizes holds",
+        doc="longest step of a particle per frame, along each axis; the greater of this and "
+        "max_step_sizes counts",
         was="reach",
     )
     max_step_sizes: float = parameter(
@@ -102,7 +105,7 @@ class ColorParticleParams(Params):
     )
 
     velocity_rate: float = parameter(
-        0.35, unit="-", source=OURS, low=0, high=1, doc="of learning the velocity; 1: no smoothing"
+        0.35, unit="-", source=OURS, low=0, high=1, doc="learning rate of the velocity; 1: no smoothing"
     )
     drift: float = parameter(
         1.0,
@@ -110,7 +113,7 @@ class ColorParticleParams(Params):
         source="A of (30); " + OURS,
         low=0,
         high=1,
-        doc="of the particles' mean along the velocity; 0: A = I, a random walk",
+        doc="shift of the particles' mean along the velocity; 0: A = I, a random walk",
     )
     position_noise: float = parameter(
         0.05, unit="target", source="K0 of (30); " + OURS, low=0, doc="standard deviation per frame, at rest"
@@ -132,7 +135,8 @@ class ColorParticleParams(Params):
         source=OURS,
         low=0,
         high=1e6,
-        doc="standard deviation per frame that each semi-axis has by itself; their ratio's is 1.4 times that",
+        doc="standard deviation per frame of each semi-axis by itself; that of their ratio is "
+        "1.4 times as large",
     )
     size_pull: float = parameter(
         0.06,
@@ -140,7 +144,7 @@ class ColorParticleParams(Params):
         source=OURS,
         low=0,
         high=1,
-        doc="share of the way back to the mean size; holds the size in occlusions",
+        doc="share of the way back to the mean size; keeps the size stable in occlusions",
     )
     size_rate: float = parameter(
         0.008,
@@ -148,7 +152,7 @@ class ColorParticleParams(Params):
         source=OURS,
         low=0,
         high=1,
-        doc="of the running mean of the size",
+        doc="learning rate of the running mean of the size",
         was="size_memory",
     )
     size_range: tuple[float, float] = parameter(
@@ -168,7 +172,7 @@ class ColorParticleParams(Params):
         unit="nats",
         source=OURS,
         low=0,
-        doc="of the log-likelihood below its running mean, from which a wide search starts",
+        doc="drop of the log-likelihood below its running mean that starts a wide search",
         was="surprise",
     )
     max_likelihood_drop: float = parameter(
@@ -176,7 +180,8 @@ class ColorParticleParams(Params):
         unit="nats",
         source=OURS,
         low=0,
-        doc="of the log-likelihood below its mean on the target, beyond which the target counts as missed",
+        doc="drop of the log-likelihood below its mean on the target, beyond which the target "
+        "counts as missed",
     )
     wide_search_spread: float = parameter(
         0.35,
@@ -188,10 +193,10 @@ class ColorParticleParams(Params):
     )
 
     learning_rate: float = parameter(
-        0.14, unit="per frame", source=OURS, low=0, high=1, doc="of the observation model"
+        0.14, unit="per frame", source=OURS, low=0, high=1, doc="learning rate of the observation model"
     )
     color_rate: float = parameter(
-        0.04, unit="per frame", source=OURS, low=0, high=1, doc="of learning the color contrast"
+        0.04, unit="per frame", source=OURS, low=0, high=1, doc="learning rate of the color contrast"
     )
     first_frame_weight: float = parameter(
         0.3,
@@ -199,7 +204,7 @@ class ColorParticleParams(Params):
         source=OURS,
         low=0,
         high=1,
-        doc="of the first frame's rank map in the distance",
+        doc="weight of the first frame's rank map in the distance",
         was="anchor",
     )
     min_score_to_learn: float = parameter(
@@ -228,7 +233,7 @@ class ColorParticleParams(Params):
         unit="nats",
         source=OURS,
         low=0,
-        doc="of the log-likelihood over that of the windows beside the target, below which it isn't TRACKED",
+        doc="lead of the log-likelihood over the windows beside the target, below which it isn't TRACKED",
     )
     max_time_without_lead: float = parameter(
         2.0, unit="s", source=OURS, low=0, doc="time below min_lead until LOST"
@@ -239,7 +244,7 @@ class ColorParticleParams(Params):
         source=OURS,
         low=0,
         high=1,
-        doc="from which a lost target is tracked again",
+        doc="score from which a lost target is tracked again",
         was="found_above",
     )
     rate: float = parameter(

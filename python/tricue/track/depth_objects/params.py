@@ -41,17 +41,22 @@ class SegmentationParams(Params):
         source=OURS,
         low=0,
         high=1,
-        doc="of small gaps; images with more are filled",
+        doc="largest share of small gaps; images with more are filled",
         was="ragged",
     )
     gap_passes: int = parameter(
-        3, unit="pixels", source=OURS, low=0, high=16, doc="filled from a gap's rim at most; 0: no filling"
+        3,
+        unit="pixels",
+        source=OURS,
+        low=0,
+        high=16,
+        doc="how far a gap is filled from its rim, at most; 0: no filling",
     )
     levels: int = parameter(
-        256, unit="levels", source="section IV.B", low=8, high=4096, doc="of the depth's histogram"
+        256, unit="levels", source="section IV.B", low=8, high=4096, doc="levels of the depth histogram"
     )
     bandwidth: float = parameter(
-        0.12, unit="m", source=OURS, above=0, doc="of the depth's kernel density (32)"
+        0.12, unit="m", source=OURS, above=0, doc="bandwidth of the kernel density of depth (32)"
     )
     prominence: float = parameter(
         0.05,
@@ -59,14 +64,14 @@ class SegmentationParams(Params):
         source=OURS,
         low=0,
         high=1,
-        doc="of a maximum of that density, to be a division",
+        doc="prominence of a maximum of that density, from which it is a division",
     )
     min_area: float = parameter(
         0.03,
         unit="m² at far",
         source=OURS,
         above=0,
-        doc="of an object; it is a number of pixels, the same at all depths",
+        doc="smallest area of an object; a number of pixels that is the same at all depths",
         was="least_area",
     )
     occluder_margin: float = parameter(
@@ -74,7 +79,7 @@ class SegmentationParams(Params):
         unit="m",
         source=OURS,
         above=0,
-        doc="what is nearer than an object by more is in front of it",
+        doc="an object that is nearer by more than this is in front of the other",
         was="nearer",
     )
 

@@ -23,7 +23,7 @@ class DepthParticleParams(SegmentationParams):
     """
 
     particles: int = parameter(
-        100, unit="particles", source="section V", low=2, high=100_000, doc="of the filter"
+        100, unit="particles", source="section V", low=2, high=100_000, doc="number of particles"
     )
     sweeps: int = parameter(
         2,
@@ -38,7 +38,11 @@ class DepthParticleParams(SegmentationParams):
     )
 
     aspect: tuple[float, float] = parameter(
-        (1.0, 6.0), unit="height/width", source="section IV.A; " + OURS, above=0, doc="of a human candidate"
+        (1.0, 6.0),
+        unit="height/width",
+        source="section IV.A; " + OURS,
+        above=0,
+        doc="smallest and largest of a human candidate",
     )
     max_fill: float = parameter(
         0.62,
@@ -46,7 +50,7 @@ class DepthParticleParams(SegmentationParams):
         source=OURS,
         above=0,
         high=1,
-        doc="by a human candidate; furniture fills more; 1: whatever it fills",
+        doc="largest share that a human candidate fills; furniture fills more; 1: no limit",
         was="fill",
     )
     human_filter: bool = parameter(
@@ -59,7 +63,7 @@ class DepthParticleParams(SegmentationParams):
         False,
         unit="-",
         source="True: section IV.A; " + OURS,
-        doc="objects are told apart by their depth histograms, too",
+        doc="tell objects apart by their depth histograms, too",
     )
     complete: bool = parameter(
         True,
@@ -68,7 +72,11 @@ class DepthParticleParams(SegmentationParams):
         doc="join the pieces of a body, complete it where it is cut, and give its centroid as the position",
     )
     human_height: tuple[float, float] = parameter(
-        (0.9, 2.2), unit="m", source="section IV.A; " + OURS, above=0, doc="of a human candidate"
+        (0.9, 2.2),
+        unit="m",
+        source="section IV.A; " + OURS,
+        above=0,
+        doc="smallest and largest of a human candidate",
     )
 
     histogram: Literal["relative", "absolute"] = parameter(
@@ -81,7 +89,7 @@ class DepthParticleParams(SegmentationParams):
         "exponential",
         unit="-",
         source="(37) is linear; " + OURS,
-        doc="of a distance d: 1 - d, or exp(-sharpness d²)",
+        doc="likelihood of a distance d: 1 - d, or exp(-sharpness d²)",
     )
     sharpness: float = parameter(30.0, unit="nats", source=OURS, above=0, doc="of the exponential form")
     histogram_reach: float = parameter(
@@ -97,7 +105,11 @@ class DepthParticleParams(SegmentationParams):
         doc="rows, columns of the samples in a rectangle",
     )
     contrast: float = parameter(
-        8.0, unit="nats", source=OURS, low=0, doc="of the depth contrast in the log-likelihood; 0: not used"
+        8.0,
+        unit="nats",
+        source=OURS,
+        low=0,
+        doc="weight of the depth contrast in the log-likelihood; 0: not used",
     )
     margin: float = parameter(
         1.25, unit="half sizes", source=OURS, above=1, doc="outline on which the surround is sampled"
@@ -114,14 +126,14 @@ class DepthParticleParams(SegmentationParams):
         source="section IV.A; " + OURS,
         low=0,
         below=1,
-        doc="drawn around the segmented object",
+        doc="share drawn around the segmented object",
     )
 
     leave_out_others: bool = parameter(
         True,
         unit="-",
         source=OURS,
-        doc="what wasn't the target, and still has the depth it had, is no part of it",
+        doc="exclude surfaces that weren't the target's before and whose depth hasn't changed",
     )
 
     motion: Literal["velocity", "constant"] = parameter(
@@ -131,17 +143,17 @@ class DepthParticleParams(SegmentationParams):
         doc="particles drift with the velocity, and to the mean size, or not at all",
     )
     max_speed: float = parameter(
-        2.0, unit="m/s", source="a brisk walk", above=0, doc="of the target", was="fastest"
+        2.0, unit="m/s", source="a brisk walk", above=0, doc="the target's highest speed", was="fastest"
     )
     velocity_rate: float = parameter(
-        0.5, unit="-", source=OURS, low=0, high=1, doc="of learning the velocity; 1: no smoothing"
+        0.5, unit="-", source=OURS, low=0, high=1, doc="learning rate of the velocity; 1: no smoothing"
     )
     position_noise: float = parameter(
         0.5,
         unit="m/s",
         source="K of (39); " + OURS,
         low=0,
-        doc="standard deviation of the position of who stands, per second",
+        doc="standard deviation of a standing target's position, per second",
         was="agility",
     )
     speed_noise: float = parameter(
@@ -149,17 +161,27 @@ class DepthParticleParams(SegmentationParams):
         unit="of the speed",
         source="K of (39) grows with the speed",
         low=0,
-        doc="standard deviation of the position, per second, that comes on top; 0: none",
+        doc="standard deviation of the position, per second, added in motion; 0: none",
     )
     size_noise: float = parameter(
         0.06, unit="of the size", source=OURS, above=0, doc="standard deviation per frame"
     )
     size_rate: float = parameter(
-        0.15, unit="per frame", source=OURS, low=0, high=1, doc="of the running mean of the size"
+        0.15,
+        unit="per frame",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="learning rate of the running mean of the size",
     )
 
     learning_rate: float = parameter(
-        0.08, unit="per frame", source="section IV.C", low=0, high=1, doc="of the depth histogram"
+        0.08,
+        unit="per frame",
+        source="section IV.C",
+        low=0,
+        high=1,
+        doc="learning rate of the depth histogram",
     )
     max_covered: float = parameter(
         0.25,
@@ -167,7 +189,7 @@ class DepthParticleParams(SegmentationParams):
         source=OURS,
         low=0,
         high=1,
-        doc="by what is in front; a target that is covered more is hidden",
+        doc="largest share that objects in front may cover; a target that is covered more is hidden",
         was="hidden_above",
     )
     min_visible_share: float = parameter(
@@ -176,7 +198,7 @@ class DepthParticleParams(SegmentationParams):
         source=OURS,
         low=0,
         high=1,
-        doc="of the share of its area that is at its depth; below it the target is missed",
+        doc="share of the target's area that is at its depth, below which the target is missed",
         was="seen_above",
     )
     likelihood_drop: float = parameter(
@@ -184,7 +206,7 @@ class DepthParticleParams(SegmentationParams):
         unit="nats",
         source=OURS,
         low=0,
-        doc="of the log-likelihood below its running mean, from which the target is missed",
+        doc="drop of the log-likelihood below its running mean, from which the target is missed",
         was="surprise",
     )
     coast: bool = parameter(

@@ -31,7 +31,7 @@ class FlowDepthParams(Params):
         doc="what is measured",
     )
     resolution: int = parameter(
-        320, unit="cells", source=OURS, low=32, doc="most columns of the image that is measured"
+        320, unit="cells", source=OURS, low=32, doc="largest number of columns of the image that is measured"
     )
     vergence: float = parameter(
         0.0,
@@ -44,7 +44,7 @@ class FlowDepthParams(Params):
 
     sigma: float = parameter(0.8, unit="cells", source=OURS, low=0.5, high=8, doc="of the filters g, h")
     flow_levels: int = parameter(
-        2, unit="levels", source="1: section 2; " + OURS, low=1, high=6, doc="of the flow's pyramid"
+        2, unit="levels", source="1: section 2; " + OURS, low=1, high=6, doc="levels of the flow's pyramid"
     )
     min_angle: float = parameter(
         0.05, unit="-", source="(5); " + OURS, low=0, high=1, doc="reliability of the flow"
@@ -53,7 +53,12 @@ class FlowDepthParams(Params):
         1.0, unit="levels²", source="(6); " + OURS, low=0, doc="reliability of the flow"
     )
     disparity_levels: int = parameter(
-        3, unit="levels", source="1: section 3; " + OURS, low=1, high=6, doc="of the disparity's pyramid"
+        3,
+        unit="levels",
+        source="1: section 3; " + OURS,
+        low=1,
+        high=6,
+        doc="levels of the disparity's pyramid",
     )
     disparity_radius: int = parameter(
         2,
@@ -61,24 +66,24 @@ class FlowDepthParams(Params):
         source="0: section 3; " + OURS,
         low=0,
         high=7,
-        doc="of the window over which a disparity is solved for; 0 takes every pixel alone",
+        doc="radius of the window over which a disparity is solved for; 0: each pixel alone",
     )
     max_disparity_step: float = parameter(
         1.0,
         unit="cells",
         source=OURS,
         above=0,
-        doc="from where the finest level starts; a disparity that is farther from there is left out",
+        doc="largest step of the finest level from where it starts; a disparity farther off is left out",
     )
 
-    bins: int = parameter(48, unit="bins", source=OURS, low=8, high=512, doc="of each histogram")
+    bins: int = parameter(48, unit="bins", source=OURS, low=8, high=512, doc="bins of each histogram")
     smoothing: float = parameter(
         1.5,
         unit="bins",
         source="section 4.2; " + OURS,
         above=0,
         high=8,
-        doc="of histograms, standard deviation",
+        doc="standard deviation of the smoothing of histograms",
     )
     histogram_region: Literal["blocks", "window"] = parameter(
         "blocks",
@@ -103,7 +108,7 @@ class FlowDepthParams(Params):
         source=OURS,
         low=0.01,
         high=PAPER_COLUMNS,
-        doc="of the flow's histograms, to each side of the velocity",
+        doc="half the range of the flow's histograms, around the velocity",
         was="flow_reach",
     )
     disparity_half_range: float = parameter(
@@ -112,7 +117,7 @@ class FlowDepthParams(Params):
         source=OURS,
         low=0.01,
         high=PAPER_COLUMNS,
-        doc="of the disparity's histogram, to each side of the disparity",
+        doc="half the range of the disparity's histogram, around the disparity",
         was="depth_reach",
     )
     flow_change: float = parameter(
@@ -120,14 +125,14 @@ class FlowDepthParams(Params):
         unit="cells",
         source="section 4.1; " + OURS,
         above=0,
-        doc="of the velocity in a frame, standard deviation",
+        doc="standard deviation of the velocity's change in a frame",
     )
     disparity_change: float = parameter(
         0.5,
         unit="cells",
         source=OURS,
         above=0,
-        doc="of the disparity in a frame, standard deviation",
+        doc="standard deviation of the disparity's change in a frame",
         was="depth_change",
     )
     velocity_smoothing: bool = parameter(
@@ -151,7 +156,7 @@ class FlowDepthParams(Params):
         source=OURS,
         above=0,
         high=1,
-        doc="of all lengths in disparity, with a depth camera: it is more exact than matching",
+        doc="factor of all lengths in disparity with a depth camera, which is more exact than matching",
         was="sharp",
     )
     margin: float = parameter(
@@ -160,7 +165,8 @@ class FlowDepthParams(Params):
         source="section 4.1; " + OURS,
         low=0,
         high=2,
-        doc="of the candidate region beside the window; above and below it is half as much of the height",
+        doc="left and right margin of the candidate region around the window; above and below "
+        "it is half as large a share of the height",
     )
     prior_center: float = parameter(
         1.0,
@@ -185,7 +191,7 @@ class FlowDepthParams(Params):
         source="(11); " + OURS,
         above=0,
         high=1,
-        doc="of a target pixel, by both cues",
+        doc="smallest posterior of a target pixel, by both cues",
         was="posterior",
     )
     min_posterior_one_cue: float = parameter(
@@ -194,7 +200,7 @@ class FlowDepthParams(Params):
         source="(11); " + OURS,
         above=0,
         high=1,
-        doc="of a target pixel, by one cue alone, whose posteriors are less extreme",
+        doc="smallest posterior of a target pixel, by one cue alone, whose posteriors are less extreme",
         was="posterior_alone",
     )
 
@@ -204,7 +210,7 @@ class FlowDepthParams(Params):
         source=OURS,
         low=0,
         high=8,
-        doc="target pixels around a target pixel",
+        doc="smallest number of target pixels around a target pixel",
         was="neighbours",
     )
     min_region_share: float = parameter(
@@ -286,7 +292,7 @@ class FlowDepthParams(Params):
         unit="cells",
         source=OURS,
         above=0,
-        doc="of disparity above the target's, from which something is an occluder",
+        doc="disparity above the target's from which something is an occluder",
         was="nearer",
     )
     disparity_tolerance: float = parameter(
@@ -294,7 +300,7 @@ class FlowDepthParams(Params):
         unit="cells",
         source=OURS,
         above=0,
-        doc="of disparity, up to which a cell is at the target's depth",
+        doc="difference of disparity up to which a cell is at the target's depth",
         was="similar",
     )
     thickness: float = parameter(
@@ -328,7 +334,7 @@ class FlowDepthParams(Params):
         source=OURS,
         above=0,
         high=1,
-        doc="from which the whole target counts as occluded",
+        doc="share of occluded blocks from which the whole target counts as occluded",
         was="covered",
     )
     min_pixels: float = parameter(
@@ -337,7 +343,7 @@ class FlowDepthParams(Params):
         source="section 4.5; " + OURS,
         above=0,
         high=1,
-        doc="target pixels, below which the target is missed",
+        doc="number of target pixels below which the target is missed",
         was="few",
     )
     min_pixels_to_redetect: float = parameter(
@@ -346,7 +352,7 @@ class FlowDepthParams(Params):
         source="section 4.5; " + OURS,
         above=0,
         high=1,
-        doc="target pixels, from which a missed target is found again",
+        doc="number of target pixels from which a missed target is found again",
         was="again",
     )
     unoccluded_lost_after: float = parameter(
@@ -354,10 +360,10 @@ class FlowDepthParams(Params):
         unit="s",
         source=OURS,
         low=0,
-        doc="without the target, though nothing occludes it, until LOST",
+        doc="time missed, with nothing occluding the target, until LOST",
         was="unsure",
     )
-    lost_after: float = parameter(3.0, unit="s", source=OURS, low=0, doc="without the target, until LOST")
+    lost_after: float = parameter(3.0, unit="s", source=OURS, low=0, doc="time missed until LOST")
     rate: float = parameter(
         15.0,
         unit="frames/s",
@@ -375,14 +381,14 @@ class FlowDepthParams(Params):
         doc="standard deviation of the window's center",
     )
     disparity_noise: float = parameter(
-        0.2, unit="cells", source=OURS, above=0, high=PAPER_COLUMNS, doc="standard deviation"
+        0.2, unit="cells", source=OURS, above=0, high=PAPER_COLUMNS, doc="standard deviation of a disparity"
     )
     acceleration_noise: float = parameter(
         2.0,
         unit="m/s²",
         source=OURS,
         above=0,
-        doc="standard deviation, while the target is missed",
+        doc="standard deviation of the acceleration while the target is missed",
         was="agility",
     )
 

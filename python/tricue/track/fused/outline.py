@@ -38,7 +38,7 @@ class OutlineParams(Params):
         unit="s",
         source=OURS,
         above=0,
-        doc="with which the box's sides follow the outline",
+        doc="time constant with which the box's sides follow the outline",
         was="outline_time",
     )
 

@@ -28,7 +28,7 @@ class FusedParams(  # dataclasses take the fields of the last base first
         source=OURS,
         low=0,
         high=1,
-        doc="under it the neighboring windows are searched too",
+        doc="below it the neighboring windows are searched too",
         was="doubt",
     )
     distance_penalty: float = parameter(
@@ -36,7 +36,7 @@ class FusedParams(  # dataclasses take the fields of the last base first
         unit="per squared half window",
         source=OURS,
         low=0,
-        doc="on the evidence of neighboring windows",
+        doc="penalty on the evidence of neighboring windows",
         was="far",
     )
 
@@ -47,7 +47,7 @@ class FusedParams(  # dataclasses take the fields of the last base first
         source=OURS,
         low=0,
         high=1,
-        doc="with more covered by an occluder, the target is occluded",
+        doc="share covered by an occluder, above which the target is occluded",
         was="hidden_above",
     )
     min_score: float = parameter(
@@ -56,7 +56,7 @@ class FusedParams(  # dataclasses take the fields of the last base first
         source=OURS,
         low=0,
         high=1,
-        doc="under it a frame counts as missed",
+        doc="below it a frame counts as missed",
         was="lost_below",
     )
     min_score_to_move: float = parameter(
@@ -65,7 +65,7 @@ class FusedParams(  # dataclasses take the fields of the last base first
         source=OURS,
         low=0,
         high=1,
-        doc="under it the box stays where it was",
+        doc="below it the box stays where it was",
         was="hopeless",
     )
     jump_weight: float = parameter(
@@ -73,16 +73,25 @@ class FusedParams(  # dataclasses take the fields of the last base first
         unit="log-odds per typical jump",
         source=OURS,
         low=0,
-        doc="that a place has less for jumping farther than the target does",
+        doc="penalty on a place for a jump that is longer than the target's typical ones",
     )
     lost_after: float = parameter(
-        0.08, unit="s", source=OURS, low=0, doc="missed, and in three frames at least, until LOST"
+        0.08, unit="s", source=OURS, low=0, doc="time missed, in at least three frames, until LOST"
     )
     max_missed_seconds: float = parameter(
-        1 / 3, unit="s", source=OURS, low=0, doc="missed, in which it is still followed and learned"
+        1 / 3,
+        unit="s",
+        source=OURS,
+        low=0,
+        doc="time missed in which the target is still followed and learned",
     )
     learn_every: float = parameter(
-        0.1, unit="s", source=OURS, low=0, high=1, doc="between two frames in which appearance is learned"
+        0.1,
+        unit="s",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="time between two frames in which appearance is learned",
     )
 
     # the search of the whole frame
@@ -91,7 +100,7 @@ class FusedParams(  # dataclasses take the fields of the last base first
         unit="target per frame",
         source=OURS,
         above=0,
-        doc="standard deviation of a missed target's place",
+        doc="standard deviation of a missed target's position",
         was="reach",
     )
     min_score_to_redetect: float = parameter(
@@ -100,7 +109,7 @@ class FusedParams(  # dataclasses take the fields of the last base first
         source=OURS,
         low=0,
         high=1,
-        doc="that a followed target would have where a missed one is TRACKED again",
+        doc="a missed target is TRACKED again if a followed one would have this score",
         was="found_above",
     )
     min_score_above_clutter: float = parameter(
@@ -109,21 +118,32 @@ class FusedParams(  # dataclasses take the fields of the last base first
         source=OURS,
         low=0,
         high=1,
-        doc="that a followed target would have where a missed one that stands out is TRACKED again",
+        doc="the same for a missed target that stands out from the clutter",
     )
     clutter_margin: float = parameter(
         1.5,
         unit="log-odds",
         source=OURS,
         low=0,
-        doc="by which it stands out from all that was seen since it was missed",
+        doc="margin above the best match in the search that makes a missed target stand out",
     )
     candidates: int = parameter(
-        2, unit="places", source=OURS, low=1, high=99, doc="recognized in a search of the whole frame"
+        2,
+        unit="places",
+        source=OURS,
+        low=1,
+        high=99,
+        doc="candidates that are verified in a search of the whole frame",
     )
 
     # time
-    rate: float = parameter(30.0, unit="frames/s", source=OURS, above=0, doc="where timestamps tell nothing")
+    rate: float = parameter(
+        30.0,
+        unit="frames/s",
+        source=OURS,
+        above=0,
+        doc="assumed where timestamps are missing or don't increase",
+    )
 
     def __post_init__(self) -> None:
         for name in ("lost_after", "learn_every"):

@@ -37,7 +37,13 @@ class PositionParams(Params):
     """Of the position in meters."""
 
     acceleration_noise: float = parameter(
-        4.0, unit="m/s²", source=OURS, above=0, high=1e6, doc="standard deviation", was="agility"
+        4.0,
+        unit="m/s²",
+        source=OURS,
+        above=0,
+        high=1e6,
+        doc="standard deviation of the acceleration",
+        was="agility",
     )
     max_speed: float = parameter(
         2.0,
@@ -45,7 +51,7 @@ class PositionParams(Params):
         source=OURS,
         above=0,
         high=1e6,
-        doc="of a target that is measured first",
+        doc="highest speed that is assumed at the first measurement",
         was="fastest",
     )
 

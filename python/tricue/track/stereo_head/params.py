@@ -65,7 +65,7 @@ class StereoHeadParams(Params):
         unit="cells",
         source=OURS,
         above=0,
-        doc="of disparity, up to which a cell is at the head's depth",
+        doc="difference of disparity up to which a cell is at the head's depth",
         was="coherent",
     )
 
@@ -99,7 +99,7 @@ class StereoHeadParams(Params):
         source="a of (2), not printed; " + OURS,
         low=0,
         high=1,
-        doc="of the color model",
+        doc="learning rate of the color model",
     )
     learn: Literal["coherent", "all"] = parameter(
         "coherent",
@@ -113,7 +113,7 @@ class StereoHeadParams(Params):
         source="section 3.1; " + OURS,
         low=0,
         high=1,
-        doc="intersection (1), from which colors are learned",
+        doc="intersection (1) from which colors are learned",
         was="gate",
     )
     learning_gate: Literal["relative", "absolute"] = parameter(
@@ -138,7 +138,12 @@ class StereoHeadParams(Params):
         True, unit="-", source="False: (3), (4); " + OURS, doc="disparities in fractions of a pixel"
     )
     uniqueness: int = parameter(
-        5, unit="percent", source=OURS, low=0, high=100, doc="by which other disparities must cost more"
+        5,
+        unit="percent",
+        source=OURS,
+        low=0,
+        high=100,
+        doc="margin by which other disparities must cost more",
     )
     prefilter: bool = parameter(True, unit="-", source=OURS, doc="match edges: cameras differ in brightness")
     ellipse_margin: float = parameter(
@@ -151,7 +156,11 @@ class StereoHeadParams(Params):
         was="rim",
     )
     disparity_statistic: Literal["median", "mean"] = parameter(
-        "median", unit="-", source="mean: (5); " + OURS, doc="of the ellipse's disparities", was="center"
+        "median",
+        unit="-",
+        source="mean: (5); " + OURS,
+        doc="statistic of the ellipse's disparities",
+        was="center",
     )
 
     fuse: bool = parameter(
@@ -175,14 +184,24 @@ class StereoHeadParams(Params):
         source="a walk indoors; " + OURS,
         above=0,
         high=1e6,
-        doc="of a head: its first velocity, its motion when constant, and where it is re-detected",
+        doc="highest speed of a head: for its first velocity, its motion when constant, and "
+        "where it is re-detected",
         was="fastest",
     )
     noise_model: Literal["propagated", "polynomial"] = parameter(
-        "propagated", unit="-", source="polynomial: (9); " + OURS, doc="of a measured position", was="noise"
+        "propagated",
+        unit="-",
+        source="polynomial: (9); " + OURS,
+        doc="how the noise of a measured position is modeled",
+        was="noise",
     )
     disparity_noise: float = parameter(
-        0.25, unit="pixels", source="1: figure 2; " + OURS, above=0, high=1e6, doc="standard deviation"
+        0.25,
+        unit="pixels",
+        source="1: figure 2; " + OURS,
+        above=0,
+        high=1e6,
+        doc="standard deviation of a disparity",
     )
     place_noise: float = parameter(
         0.7, unit="cells", source=OURS, above=0, high=1e6, doc="standard deviation of the ellipse's center"
@@ -215,7 +234,7 @@ class StereoHeadParams(Params):
         False, unit="-", source="True: section 4.1; " + OURS, doc="the filter's mean color moves the model"
     )
     rate: float = parameter(
-        30.0, unit="frames/s", source="section 5", above=0, doc="where frames have no timestamps"
+        30.0, unit="frames/s", source="section 5", above=0, doc="assumed for frames without timestamps"
     )
 
     min_score: float = parameter(
@@ -224,7 +243,7 @@ class StereoHeadParams(Params):
         source=OURS,
         low=0,
         high=1,
-        doc="of score and share at the head's depth, from which the head is recognized",
+        doc="score and share at the head's depth from which the head is recognized",
         was="seen_above",
     )
     max_deviations: float = parameter(
@@ -232,7 +251,7 @@ class StereoHeadParams(Params):
         unit="deviations",
         source=OURS,
         above=0,
-        doc="of a measured position from the predicted one",
+        doc="largest distance of a measured position from the predicted one",
         was="surprise",
     )
     search_frame_after: float = parameter(
@@ -240,7 +259,7 @@ class StereoHeadParams(Params):
         unit="s",
         source=OURS,
         low=0,
-        doc="without the head, until the whole image is searched",
+        doc="time without the head until the whole image is searched",
         was="again_after",
     )
     min_score_to_redetect: float = parameter(
@@ -252,7 +271,7 @@ class StereoHeadParams(Params):
         doc="as min_score, in the search of the whole image",
         was="again_above",
     )
-    lost_after: float = parameter(0.5, unit="s", source=OURS, low=0, doc="without the head, until LOST")
+    lost_after: float = parameter(0.5, unit="s", source=OURS, low=0, doc="time without the head until LOST")
     near: float = parameter(0.4, unit="m", source=OURS, low=0.001, doc="smallest distance of a head")
     far: float = parameter(6.0, unit="m", source=OURS, above=0, doc="greatest distance of a head")
 

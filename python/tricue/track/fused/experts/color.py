@@ -22,21 +22,23 @@ MAX_SURROUND_POSTERIOR = 0.1  # P(target | depth) of pixels that are learned as 
 class ColorParams(Params):
     """Of the cue "color"."""
 
-    color_weight: float = parameter(0.3, unit="-", source=OURS, low=0, doc="of the posterior's contrast")
+    color_weight: float = parameter(
+        0.3, unit="-", source=OURS, low=0, doc="weight of the posterior's contrast"
+    )
     color_learning_rate: float = parameter(
         0.04,
         unit="per frame",
         source="Bertinetto et al. 2016",
         low=0,
         high=0.5,
-        doc="of the histograms",
+        doc="learning rate of the histograms",
         was="color_rate",
     )
     surround_size: float = parameter(
         1.5, unit="box", source=OURS, above=1, doc="outer size of the contrast's surround", was="frame"
     )
     surround_weight: float = parameter(
-        0.5, unit="-", source=OURS, low=0, doc="of the surround in the contrast", was="around"
+        0.5, unit="-", source=OURS, low=0, doc="weight of the surround in the contrast", was="around"
     )
 
 

@@ -27,19 +27,23 @@ class FilterParams(FirstFrameParams, WindowParams):
         doc="standard deviation of the desired response",
     )
     temporal_weight: float = parameter(
-        2.0, unit="-", source="Li et al. 2018", low=0, doc="that keeps the filter near the one before"
+        2.0, unit="-", source="Li et al. 2018", low=0, doc="weight that keeps the filter near the one before"
     )
     filter_penalty: float = parameter(
-        0.05, unit="-", source="Li et al. 2018", above=0, doc="that keeps the filter in its mask, at first"
+        0.05,
+        unit="-",
+        source="Li et al. 2018",
+        above=0,
+        doc="penalty that keeps the filter in its mask, at first",
     )
-    filter_weight: float = parameter(0.7, unit="-", source=OURS, low=0, doc="of its response")
+    filter_weight: float = parameter(0.7, unit="-", source=OURS, low=0, doc="weight of its response")
     filter_mask_size: float = parameter(
         1.3,
         unit="box",
         source=OURS,
         above=1,
         high=99,
-        doc="outer size of what adds to the response; it fades out from the box on",
+        doc="outer size of the filter's mask, which fades out from the box on",
         was="focus",
     )
 

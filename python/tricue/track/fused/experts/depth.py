@@ -39,7 +39,7 @@ class DepthParams(Params):
         source=OURS,
         low=0,
         high=1,
-        doc="of the target's depth spread and length",
+        doc="learning rate of the target's depth spread and length",
         was="depth_rate",
     )
     depth_continuity_weight: float = parameter(
@@ -47,7 +47,7 @@ class DepthParams(Params):
         unit="log-odds",
         source=OURS,
         low=0,
-        doc="for what stands apart at the expected depth",
+        doc="weight of a place that stands apart at the expected depth",
         was="continuity",
     )
 

@@ -40,7 +40,7 @@ class LogPolarParams(FirstFrameParams):
         source="Danelljan et al. 2014",
         low=0,
         high=0.5,
-        doc="of the filters of size and turn",
+        doc="learning rate of the filters of size and turn",
         was="filter_rate",
     )
     ridge: float = parameter(
@@ -51,7 +51,7 @@ class LogPolarParams(FirstFrameParams):
         unit="per squared cell",
         source=OURS,
         low=0,
-        doc="on the evidence of another size or turn than the last",
+        doc="penalty on the evidence of another size or turn than the last",
     )
 
 

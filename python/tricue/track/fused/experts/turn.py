@@ -38,7 +38,7 @@ class TurnParams(LogPolarParams):
     """Of the cue "turn"."""
 
     turn_noise: float = parameter(
-        0.1, unit="response", source=OURS, above=0, doc="with which half of a turn counts"
+        0.1, unit="response", source=OURS, above=0, doc="response at which half of a turn counts"
     )
     turn_back: float = parameter(
         0.1,
