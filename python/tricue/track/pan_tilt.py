@@ -17,7 +17,7 @@ Angles = tuple[float, float]  # pan, tilt
 
 
 class PanTiltCommand(NamedTuple):
-    """What the head is told, as speeds or as angles; pan is positive to the right, tilt upwards."""
+    """A command for the head, as speeds or as angles; pan is positive to the right, tilt upwards."""
 
     pan_speed: float
     """Radians per second."""
@@ -31,24 +31,26 @@ class PanTilt:
     """Turns a camera on a pan-tilt head so that the target stays in the middle of its image.
 
     The command is proportional to the target's angle from the optical axis, plus the target's own angular
-    velocity, so that a target that walks on steadily isn't followed late. While the target is OCCLUDED, or
-    TRACKED with a score of 0, the camera moves on as the target last did; while it is LOST, it stands still.
+    velocity, so that the camera doesn't lag behind a target that moves steadily. While the target is
+    OCCLUDED, or TRACKED with a score of 0, the camera follows the target's last velocity; while it is LOST,
+    the camera stands still.
 
         camera_head = tricue.PanTilt(camera)
         track = tracker.update(frame)
         command = camera_head.command(track, pan, tilt, timestamp=frame.timestamp)
         motors.drive(command.pan_speed, command.tilt_speed)
 
-    The axes are taken to meet in the camera's center: pan about the vertical, then tilt. The target is at the
-    box's center by ``intrinsics``; without them at the track's ``position``.
+    The axes are assumed to meet at the camera's center: pan about the vertical, then tilt. With
+    ``intrinsics`` the target is in the direction of the box's center, without them in that of the track's
+    ``position``.
 
-    gain: 1/s; an error of 1 rad makes a speed of so many rad/s. Above about 1 / (2 latency) the head swings.
-    Where frames are farther apart than 1 / gain, the speed is that which makes up for the error in that time.
+    gain: 1/s; an error of 1 rad makes a speed of so many rad/s. Above about 1 / (2 latency) the head
+    oscillates. If frames are farther apart than 1 / gain, the speed corrects the error by the next frame.
     velocity_gain: how much of the target's velocity is fed forward, 0 to 1. velocity_time: seconds over which
     that velocity is averaged. latency: seconds from a frame to when its command moves the head, over which
-    both are extrapolated. dead_band: radians of the error on each axis that nothing is done about. max_speed:
-    rad/s. max_acceleration: rad/s²; a tracker by flow needs image motion that changes slowly. pan_limits,
-    tilt_limits: radians. rate: frames/s where there are no timestamps.
+    both are extrapolated. dead_band: radians; a smaller error on an axis is ignored. max_speed: rad/s.
+    max_acceleration: rad/s²; a tracker by flow needs image motion that changes slowly. pan_limits,
+    tilt_limits: radians. rate: frames/s without timestamps.
 
     TypeError and ValueError name the argument that is wrong.
     """
@@ -98,14 +100,15 @@ class PanTilt:
     ) -> PanTiltCommand:
         """The command after a frame with this track.
 
-        pan, tilt: the head's angles when the frame was taken, radians; without them the last command counts
-        as done. timestamp: of the frame, seconds. ValueError for a track without a position where there are
-        no intrinsics, and for numbers that aren't finite; the next command is as if there had been none such.
+        pan, tilt: the head's angles when the frame was taken, radians; without them the last command is
+        assumed to be carried out. timestamp: of the frame, seconds. ValueError for a track without a position
+        if there are no intrinsics, and for numbers that aren't finite; an error leaves the controller as it
+        was.
         """
         now = None if timestamp is None else finite(timestamp, "timestamp", "seconds")
         given = (self._last.pan if pan is None else pan), (self._last.tilt if tilt is None else tilt)
         angles = np.array([finite(given[0], "pan", "radians"), finite(given[1], "tilt", "radians")])
-        # All that may raise an error comes before anything changes.
+        # Everything that may raise an error comes before any change.
         seen = track.status is Status.TRACKED and bool(track.score)
         direction = self._direction(track, angles) if seen else None
         interval = validation.elapsed(self._now, now, self.rate)
@@ -142,7 +145,7 @@ class PanTilt:
     def _measure(self, direction: np.ndarray, interval: float) -> None:
         """Take the target's direction, and average its velocity over ``velocity_time``.
 
-        interval: seconds since the frame before. It counts where times don't increase since the target was
+        interval: seconds since the previous frame. It is used if time hasn't increased since the target was
         last seen.
         """
         assert self._now is not None
@@ -157,7 +160,7 @@ class PanTilt:
     def _speeds(self, angles: np.ndarray, interval: float) -> np.ndarray:
         """Feed-forward plus proportional, at the time when the command moves the head.
 
-        interval: seconds to the next frame, in which the error is made up for at most once.
+        interval: seconds to the next frame; in this time the error is corrected at most once.
         """
         assert self._target is not None
         velocity = self.velocity_gain * self._velocity
@@ -169,8 +172,7 @@ class PanTilt:
     def _limited(self, speeds: np.ndarray, angles: np.ndarray, interval: float) -> PanTiltCommand:
         """The command for these speeds, within the limits of speed and of angles.
 
-        A head that is outside of its angles is brought back, as fast as the limits of acceleration and speed
-        allow.
+        A head outside its limits of angles is brought back as fast as those of acceleration and speed allow.
         """
         low, high = np.transpose(self.limits)
         before, change = np.array(self._last[:2]), self.max_acceleration * interval

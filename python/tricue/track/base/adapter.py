@@ -25,7 +25,7 @@ _ANSWERS = "a Track, a box (x, y, width, height), (found, box), (box, score), or
 
 
 def traits_of(tracker: Any) -> Traits:
-    """The traits of a tracker or its class; of one that has none those of a plain one."""
+    """The traits of a tracker or its class; without any, those of a plain tracker."""
     found = getattr(tracker, "traits", None)
     return found if isinstance(found, Traits) else ADAPTED_TRAITS
 
@@ -33,13 +33,13 @@ def traits_of(tracker: Any) -> Traits:
 def adapt_class(cls: Any) -> Any:
     """The class itself if it has ``traits``; otherwise a class of the same name with tricue's interface.
 
-    A third party needs only ``init(image, box)`` and ``update(image)``, in a class or in what a function
-    makes. image: BGR (H, W, 3) uint8, on which a frame's other parts are attributes such as ``timestamp``;
-    a ``tricue.Frame`` where ``init`` is annotated so. box: (x, y, width, height). ``update`` returns a
-    ``Track``, a box, (found, box) as cv2's trackers, (box, score), or None for a lost target, as which a box
-    of NaN or infinity counts, too. score: any finite number, the higher the surer. It is assumed to need
-    color and an initial box, and to draw random numbers if it takes a ``seed``. TypeError if a method is
-    missing.
+    A third-party tracker needs only ``init(image, box)`` and ``update(image)``, in a class or in the result
+    of a function. image: BGR (H, W, 3) uint8, with a frame's other parts as attributes such as ``timestamp``;
+    a ``tricue.Frame`` if ``init`` is annotated so. box: (x, y, width, height). ``update`` returns a
+    ``Track``, a box, (found, box) as cv2's trackers do, (box, score), or None for a lost target; a box of NaN
+    or infinity counts as lost, too. score: any finite number, higher for more confidence. The tracker is
+    assumed to need color and an initial box, and to draw random numbers if it takes a ``seed``. TypeError if
+    a method is missing.
     """
     if traits_of(cls) is not ADAPTED_TRAITS:
         return cls
@@ -61,8 +61,8 @@ def takes_seed(make: Callable[..., Any]) -> bool:
 
 
 def check_track(track: Any, method: str) -> Track:
-    """A third party's track, if it is one whose box and score are what the interface says; ValueError
-    otherwise. The box of a lost target may be unknown.
+    """A third party's track, if its box and score comply with the interface; ValueError otherwise. The box
+    of a lost target may be unknown.
     """
     if not isinstance(track, Track):
         raise ValueError(f"{method}: expected a Track, got {track!r:.80}")
@@ -74,7 +74,7 @@ def check_track(track: Any, method: str) -> Track:
 
 
 def with_known_numbers(track: Track, last: Box) -> Track:
-    """The track with finite numbers alone, which files and pictures need.
+    """The track with finite numbers only, as files and pictures need them.
 
     Where a third party's box of a lost target is unknown, it is the ``last`` one; a position, covariance or
     depth that isn't finite is None; a position that is a tuple becomes an array.
@@ -134,7 +134,7 @@ class _Adapted:
         return self._track(self.tracker.update(self._input(frame)), "update", last)
 
     def __copy__(self) -> Any:
-        """Of the same state, but independent, as copies of tricue's trackers are."""
+        """A copy with the same state, but independent, as copies of tricue's trackers are."""
         return _restore(type(self)._cls, copy.deepcopy(self.__dict__))
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -164,7 +164,7 @@ class _Adapted:
 
 
 def _maker(cls: Callable[..., Any]) -> Callable[..., Any]:
-    """What makes the tracker: of cv2's classes ``create``, as their constructors make ones that crash."""
+    """The function that makes the tracker: cv2's ``create``, as trackers of its constructors crash."""
     is_cv2s = isinstance(cls, type) and cls.__module__.partition(".")[0] == "cv2"
     make: Callable[..., Any] = getattr(cls, "create", cls) if is_cv2s else cls
     return make
@@ -190,7 +190,7 @@ def _takes_frame(init: Callable[..., Any]) -> bool:
 
 
 def _parts(given: Any) -> tuple[bool, Any, Any]:
-    """Whether the target was found, the box, and the score, of an answer that is no Track."""
+    """Whether the target was found, the box, and the score, from an answer that is no Track."""
     if isinstance(given, (tuple, list)) and len(given) == 2:
         first, second = given
         if isinstance(first, (bool, np.bool_)):
@@ -200,8 +200,8 @@ def _parts(given: Any) -> tuple[bool, Any, Any]:
 
 
 def _is_empty(box: Any) -> bool:
-    """Whether a box is 0 in width and height, by which some say that the target is lost, or isn't finite, as
-    after a division by 0.
+    """Whether a box says that the target is lost: its width and height are 0, as some trackers give it, or
+    it isn't finite, as after a division by 0.
     """
     try:
         numbers = [float(value) for value in box]

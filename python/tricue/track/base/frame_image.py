@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A frame for trackers that were written for images: its color image, with the frame's other parts on it."""
+"""A frame for trackers written for images: its color image, with the frame's other parts as attributes."""
 
 from typing import Any
 
@@ -12,8 +12,8 @@ from tricue.camera.pose import Pose
 class FrameImage(np.ndarray[Any, Any]):
     """A color image, (H, W, 3) or (H, W) uint8, that also has a :class:`tricue.Frame`'s attributes.
 
-    cv2 and NumPy take it as the array that it is. What is computed of it, such as a crop, has no frame:
-    its attributes are None.
+    cv2 and NumPy take it as the array that it is. Arrays computed from it, such as a crop, have no frame:
+    their attributes are None.
     """
 
     frame: Frame | None
@@ -52,5 +52,5 @@ class FrameImage(np.ndarray[Any, Any]):
 
     @property
     def pose(self) -> Pose | None:
-        """Where the camera stands."""
+        """The camera's pose."""
         return None if self.frame is None else self.frame.pose

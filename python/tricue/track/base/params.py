@@ -47,7 +47,7 @@ def parameter(
     """A field of :class:`Params`. Bounds: ``low``, ``high`` inclusive; ``above``, ``below`` exclusive.
 
     was: its name in the previous release, which still works, with a DeprecationWarning.
-    In a tuple the bounds and the choices hold for each element. None is allowed only where it is the default.
+    For a tuple, bounds and choices hold for each element. None is allowed only if it is the default.
     """
     bounds = {"low": low, "above": above, "high": high, "below": below}
     words = {"unit": unit, "source": source, "doc": doc, "was": was}
@@ -124,7 +124,7 @@ class Params(metaclass=_AcceptsFormerNames):
 
 
 def current_names(cls: Any, values: Mapping[str, Any]) -> dict[str, Any]:
-    """The values by the present names of their parameters; TypeError for one given by both names."""
+    """The values by the present names of their parameters; TypeError for a parameter given by both names."""
     renamed = {f.metadata["was"]: f.name for f in dataclasses.fields(cls) if f.metadata.get("was")}
     for old in values.keys() & renamed.keys():
         if renamed[old] in values:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How unknown a position may be: a filter that only predicts would grow its covariance without end."""
+"""A limit on a position's covariance, which would grow without end while a filter only predicts."""
 
 from typing import Any
 
@@ -12,10 +12,10 @@ MAX_SIGMA = 100.0  # meters, standard deviation of a position: beyond it nothing
 
 
 def limit_covariance(covariance: Floats, moving: NDArray[np.intp]) -> Floats:
-    """The covariance (n, n) of a state that begins with a position in meters, which is known to MAX_SIGMA.
+    """The covariance (n, n) of a state that begins with a position in meters, limited to MAX_SIGMA.
 
-    moving: the position's and its velocity's places in the state. All of these shrink in the same proportion,
-    so that it stays a covariance.
+    moving: the indices of position and velocity in the state. All of these shrink in the same proportion, so
+    that the result stays a covariance.
     """
     largest = max(covariance.item(0, 0), covariance.item(1, 1), covariance.item(2, 2))
     if largest <= MAX_SIGMA**2:

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Trackers by name: built in, of installed packages, or a class as ``module:Class`` or ``file.py:Class``."""
+"""Trackers by name: built in, from installed packages, or a class given as ``module:Class`` or
+``file.py:Class``.
+"""
 
 import hashlib
 import importlib
@@ -28,7 +30,7 @@ _BUILT_IN = {
 
 
 def names() -> tuple[str, ...]:
-    """The names that :func:`create` knows; it also takes ``module:Class`` and ``path/to/file.py:Class``."""
+    """The names that :func:`create` takes, beside ``module:Class`` and ``path/to/file.py:Class``."""
     return *_BUILT_IN, *sorted(_installed_entry_points().keys() - _BUILT_IN.keys())
 
 
@@ -53,9 +55,9 @@ def traits(name: str) -> Traits:
 
 
 def code_digest(name: str) -> str:
-    """SHA-256 of a third party's source files, which tells its versions apart; "" without any.
+    """SHA-256 of a third party's source files, which tells its versions apart; "" if there are none.
 
-    They are the class's own, and those that were imported from its package or from beside it.
+    The files are the class's own, and those imported from its package or from the same folder.
     """
     found = _import_class(location(name))
     source = inspect.getsourcefile(inspect.unwrap(found))
@@ -84,7 +86,7 @@ def create(name: str, **params: Any) -> Tracker:
 
 
 def location(name: str) -> str:
-    """The ``module:Class`` or ``file.py:Class`` of a name; ValueError for an unknown one."""
+    """The ``module:Class`` or ``file.py:Class`` of a name; ValueError for an unknown name."""
     installed = _installed_entry_points()
     where = _BUILT_IN.get(name) or (installed[name].value if name in installed else name)
     if not isinstance(where, str) or ":" not in where:
@@ -124,8 +126,8 @@ def _import_class(where: str) -> Any:
 
 
 def _import_file(path: Path) -> Any:
-    """The module in a file, imported once; files beside it can be imported, too. FileNotFoundError if there
-    is none.
+    """The module in a file, imported once; it can import files of its folder. FileNotFoundError if there
+    is no such file.
     """
     path = path.resolve()
     name = path.stem

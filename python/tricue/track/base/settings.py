@@ -13,16 +13,16 @@ from tricue.track.base.registry import create, names, tracker_class
 from tricue.track.base.track import Tracker
 
 PAPER = "paper"
-"""In the place of a TOML file: the parameters as the tracker's paper prints them."""
+"""Instead of a TOML file: the parameters as the tracker's paper prints them."""
 OPTIONS = {
     "seed": "--seed N",
     "kernels": "--kernels NAME",
     "intrinsics": "--calibration FILE",
     "rig": "--calibration FILE",
 }
-"""By which users give what isn't among a tracker's parameters."""
+"""How users set the arguments of a tracker that aren't among its parameters."""
 THIRD_PARTYS = ("seed", "kernels")
-"""Those of the options that every third party's class has, too."""
+"""The options that third-party classes have, too."""
 
 
 def make_tracker(
@@ -46,10 +46,10 @@ def read_settings(
     settings: Sequence[str],
     options: Mapping[str, str] = OPTIONS,
 ) -> dict[str, Any]:
-    """The same parameters as keywords. Those of ``base`` are checked; of the settings the names are.
+    """The same parameters as keywords; ``base`` is checked, and the names in the settings.
 
-    A third-party class checks its own parameters, but for the seed and the kernels, which have options.
-    options: what the command sets these by, as in :data:`OPTIONS`.
+    A third-party class checks its own parameters, except the seed and the kernels, which have options.
+    options: the options of the command that set these, as in :data:`OPTIONS`.
     """
     kind = tracker_class(name).Params
     if base == PAPER:
@@ -63,7 +63,7 @@ def read_settings(
 
 
 def third_party_settings(settings: Sequence[str], options: Mapping[str, str] = OPTIONS) -> dict[str, Any]:
-    """Those of a class whose parameters aren't known."""
+    """The settings as keywords, for a class whose parameters aren't known."""
     values = parse_settings(settings)
     _check_options(values, options, THIRD_PARTYS)
     return values
@@ -91,7 +91,7 @@ def _printed(name: str, kind: Any) -> dict[str, Any]:
 
 
 def _parse_for(kind: Any, settings: Sequence[str], options: Mapping[str, str]) -> dict[str, Any]:
-    """Parameters of a kind; TypeError for a name that isn't among them."""
+    """The parameters of a class from keywords; TypeError for a name that isn't among them."""
     values = current_names(kind, parse_settings(settings))
     _check_options(values.keys() - _names(kind), options, options)
     if issubclass(kind, Params):
@@ -102,7 +102,7 @@ def _parse_for(kind: Any, settings: Sequence[str], options: Mapping[str, str]) -
 def _check_options(
     given: Container[str], options: Mapping[str, str], names: Iterable[str], place: str = "--set"
 ) -> None:
-    """TypeError for one of these names, which are set by options of their own. place: where it is given."""
+    """TypeError for a name in ``options``, as it has an option of its own. place: where it is given."""
     for name in names:
         if name in given:
             mark = " " if place == "--set" else ": "

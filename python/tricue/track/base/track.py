@@ -30,12 +30,12 @@ class Track:
     """Where the target is in one frame.
 
     box: pixels; it may extend beyond the image.
-    score: confidence, of our trackers in [0, 1].
+    score: confidence; in [0, 1] for our trackers.
     position: (3,) float64, meters in the camera frame (x right, y down, z forward), or None without depth.
     covariance: (3, 3) of the position, square meters, or None.
-    depth: meters along the camera's axis; None until it was measured, and where meters are a guess. It needs
-        no camera where a depth image measures it. Where there is a position too, it is its z.
-    pose: where the camera stands, or None; see :class:`tricue.Pose`.
+    depth: meters along the camera's axis; None until it was measured, and where meters are a guess. A depth
+        image gives it without a calibration. If there is a position too, this is its z.
+    pose: the camera's pose, or None; see :class:`tricue.Pose`.
     """
 
     box: Box
@@ -48,20 +48,20 @@ class Track:
 
     @property
     def world_position(self) -> NDArray[np.float64] | None:
-        """(3,) meters in the world's frame, or None without position or pose."""
+        """The position (3,) in the world's frame, meters; None without position or pose."""
         if self.position is None or self.pose is None:
             return None
         return self.pose.to_world(self.position)
 
     @property
     def world_covariance(self) -> NDArray[np.float64] | None:
-        """(3, 3) of the world position, square meters, or None. The pose is taken to be exact."""
+        """The covariance (3, 3) of the world position, square meters, or None; the pose is assumed exact."""
         if self.covariance is None or self.pose is None:
             return None
         return self.pose.covariance_to_world(self.covariance)
 
     def in_image(self) -> "Track":
-        """The same without position and covariance, where the camera isn't known."""
+        """The same track without position and covariance, for an unknown camera."""
         return replace(self, position=None, covariance=None)
 
     __hash__ = None  # type: ignore[assignment]  # arrays have none

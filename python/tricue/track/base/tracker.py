@@ -25,7 +25,7 @@ CAMERA_KEYWORDS = ("intrinsics", "rig")
 
 
 class TrackerBase(ABC, Generic[P, S]):
-    """Parameters, kernels and one state.
+    """The parameters, the kernels and the state of a tracker.
 
     The state is immutable: ``init`` and ``update`` replace it as their last step. So an error or Ctrl-C
     leaves the tracker unchanged, and copies are independent.
@@ -47,9 +47,9 @@ class TrackerBase(ABC, Generic[P, S]):
         self._derive()
 
     def _keep(self, state: S, frame: FrameLike) -> Track:
-        """The track of a state, which replaces the one before unless making the track fails.
+        """The track of a state, which replaces the previous state unless making the track fails.
 
-        The track gets the pose of the frame, or else that of the camera.
+        The track gets the frame's pose, or else the camera's.
         """
         track = self._track(state)
         pose = frame.pose if isinstance(frame, Frame) else None
@@ -62,7 +62,10 @@ class TrackerBase(ABC, Generic[P, S]):
 
     @classmethod
     def _check_names(cls, values: dict[str, Any]) -> None:
-        """TypeError for a keyword that is neither the constructor's nor a parameter, now or formerly."""
+        """TypeError for a keyword that is neither an argument of the constructor nor a parameter.
+
+        Former names of parameters are accepted.
+        """
         parameters = fields(cls.Params)
         known = {name for f in parameters for name in (f.name, f.metadata.get("was"))}
         for name in values:
@@ -72,7 +75,7 @@ class TrackerBase(ABC, Generic[P, S]):
 
     @classmethod
     def _hint(cls, name: str, parameters: list[str]) -> str:
-        """What to give in the place of an unknown keyword."""
+        """A hint: what to give instead of an unknown keyword."""
         if name in CAMERA_KEYWORDS:
             taken = " or ".join(f"{each}=" for each in CAMERA_KEYWORDS if each in cls.traits.camera)
             return f"{cls.__name__} takes {taken or 'no camera'}"

@@ -32,12 +32,12 @@ class Traits:
     """The attribute ``traits`` of a tracker class; the same for all parameters.
 
     channels: the sets of channels it runs on, best first; the first set that a frame has is used.
-    camera: the camera keywords of its constructor: "intrinsics", "rig".
+    camera: the keywords of its constructor that take a camera: "intrinsics", "rig".
     detects: what ``init`` detects without a box; None if it needs an initial box.
     random: whether it draws random numbers, so that its tracks depend on ``seed``.
     disparity_range: names of its parameters for the nearest and farthest stereo distance, meters.
-    shows: its attributes that overlays can draw: particles (N, 2 or more) with x, y in
-        pixels first, objects (boxes), mask (H, W), blocks (boxes of the target, boxes that are occluded).
+    shows: its attributes that overlays can draw: particles (N, 2 or more) that begin with x, y in pixels,
+        objects (boxes), mask (H, W), blocks (boxes of the target, boxes that are occluded).
     follows: what it tracks and by which cues, in a few words for tables.
     source: the paper, or "ours".
     """
@@ -56,7 +56,7 @@ class Traits:
         return next((each for each in self.channels if each.names <= set(present)), None)
 
     def fitting(self, params: Any) -> tuple[Channels, ...]:
-        """The sets of channels for given parameters: those whose own parameters match most of them."""
+        """The sets of channels for given parameters: those whose own parameters match the most of them."""
         agreeing = [each for each in self.channels if each.agrees(params)]
         most = max((len(each.params) for each in agreeing), default=0)
         return tuple(each for each in agreeing if len(each.params) == most)

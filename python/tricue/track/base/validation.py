@@ -57,7 +57,7 @@ def seed(value: int) -> int:
 
 
 def initial_box(given: BoxLike | None, shape: tuple[int, ...]) -> Box:
-    """The box to start on; BoxNeededError where none is given, ValueError as :func:`check_box_in`."""
+    """The box to start on; BoxNeededError if none is given, ValueError as :func:`check_box_in`."""
     if given is None:
         raise BoxNeededError(
             "box: expected (x, y, width, height), got None; this tracker needs an initial box"
@@ -146,7 +146,7 @@ def require_cue_channels(
 
 
 def check_depth_size(depth: NDArray[np.float32], size: tuple[int, ...]) -> None:
-    """UnregisteredDepthError for depth of another size than color, (height, width)."""
+    """UnregisteredDepthError for depth of another size than color's, (height, width)."""
     if depth.shape == size:
         return
     register = (
@@ -177,7 +177,7 @@ def rig(value: StereoRig | None) -> StereoRig | None:
 
 
 def rig_or_default(value: StereoRig | None, shape: tuple[int, ...], channel: str = "color") -> StereoRig:
-    """The rig, or a default one if None. ValueError if its size isn't that of the channel, which it names."""
+    """The rig, or a default one if None. ValueError if its size isn't that of the named channel."""
     height, width = shape[:2]
     if value is None:
         return StereoRig(Intrinsics.from_fov(width, height, DEFAULT_FIELD_OF_VIEW), DEFAULT_BASELINE)

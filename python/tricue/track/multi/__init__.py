@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Several targets at once, each followed by a tracker of its own, in one process or in several."""
+"""Several targets at once, each followed by its own tracker, in one process or in several."""

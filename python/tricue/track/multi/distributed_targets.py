@@ -13,11 +13,11 @@ from tricue.track.multi.targets import Targets
 
 
 class DistributedTargets:
-    """As ``Targets``, a part of them in this process, the others in workers.
+    """As ``Targets``, some of them in this process, the others in workers.
 
-    A new target goes where there are fewest, for which a worker starts while there are fewer than
-    ``processes``, this one among them, and all have targets. WorkerEndedError where a worker was killed: its
-    targets are gone from :attr:`ids`, the others stay, and another worker takes its place at a new target.
+    A new target goes to the process with the fewest. A worker is started for it if all processes have targets
+    and there are fewer than ``processes``, which includes this one. WorkerEndedError if a worker was killed:
+    its targets are gone from :attr:`ids`, the others stay, and a new target starts another worker.
     """
 
     def __init__(self, processes: int) -> None:
@@ -40,11 +40,11 @@ class DistributedTargets:
         self._emptiest().put(target, tracker)
 
     def remove(self, target: int) -> None:
-        """Follow a target no longer."""
+        """Stop following a target."""
         next(each for each in self._parts if target in each.ids).remove(target)
 
     def update(self, number: int, frame: SharedFrame) -> dict[int, Track]:
-        """Follow all targets into a frame. After an error, :meth:`undo` takes it back where it succeeded."""
+        """Follow all targets into a frame. After an error, :meth:`undo` reverts it where it succeeded."""
         asked = [each for each in self._workers if each.ids]
         for worker in asked:
             worker.wake()
@@ -58,7 +58,7 @@ class DistributedTargets:
         return tracks
 
     def undo(self, number: int) -> None:
-        """Take an update back, if it was the last one. Targets of a worker that has ended are gone."""
+        """Undo an update, if it was the last one. Targets of a worker that has ended are gone."""
         self._here.undo(number)
         for worker in self._workers:
             with suppress(WorkerEndedError):  # ``ids`` tells
@@ -73,7 +73,7 @@ class DistributedTargets:
         return found
 
     def close(self) -> None:
-        """Follow none of them any longer, and end the workers."""
+        """Stop following all of them, and end the workers."""
         self._here.close()
         for worker in self._workers:
             worker.close()

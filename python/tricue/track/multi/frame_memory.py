@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A frame in memory that processes share: one writes its images, the others see them without a copy."""
+"""A frame in shared memory: one process writes its images, the others see them without a copy."""
 
 import mmap
 import os
@@ -17,7 +17,7 @@ ALIGNMENT = 64  # bytes, of an image's first pixel
 class Layout(NamedTuple):
     """Where a frame's images are in the memory.
 
-    images: name, type, shape, and first byte of each. size: bytes of all. others: what isn't an image.
+    images: name, type, shape, and first byte of each. size: bytes of all. others: the frame's other parts.
     """
 
     images: tuple[tuple[str, str, tuple[int, ...], int], ...]
@@ -48,7 +48,7 @@ class FrameMemory:
         self._map: mmap.mmap | None = None
 
     def write(self, frame: SharedFrame) -> Layout:
-        """Copy a frame into the memory, in the place of the one before."""
+        """Copy a frame into the memory; it replaces the previous one."""
         layout = Layout.of(frame)
         if os.fstat(self.file).st_size < layout.size:
             os.ftruncate(self.file, layout.size)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What processes tell each other: tracks as plain values, which are pickled thirty times as fast."""
+"""Messages between processes: tracks as plain values, which are pickled thirty times as fast."""
 
 import pickle
 from multiprocessing.connection import Connection
@@ -14,19 +14,19 @@ PlainTracks = dict[int, tuple[Any, ...]]
 
 
 def send(connection: Connection, number: int, *message: Any) -> None:
-    """Send a request's message or its answer; OSError where nobody has the other end."""
+    """Send a request's message or its answer; OSError if the other end is closed."""
     data = pickle.dumps(message, pickle.HIGHEST_PROTOCOL)
     connection.send_bytes(number.to_bytes(NUMBER_BYTES, "little") + data)
 
 
 def receive(connection: Connection) -> tuple[int, memoryview]:
-    """The next message, pickled, and its number; EOFError or OSError where none can come any more."""
+    """The next message, pickled, and its number; EOFError or OSError if none can come any more."""
     data = memoryview(connection.recv_bytes())
     return int.from_bytes(data[:NUMBER_BYTES], "little"), data[NUMBER_BYTES:]
 
 
 def unpicklable(error: Exception) -> TypeError:
-    """The error for a tracker that another process can't get."""
+    """The error for a tracker that can't be sent to another process."""
     return TypeError(f"workers: expected 1, or a tracker that can be pickled; {error}")
 
 

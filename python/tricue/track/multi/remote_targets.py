@@ -24,7 +24,7 @@ PATIENCE = 5.0  # seconds that a worker gets to end by itself
 class RemoteTargets:
     """As ``Targets``, in a process of their own, which ends with this object and with this process.
 
-    memory: through which it sees the frames. It runs a module, not the script of this process, which so needs
+    memory: where it sees the frames. It runs a module, not the script of this process, so that script needs
     no guard against being run again.
     """
 
@@ -67,12 +67,12 @@ class RemoteTargets:
         self.ids.add(target)
 
     def remove(self, target: int) -> None:
-        """Follow a target no longer."""
+        """Stop following a target."""
         self._ask("remove", target)
         self.ids.remove(target)
 
     def wake(self) -> None:
-        """Say that an update is about to start: while this process writes the frame, the other wakes up."""
+        """Announce an update: while this process writes the frame, the other wakes up."""
         self._send(WAKE)
 
     def start_update(self, number: int, layout: Layout) -> None:
@@ -80,11 +80,11 @@ class RemoteTargets:
         self._send("update", number, layout)
 
     def finish_update(self, frame: SharedFrame) -> dict[int, Track]:
-        """The tracks; the frame, which is the same, gets the messages."""
+        """The tracks of the started update; the messages are added to its frame."""
         return from_plain(self._receive_seen(frame))
 
     def undo(self, number: int) -> None:
-        """Take an update back, whether it is running, done, or was never begun."""
+        """Undo an update, whether it is running, done, or never began."""
         self._ask("undo", number)
 
     def copies(self) -> dict[int, Tracker]:
@@ -110,10 +110,10 @@ class RemoteTargets:
             raise unpicklable(error) from None
 
     def _receive(self) -> Any:
-        """The answer to the last request; those to earlier ones nobody waited for, as after Ctrl-C.
+        """The answer to the last request; earlier answers, unread as after Ctrl-C, are skipped.
 
-        Ctrl-C while waiting leaves the connection whole. An answer that was read in part makes it useless, as
-        the next one would start anywhere; then the worker is ended.
+        Ctrl-C while waiting leaves the connection usable. After an answer that was read only in part, the
+        next one would start anywhere; then the worker is ended.
         """
         number, succeeded, value = 0, False, None
         while number != self._number:
@@ -132,13 +132,13 @@ class RemoteTargets:
         return value
 
     def _receive_seen(self, frame: SharedFrame) -> Any:
-        """The same, where it comes with messages about the frame."""
+        """The same for an answer that has messages about the frame."""
         value, messages = self._receive()
         frame.messages.extend(each for each in messages if each not in frame.messages)
         return value
 
     def _end(self) -> WorkerEndedError:
-        """End the worker, where that isn't what happened; the error that says so."""
+        """End the worker, unless it has ended already; return the error that says so."""
         self.ended, self.ids = True, set()
         self.close()
         code = self._process.returncode

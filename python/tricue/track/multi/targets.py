@@ -11,7 +11,7 @@ from tricue.track.base.tracker import TrackerBase
 
 
 def keeps_images(tracker: Tracker) -> bool:
-    """Whether a tracker may look at a frame's images later on; tricue's keep what they computed of them."""
+    """Whether a tracker may read a frame's images later; tricue's only keep results computed from them."""
     return not isinstance(tracker, TrackerBase)
 
 
@@ -29,7 +29,7 @@ class Targets:
 
     @property
     def keep_images(self) -> bool:
-        """Whether a tracker may look at a frame's images later on."""
+        """Whether a tracker may read a frame's images later."""
         return any(map(keeps_images, self._trackers.values()))
 
     def add(self, target: int, tracker: Tracker, frame: SharedFrame, box: BoxLike | None) -> Track:
@@ -43,11 +43,11 @@ class Targets:
         self._trackers[target] = tracker
 
     def remove(self, target: int) -> None:
-        """Follow a target no longer, if it is one of these."""
+        """Stop following a target, if it is one of these."""
         self._trackers.pop(target, None)
 
     def update(self, number: int, frame: SharedFrame) -> dict[int, Track]:
-        """Follow all targets into a frame. An error names its target; :meth:`undo` takes back what it left.
+        """Follow all targets into a frame. An error names its target; :meth:`undo` reverts the others.
 
         number: of the update, by which :meth:`undo` knows it.
         """
@@ -62,7 +62,7 @@ class Targets:
         return {target: _update(target, tracker, frame) for target, tracker in self._trackers.items()}
 
     def undo(self, number: int) -> None:
-        """Take an update back, if it was the last one: a tracker replaces its state, and changes none."""
+        """Undo an update, if it was the last one: trackers replace their states and never modify them."""
         last, before = self._before
         for target, values in before.items() if last == number else ():
             vars(self._trackers[target]).update(values)
@@ -72,7 +72,7 @@ class Targets:
         return {target: copy.copy(tracker) for target, tracker in self._trackers.items()}
 
     def close(self) -> None:
-        """Follow none of them any longer."""
+        """Stop following all of them."""
         self._trackers, self._before = {}, (0, {})
 
 

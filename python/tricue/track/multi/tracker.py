@@ -25,26 +25,26 @@ if TYPE_CHECKING:
 
 
 class MultiTracker:
-    """Follows several targets, each by a tracker of its own, with one call per frame.
+    """Follows several targets, each with its own tracker, in one call per frame.
 
         people = tricue.MultiTracker()
         ids = [people.add(frame, box) for box in boxes]
         for id, track in people.update(next_frame).items():
             print(id, track.status, track.box)
 
-    tracker: the kind for targets that ask for no other, a name as :func:`tricue.create` takes it.
-    workers: the processes that share the targets, this one among them. Tracks are the same whatever their
-        number. They see the frames in shared memory, on Linux; elsewhere more than one is an error. There are
-        no threads: the trackers' loops are Python, so that two threads are hardly faster than one.
-    on_lost: called with id and track when a target becomes LOST, after all were updated; not for one that it
-        has removed meanwhile. Where it raises an error, it is called for the others all the same; then the
+    tracker: the default kind of tracker, a name as :func:`tricue.create` takes it.
+    workers: number of processes that share the targets, including this one. Tracks don't depend on it. The
+        processes see the frames in shared memory, on Linux; elsewhere more than one is an error. There are no
+        threads: the trackers' loops are Python, so two threads would hardly be faster than one.
+    on_lost: called with id and track when a target becomes LOST, after all were updated; not for a target
+        that it has removed meanwhile. If it raises an error, it is still called for the others; then the
         first error is raised.
     rig, intrinsics: the camera, for all trackers that take one.
-    seed, kernels: for all targets, as of every tracker. parameters: of the default kind.
+    seed, kernels: for all targets, as for every tracker. parameters: of the default kind.
 
-    Threads may share it: a call waits until another thread's is done, but for ``on_lost``. A handler of
-    signals or warnings can't wait for the call that it is in the middle of: it gets a RuntimeError, unless it
-    reads :attr:`ids` or :attr:`tracks`, or calls :meth:`close`.
+    Threads may share it: a call waits until that of another thread is done, except for ``on_lost``. A handler
+    of signals or warnings can't wait for the call that it interrupts: it gets a RuntimeError, unless it reads
+    :attr:`ids` or :attr:`tracks`, or calls :meth:`close`.
 
     It is copied and pickled with all of its targets, as a tracker is (``on_lost`` then has to be a function
     that can be pickled). With workers, use it in ``with``, or call :meth:`close`; they also end with the
@@ -86,17 +86,17 @@ class MultiTracker:
 
     @property
     def tracks(self) -> dict[int, Track]:
-        """The newest track of each target by its id; of one that was just added its first."""
+        """The newest track of each target by its id; the first one if the target was just added."""
         return dict(self._tracks)
 
     def add(
         self, frame: FrameLike, box: BoxLike | None = None, tracker: str | None = None, **parameters: Any
     ) -> int:
-        """Follow one more target, which is at ``box`` in ``frame``; its id.
+        """Follow one more target, which is at ``box`` in ``frame``, and return its id.
 
         Ids count from 1 and are not used again. tracker: another kind than the default. parameters: of its
-        tracker; where it is of the default kind, beside the constructor's. Without ``box`` a tracker that
-        can looks for a target. ValueError as of the tracker's ``init``.
+        tracker; for the default kind, in addition to the constructor's. Without ``box``, a tracker that can
+        do so looks for a target. ValueError as for the tracker's ``init``.
         """
         if tracker is None or tracker == self.tracker:
             tracker, parameters = self.tracker, self._parameters | parameters
@@ -114,7 +114,7 @@ class MultiTracker:
             return target
 
     def remove(self, id: int) -> None:  # noqa: A002
-        """Follow a target no longer. ValueError for an id that isn't among :attr:`ids`."""
+        """Stop following a target. ValueError for an id that isn't among :attr:`ids`."""
         with self._one_call():
             if id not in self._tracks:
                 ids = ", ".join(map(str, self.ids))
@@ -125,13 +125,13 @@ class MultiTracker:
             del self._tracks[id]
 
     def update(self, frame: FrameLike) -> dict[int, Track]:
-        """Follow all targets into the next frame; their tracks by their ids.
+        """Follow all targets into the next frame; return their tracks by their ids.
 
-        What trackers compute of the whole frame alike is computed once, and its warnings are given once. An
-        error of one target names it ("target 2: ..."), and leaves all of them as they were; but a third
-        party's tracker keeps what it did before. Where a worker process was killed, or was ended as Ctrl-C
-        came in the middle of its answer, a RuntimeError tells which targets went with it; the others go on
-        with the next frame. If another error came first, the next call raises this one.
+        What several trackers compute from the whole frame is computed once, and warnings are given once. An
+        error of one target names it ("target 2: ...") and leaves all of them as they were, except that a
+        third party's tracker keeps what it has done. If a worker process was killed, or was ended because
+        Ctrl-C came in the middle of its answer, a RuntimeError says which targets went with it; the others go
+        on with the next frame. If another error came first, the next call raises this one.
         """
         shared = SharedFrame.of(as_frame(frame))
         with self._one_call():
@@ -151,7 +151,7 @@ class MultiTracker:
         return found
 
     def close(self) -> None:
-        """Follow no target any longer, and end the workers."""
+        """Stop following all targets, and end the workers."""
         with self._lock:
             self._targets.close()
             self._tracks = {}
@@ -203,14 +203,14 @@ class MultiTracker:
             raise errors[0]
 
     def _find_losses(self) -> None:
-        """WorkerEndedError where a worker has ended during a call that raised another error."""
+        """Raise WorkerEndedError if a worker ended during a call that raised another error."""
         if not self._tracks.keys() <= self._targets.ids:
             raise WorkerEndedError("a worker process ended")
 
     @contextmanager
     def _one_call(self) -> Iterator[None]:
-        """One call at a time. Where a worker has ended in it, forget its targets, and raise the error that
-        tells of them.
+        """One call at a time. If a worker ends in it, forget its targets, and raise the error that names
+        them.
         """
         with self._lock:
             if self._calling:
@@ -230,7 +230,7 @@ class MultiTracker:
                 self._calling = False
 
     def _warn(self, frame: SharedFrame) -> None:
-        """Show what the trackers warn of, once, at the line that called the caller."""
+        """Show the trackers' warnings, each once, at the line that called the caller."""
         for message in frame.messages:
             if message not in self._told:
                 warnings.warn(message, UserWarning, stacklevel=3)

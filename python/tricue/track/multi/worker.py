@@ -29,25 +29,25 @@ class Worker:
     def add(
         self, target: int, tracker: Tracker, layout: Layout, box: BoxLike | None
     ) -> tuple[Track, list[str]]:
-        """The first track, and what was warned of."""
+        """The first track, and the warnings."""
         frame = self._frame(layout, keeps_images(tracker))
         return self._targets.add(target, tracker, frame, box), frame.messages
 
     def update(self, number: int, layout: Layout) -> tuple[PlainTracks, list[str]]:
-        """The tracks of all targets, and what was warned of."""
+        """The tracks of all targets, and the warnings."""
         frame = self._frame(layout, self._targets.keep_images)
         return to_plain(self._targets.update(number, frame)), frame.messages
 
     def _frame(self, layout: Layout, kept: bool) -> SharedFrame:
-        """The frame in the memory, which the next one overwrites; a copy where its images may be kept."""
+        """The frame in the memory, which the next one overwrites; a copy if its images may be kept."""
         return self._memory.copy(layout) if kept else self._memory.read(layout)
 
 
 def run(connection_file: int, memory_file: int) -> None:
     """Answer requests until the other end is closed, as it is when its process ends.
 
-    A request is its number, a method, and arguments; its answer the number, whether that succeeded, and what
-    came of it, an error where it didn't.
+    A request is its number, a method, and arguments; its answer is the number, whether the call succeeded,
+    and its result or error.
     """
     for each in signal.SIGINT, signal.SIGHUP:  # a terminal's, which are for the process that asks
         signal.signal(each, signal.SIG_IGN)
@@ -67,7 +67,7 @@ def run(connection_file: int, memory_file: int) -> None:
 
 
 def _stay_awake(connection: Connection) -> None:
-    """Wait without sleep for a message that comes once a frame is copied; to wake up would take as long."""
+    """Wait for a message without sleep: it comes once a frame is copied, and waking up would take as long."""
     polls = 0
     while polls < MAX_POLLS and not connection.poll():
         polls += 1
@@ -81,7 +81,7 @@ def _answer(worker: Worker, method: str, arguments: tuple[Any, ...]) -> tuple[bo
 
 
 def _portable(error: Exception) -> Exception:
-    """The error, or a RuntimeError with its text where it can't be pickled, as some third party's."""
+    """The error, or a RuntimeError with its text if it can't be pickled, as some of third parties can't."""
     try:
         pickle.loads(pickle.dumps(error))
     except Exception:
