@@ -18,7 +18,9 @@ def add_common(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--kernels", default="native", choices=("native", "reference"), help="default %(default)s"
     )
-    command.add_argument("--seed", type=seed, default=0, help="of the random numbers, default %(default)s")
+    command.add_argument(
+        "--seed", type=seed, default=0, help="seed of the random numbers, default %(default)s"
+    )
 
 
 def count(text: str) -> int:
@@ -120,12 +122,12 @@ def topics(text: str) -> dict[str, str]:
 
 
 def add_topics(command: argparse.ArgumentParser) -> None:
-    """The option that chooses a recording's topics."""
+    """Add the option that chooses a recording's topics."""
     command.add_argument(
         "--topics",
         type=topics,
         metavar="CHANNEL=TOPIC,...",
-        help="of a recording: color=/a,depth=/b",
+        help="topics to read from a recording: color=/a,depth=/b",
     )
 
 

@@ -48,7 +48,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
         type=share,
         default=0.1,
         metavar="SHARE",
-        help="of the other pixels that may be taken for skin, default %(default)s",
+        help="share of the other pixels that may be taken for skin, default %(default)s",
     )
     skin.set_defaults(measure=_skin_threshold, tracker="color-particle")
     head = kinds.add_parser("head-colors", help="of stereo-head, from samples of skin and of hair")
@@ -61,13 +61,16 @@ def add_options(command: argparse.ArgumentParser) -> None:
             help=f"images with masks of the {part}, image/ and mask/, or a recording with boxes",
         )
     head.add_argument(
-        "--hair-weight", type=float, metavar="SHARE", help="of the hair in the model, default: parameter hair"
+        "--hair-weight",
+        type=float,
+        metavar="SHARE",
+        help="share of hair in the model, default: parameter hair",
     )
     head.set_defaults(measure=_head_colors, tracker="stereo-head")
     noise = kinds.add_parser("stereo-noise", help="of stereo-head, from stereo pairs of a head at rest")
     noise.add_argument("input", metavar="INPUT", help="as for tricue track")
     noise.add_argument("--box", type=box, metavar="X,Y,W,H", help="the head; default the first true box")
-    noise.add_argument("--distance", type=float, metavar="M", help="of the head along the camera's axis")
+    noise.add_argument("--distance", type=float, metavar="M", help="to the head along the camera's axis")
     noise.add_argument("--right", metavar="PLACE", help="the right camera's images; INPUT is the left one's")
     noise.add_argument("--calibration", type=Path, metavar="FILE", help="of the stereo pair")
     noise.add_argument(

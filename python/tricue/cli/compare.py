@@ -23,14 +23,14 @@ MOST = 5
 def add_options(command: argparse.ArgumentParser) -> None:
     """Add the command's options to its parser."""
     command.add_argument("old", type=Path, metavar="OLD", help="a folder that tricue evaluate wrote")
-    command.add_argument("new", type=Path, metavar="NEW", help="another one, of the same sequences")
+    command.add_argument("new", type=Path, metavar="NEW", help="another one, with the same sequences")
     command.add_argument(
         "--number",
         choices=tuple(BETTER),
         default="auc",
         help="the column of rows.csv that is compared, default %(default)s",
     )
-    command.add_argument("--report", type=Path, metavar="FILE", help="also write a page, HTML")
+    command.add_argument("--report", type=Path, metavar="FILE", help="also write an HTML page")
     command.add_argument(
         "--fail-if-worse", action="store_true", help="exit code 1 if a tracker is shown to be worse"
     )
@@ -38,7 +38,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
         "--fail-under",
         type=float,
         metavar="GAIN",
-        help="exit code 1 if a tracker's mean gain is under this, such as -0.01",
+        help="exit code 1 if a tracker's mean gain is below this, such as -0.01",
     )
 
 

@@ -73,7 +73,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="NAME=FOLDER",
-        help=f"others' results, compared on the same sequences; :FORM after it, of {', '.join(FORMS)}, where "
+        help=f"others' results on the same sequences; :FORM behind it, one of {', '.join(FORMS)}, if "
         "it isn't what the folder looks like",
     )
     command.add_argument(
@@ -81,21 +81,21 @@ def add_options(command: argparse.ArgumentParser) -> None:
         type=seconds,
         default=DEFAULT_TIME_LIMIT,
         metavar="SECONDS",
-        help="for a frame of a tracker that isn't ours, default %(default)g; to load, it has a minute",
+        help="time for a frame of a tracker that isn't ours, default %(default)g; loading may take a minute",
     )
     command.add_argument(
         "--set",
         action="append",
         default=[],
         metavar="TRACKER.NAME=VALUE",
-        help="a parameter of one of the trackers, yours too",
+        help="a parameter of one of the trackers, also of yours",
     )
     command.add_argument(
         "--seeds",
         type=count,
         default=3,
         metavar="N",
-        help="runs of trackers that draw random numbers, default %(default)s",
+        help="runs of each tracker that draws random numbers, default %(default)s",
     )
     command.add_argument(
         "--protocols",
@@ -108,7 +108,9 @@ def add_options(command: argparse.ArgumentParser) -> None:
         "--no-restarts", action="store_true", help="leave out the runs with restarts after failures"
     )
     command.add_argument(
-        "--attributes", action="store_true", help="measure what sequences show, and results by that"
+        "--attributes",
+        action="store_true",
+        help="measure the sequences' attributes, and group results by them",
     )
     command.add_argument("--latex", type=Path, metavar="FILE", help="also write the tables as LaTeX")
     command.add_argument(
@@ -120,7 +122,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     )
     where = command.add_mutually_exclusive_group()
     where.add_argument("--jobs", type=count, default=1, metavar="N", help="processes, default %(default)s")
-    where.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster, tcp://HOST:PORT")
+    where.add_argument("--scheduler", metavar="ADDRESS", help="a Dask cluster, tcp://HOST:PORT")
     command.add_argument(
         "--ahead",
         type=count,
@@ -136,22 +138,22 @@ def add_options(command: argparse.ArgumentParser) -> None:
         "--raw",
         type=Path,
         metavar="FOLDER",
-        help="write all boxes in the forms of OTB, GOT-10k and VOT, with a manifest",
+        help="write all boxes in the formats of OTB, GOT-10k and VOT, with a manifest",
     )
     command.add_argument(
         "--depth-scale",
         type=float,
         metavar="M",
-        help="meters per unit of depth, where the format doesn't say",
+        help="meters per unit of depth, if the format doesn't say",
     )
-    command.add_argument("--fps", type=float, metavar="N", help="frames a second of images without times")
+    command.add_argument("--fps", type=float, metavar="N", help="frames/s of images without times")
     command.add_argument(
         "--unit", type=float, metavar="M", help="meters per unit of the board in OpenCV's calibrations"
     )
     command.add_argument(
         "--truth",
         choices=("color", "depth"),
-        help="the channel in whose pixels the true boxes are given, if there are both",
+        help="the channel in whose pixels the true boxes are given, for sequences with both",
     )
 
 

@@ -43,12 +43,16 @@ def add_options(command: argparse.ArgumentParser) -> None:
         "place", metavar="PLACE", help="video file, recording, sequence folder, or folder of sequences"
     )
     command.add_argument("--depth-scale", type=float, metavar="M", help="meters per unit of depth")
-    command.add_argument("--fps", type=float, metavar="N", help="frames a second of images without times")
-    command.add_argument("--right", metavar="PLACE", help="the right camera's; PLACE is the left one's")
+    command.add_argument("--fps", type=float, metavar="N", help="frames/s of images without times")
+    command.add_argument(
+        "--right", metavar="PLACE", help="the right camera's images; PLACE has the left one's"
+    )
     command.add_argument("--target", metavar="NAME", help="one of a folder's several targets")
     add_topics(command)
-    command.add_argument("--calibration", type=Path, metavar="FILE", help="not the one beside the images")
-    command.add_argument("--json", action="store_true", help="the same as one JSON object")
+    command.add_argument(
+        "--calibration", type=Path, metavar="FILE", help="a calibration in place of the one beside the images"
+    )
+    command.add_argument("--json", action="store_true", help="print one JSON object")
 
 
 def run(options: argparse.Namespace) -> int:

@@ -30,15 +30,19 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "input", metavar="INPUT", help="video, folder of images, sequence, recording, URL, camera number"
     )
-    command.add_argument("--port", type=int, metavar="N", help="of the server on 127.0.0.1; 0 for a free one")
+    command.add_argument(
+        "--port", type=int, metavar="N", help="the server's port on 127.0.0.1; 0: any free one"
+    )
     command.add_argument("--no-browser", action="store_true", help="only print the address")
     command.add_argument(
         "--tracker",
         type=tracker_name,
         metavar="NAME",
-        help="what new targets begin with; the page has a choice",
+        help="the tracker for new targets, which the page can change",
     )
-    command.add_argument("--seed", type=seed, default=0, help="of the random numbers, default %(default)s")
+    command.add_argument(
+        "--seed", type=seed, default=0, help="seed of the random numbers, default %(default)s"
+    )
     add_topics(command)
     add_source_options(command)
 

@@ -17,7 +17,7 @@ def add_source_options(command: argparse.ArgumentParser) -> Any:
         "--fps",
         type=float,
         metavar="N",
-        help="frames a second of images without times (default 30); videos, cameras, VOT, TUM and "
+        help="frames/s of images without times (default 30); videos, cameras, VOT, TUM and "
         "Princeton have their own",
     )
     command.add_argument(
@@ -40,10 +40,10 @@ def add_source_options(command: argparse.ArgumentParser) -> Any:
         "--calibration",
         type=Path,
         metavar="FILE",
-        help="of the camera or stereo pair, by OpenCV, ROS, KITTI, Princeton or in TOML",
+        help="calibration of the camera or stereo pair: OpenCV's, ROS's, KITTI's, Princeton's or TOML",
     )
     camera.add_argument(
-        "--fov", type=angles, metavar="H[,V]", help="the camera's angles of view instead, in degrees"
+        "--fov", type=angles, metavar="H[,V]", help="angles of view instead of a calibration, in degrees"
     )
     return camera
 

@@ -46,7 +46,9 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "input", metavar="INPUT", help="video, folder of images, sequence, recording, URL, camera number"
     )
-    command.add_argument("--target", metavar="NAME", help="start on this one of a folder's labeled targets")
+    command.add_argument(
+        "--target", metavar="NAME", help="the labeled target to start on, if a folder has several"
+    )
     command.add_argument(
         "--tracker",
         type=tracker_name,
@@ -75,14 +77,14 @@ def add_options(command: argparse.ArgumentParser) -> None:
         "--start", type=frame_number, default=0, metavar="N", help="the first frame, from 0; default 0"
     )
     command.add_argument(
-        "--end", type=frame_number, metavar="N", help="the last frame; by default that of all"
+        "--end", type=frame_number, metavar="N", help="the last frame; default the last of all"
     )
     add_topics(command)
     add_source_options(command).add_argument(
         "--assume-fov",
         type=angles,
         metavar="H[,V]",
-        help="angles to assume instead; positions are then marked as assumed",
+        help="angles of view to assume; positions are then marked as assumed",
     )
     command.add_argument(
         "--output", type=Path, metavar="FILE", help="overlay video, .mp4, .mkv, .webm or .avi"
@@ -93,18 +95,22 @@ def add_options(command: argparse.ArgumentParser) -> None:
         nargs="?",
         const=DEFAULT_SECONDS,
         metavar="SECONDS",
-        help="draw the path of the last seconds into --output, by default %(const)g",
+        help="draw the path of the last seconds, by default %(const)g, into --output",
     )
     command.add_argument("--csv", type=Path, metavar="FILE", help="a line per frame")
     command.add_argument(
         "--json",
         type=Path,
         metavar="FILE",
-        help="the same, with the tracker and its parameters; - for an object a line on standard output",
+        help="the same, with the tracker and its parameters; -: one object per line, on standard output",
     )
-    command.add_argument("--mot", type=Path, metavar="FILE", help="the tracks as MOTChallenge's text")
-    command.add_argument("--coco", type=Path, metavar="FILE", help="the tracks as COCO's JSON of a video")
-    command.add_argument("--plot", type=Path, metavar="FILE", help="the path in meters from above, .png")
+    command.add_argument("--mot", type=Path, metavar="FILE", help="the tracks in MOTChallenge's text format")
+    command.add_argument(
+        "--coco", type=Path, metavar="FILE", help="the tracks in COCO's JSON format for video"
+    )
+    command.add_argument(
+        "--plot", type=Path, metavar="FILE", help="the path seen from above, in meters, .png"
+    )
     command.add_argument(
         "--workers",
         type=count,
@@ -121,6 +127,6 @@ def add_options(command: argparse.ArgumentParser) -> None:
         "--paper",
         action="store_const",
         const=PAPER,
-        help="the tracker as its paper prints it, without stages of ours",
+        help="the tracker as its paper prints it, without our additions",
     )
     add_common(command)

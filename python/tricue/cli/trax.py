@@ -20,7 +20,7 @@ from tricue.track.base.settings import read_settings
 
 PROGRAM = "python -m tricue.cli.trax"
 _NOTES = """\
-Each option is also taken from the environment, where the command line has none: TRICUE_TRACKER, TRICUE_SET
+Options that the command line lacks are taken from the environment: TRICUE_TRACKER, TRICUE_SET
 ("particles=300 low=0.2"), TRICUE_PARAMS, TRICUE_SEED, TRICUE_CALIBRATION. That is for VOT's trackers.ini:
 
   [color-particle]
@@ -29,8 +29,8 @@ Each option is also taken from the environment, where the command line has none:
   env_TRICUE_TRACKER = color-particle
   env_TRICUE_SET = particles=300
 
-Files need their whole path: the toolkit starts trackers in a folder of its own. tricue vot-workspace writes
-such a file.
+Files need absolute paths: the toolkit starts trackers in a folder of its own. tricue vot-workspace writes
+such a trackers.ini.
 """
 
 
@@ -68,7 +68,7 @@ def _parser(environment: Mapping[str, str]) -> Parser:
         type=Path,
         default=of("CALIBRATION"),
         metavar="FILE",
-        help="of the depth camera; without it one with 60 degrees of view is assumed",
+        help="the depth camera's; without it a camera with 60 degrees of view is assumed",
     )
     parser.add_argument(
         "--kernels", default="native", choices=("native", "reference"), help="default %(default)s"
@@ -85,8 +85,8 @@ def _read_tracker(options: argparse.Namespace, environment: Mapping[str, str]) -
 def _quit_at_end_of_input() -> None:
     """Treat the end of standard input as a quit.
 
-    vot-trax 4.0.2 takes it for a broken message, or, between initialize and its frame, reads on for ever and
-    fills the memory. So a thread forwards the input and adds the quit of a client that was killed.
+    vot-trax 4.0.2 takes it for a broken message or, between initialize and its frame, reads on forever and
+    fills the memory. So a thread forwards the input, and adds the quit that a killed client can't send.
     """
     source = os.dup(0)
     readable, writable = os.pipe()

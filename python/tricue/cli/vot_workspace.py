@@ -21,21 +21,21 @@ TOOLKIT = "pip install vot-toolkit==0.7.4 vot-trax==4.0.2 attributee==0.1.9"
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """Add the command's options to its parser."""
-    command.add_argument("folder", type=Path, metavar="FOLDER", help="new, or a workspace to add to")
+    command.add_argument("folder", type=Path, metavar="FOLDER", help="a new folder, or a workspace to add to")
     command.add_argument(
-        "--trackers", type=tracker_names, required=True, metavar="NAMES", help="separated by commas"
+        "--trackers", type=tracker_names, required=True, metavar="NAMES", help="trackers, separated by commas"
     )
     command.add_argument(
         "--sequences",
         type=Path,
         metavar="DATA",
-        help="folder of sequences with true boxes, of any known layout",
+        help="folder of sequences with true boxes, in any known layout",
     )
     command.add_argument(
         "--python",
         default=sys.executable,
         metavar="PATH",
-        help="the interpreter with tricue[vot], default this one; the toolkit may be in another environment",
+        help="the Python that has tricue[vot], default this one; the toolkit may be in another environment",
     )
 
 
