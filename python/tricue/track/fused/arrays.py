@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The arrays that the modules of the fused tracker give each other."""
+"""The arrays that the modules of the fused tracker exchange."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,4 +8,4 @@ Image = NDArray[np.uint8]  # (H, W, 3) BGR, or (H, W) gray
 Plane = NDArray[np.float32]
 Floats = NDArray[np.float64]
 
-NO_PLANE: Plane = np.empty((0, 0), np.float32)  # where a cue tells nothing
+NO_PLANE: Plane = np.empty((0, 0), np.float32)  # where a cue has no evidence

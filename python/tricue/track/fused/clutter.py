@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""What was seen while the target was looked for: what looks more like it than all of that is the target.
+"""Clutter: what was seen while the target was searched for. A better match than all of it is the target.
 
-How much a place that isn't the target's looks like it differs from scene to scene by more than how much the
-target changes while it is away. So a missed target's threshold follows what the search of the whole frame has
-found, like a detector's that keeps its rate of false alarms constant (Finn and Johnson 1968).
+How much other places look like the target varies from scene to scene, by more than the target changes while
+it is away. So a missed target's threshold follows the matches found in the search of the whole frame, like
+that of a detector with a constant rate of false alarms (Finn and Johnson 1968).
 """
 
 from typing import NamedTuple
@@ -11,14 +11,14 @@ from typing import NamedTuple
 from tricue.track.fused.identity import log_odds_of
 from tricue.track.fused.params import FusedParams
 
-RECENT_FRAMES = 5  # not counted yet: a target that comes back step by step is in them, too
-MIN_FRAMES = 5  # counted, before they tell what a scene is like
+RECENT_FRAMES = 5  # not counted yet: a target that comes back gradually is in them, too
+MIN_FRAMES = 5  # counted, before they describe the scene
 
 
 class Clutter(NamedTuple):
-    """Log-odds of what looked most like the target in the frames of a search, and wasn't recognized.
+    """Log-odds of the best matches in the frames of a search, which weren't recognized.
 
-    highest: of the counted frames. recent: of the last ones, which aren't counted yet.
+    highest: of the counted frames. recent: of the last frames, which aren't counted yet.
     """
 
     frames: int = 0
@@ -33,7 +33,7 @@ class Clutter(NamedTuple):
         return Clutter(self.frames + 1, max(self.highest, recent[0]), recent[1:])
 
     def min_log_odds(self, p: FusedParams) -> float:
-        """What a missed target needs to be recognized."""
+        """The log-odds that a missed target needs to be recognized."""
         most = log_odds_of(p.min_score_to_redetect)
         if self.frames < MIN_FRAMES:
             return most

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The target as an object of the depth image: a person or a thing that stands apart.
 
-Where the first box holds such an object and little else, the target is that object, and its box the object's:
-however it turns, spreads its arms or comes into the image. But objects grow together, too. So one that is
-suddenly much larger isn't believed.
+If the first box holds such an object and little else, the target is that object and its box the object's,
+however it turns, spreads its arms or comes into the image. But objects also merge. So an object that is
+suddenly much larger is ignored.
 """
 
 from typing import NamedTuple
@@ -23,14 +23,14 @@ from tricue.track.fused.target_observation import TargetObservation
 
 SEGMENTATION = SegmentationParams(resolution=240)  # finer, bodies fall apart more often, and it takes longer
 MIN_FIRST_IOU = 0.7  # of the first box and an object's: people's have 0.8, of what stands on a table 0.3
-MIN_SIDE = 0.3  # meters, the longer: smaller things aren't told from the table or the hand that they touch
+MIN_SIDE = 0.3  # meters, the longer: smaller things can't be told from the table or the hand that they touch
 MIN_INSIDE = 0.5  # of the target's own box, in that of its object
 MAX_DEPTH_OFFSET = 0.5  # meters, from the target's depth to its object's mean depth
-MAX_GROWTH = 1.5  # of the width or height: a neighbor that joins it adds more
+MAX_GROWTH = 1.5  # of the width or height: a neighbor that merges with it adds more
 MAX_GROWTH_OF_PART = 2.0  # the same of an object of which a part was hidden
 MIN_RENEWED_GROWTH = 3.0  # of the area, from which the models know too little of the target
-REGION = 2 * MAX_GROWTH_OF_PART  # times the target's box, in which its object is looked for
-INTERVAL = 0.2  # seconds between two looks: each takes as long as half of all other steps
+REGION = 2 * MAX_GROWTH_OF_PART  # times the target's box: where its object is searched for
+INTERVAL = 0.2  # seconds between two searches: each takes half as long as all other steps
 
 
 class SeenObject(NamedTuple):
@@ -46,18 +46,18 @@ class SeenObject(NamedTuple):
 
     @property
     def is_small(self) -> bool:
-        """Whether all of it is small; of a part no one knows."""
+        """Whether all of it is small; unknown, so False, if only a part is visible."""
         return self.is_whole and max(self.width, self.height) < MIN_SIDE
 
 
 class DepthObject(NamedTuple):
-    """What is known of the object that the target is.
+    """The state of the object that is the target.
 
-    floor: (6,) the plane of the floor where objects were looked for last. first: as it was when the models
-    were made. width, height: meters, when last seen; where a part was hidden then, at least those before.
-    is_whole: whether nothing was hidden; was_whole: whether ever. seen: in this frame; None where it wasn't
-    found, or not looked for. growth: of its width or height, the larger, since it was seen before. seconds:
-    since it was looked for.
+    floor: (6,) the plane of the floor in the last search for objects. first: the object when the models were
+    made. width, height: meters, when last seen; if a part was hidden then, at least those before. is_whole:
+    whether nothing was hidden then; was_whole: whether ever. seen: in this frame; None if it wasn't found or
+    wasn't searched for. growth: the larger one of its width and height, since it was seen before. seconds:
+    since it was searched for.
     """
 
     floor: Floats
@@ -72,7 +72,7 @@ class DepthObject(NamedTuple):
 
     @classmethod
     def from_first(cls, observation: TargetObservation, target: Target) -> "DepthObject | None":
-        """The object that the first box holds; None where it holds none, more than that, or a small one."""
+        """The object in the first box; None if the box holds none, or more than that, or a small one."""
         source = observation.depth_source
         if not isinstance(source, DepthImageSource):
             return None
@@ -85,25 +85,28 @@ class DepthObject(NamedTuple):
 
     @property
     def is_due(self) -> bool:
-        """Whether it is time to look for it."""
+        """Whether it is time to search for it."""
         return self.seconds >= INTERVAL - ADDED_TIME_ERROR
 
     @property
     def outgrew_models(self) -> bool:
         """Whether the models were made of a small part of it.
 
-        Only while it comes into sight bit by bit: what was wholly visible, or grows at once, is joined by
-        something else.
+        Only while it comes into sight gradually: an object that was wholly visible, or that grows suddenly,
+        has merged with something else.
         """
         grown = self.width * self.height > MIN_RENEWED_GROWTH * self.first.width * self.first.height
         return grown and not self.was_whole and self.growth <= MAX_GROWTH
 
     def wait(self, seconds: float) -> "DepthObject":
-        """So much later, not yet looked for."""
+        """The object after some seconds without a search."""
         return self._replace(seen=None, seconds=self.seconds + seconds)
 
     def look(self, observation: TargetObservation, target: Target, around: Box, z: float) -> "DepthObject":
-        """Seen where most of the target's own box is in it, z meters deep; around: the whole target's box."""
+        """Search for the object near depth z, in meters, that contains most of the target's own box.
+
+        around: the whole target's box.
+        """
         source = observation.depth_source
         assert isinstance(source, DepthImageSource), "the first object was found in a depth image"
         objects, floor = find_objects(observation, source.depth, self.floor, around)
@@ -135,7 +138,7 @@ class DepthObject(NamedTuple):
 def find_objects(
     observation: TargetObservation, depth: Plane, floor: Floats = NO_FLOOR, around: Box | None = None
 ) -> tuple[list[SeenObject], Floats]:
-    """The objects of the frame's depth image, all or around a box, and the plane (6,) of the floor.
+    """The objects in the frame's depth image, all or those around a box, and the plane (6,) of the floor.
 
     floor: its plane in an earlier frame. Sabeti, Parvizi and Wu 2008, section IV.A.
     """
@@ -168,7 +171,7 @@ def _visible(box: Box, observation: TargetObservation) -> Box:
 
 
 def _share_inside(box: Box, other: Box) -> float:
-    """The share of a box that is in the other one; 0 of an empty box."""
+    """The share of a box that is inside the other one; 0 for an empty box."""
     wide = min(box.x + box.width, other.x + other.width) - max(box.x, other.x)
     high = min(box.y + box.height, other.y + other.height) - max(box.y, other.y)
     return wide * high / box.area if min(wide, high, box.area) > 0 else 0.0

@@ -12,7 +12,7 @@ from tricue.kernels import Kernels
 from tricue.track.fused.arrays import Floats, Image, Plane
 
 GATE_SIGMAS = 3  # standard deviations from the expected depth within which a pixel may be the target's
-MAX_EXPECTED_SIGMA = 0.5  # meters; a vaguer expectation is no help
+MAX_EXPECTED_SIGMA = 0.5  # meters; a less certain expectation is no help
 MAX_OCCLUDER_MARGIN = 0.5  # meters
 MIN_OCCLUDER_MARGIN = MAX_OCCLUDER_MARGIN / 2
 
@@ -23,10 +23,10 @@ MAX_DISPARITY_ABOVE_EXPECTED = 16  # samples
 MAX_DISPARITY_BELOW_EXPECTED = 8  # samples
 MAX_DISPARITY_OF_WIDTH = 0.25  # of the image's width, where no depth is expected
 MAX_DISPARITY_OF_SIDE = 4  # sides of the sampled square, which limits the time
-# Of matches by chance at most a fifth agree with their median, of recorded targets' a third at least.
+# At most a fifth of random matches agree with their median; of recorded targets' matches, at least a third.
 MIN_AGREEING_SHARE = 0.3  # of the measured samples
 AGREEING_OFFSET, AGREEING_SAMPLES = 0.1, 2  # meters, and samples of disparity, from the median
-MIN_NEARER_SHARE = 0.5  # of a small box: what is nearer than its samples can find
+MIN_NEARER_SHARE = 0.5  # for a small box: surfaces nearer than its samples can find
 DISPARITY_NOISE = 0.15  # samples, standard deviation
 DEPTH_IMAGE_NOISE = 0.005  # of the depth, standard deviation of a pixel
 
@@ -44,7 +44,7 @@ class ExpectedDepth(NamedTuple):
     def occluder_margin(self) -> float:
         """Meters: what is nearer than expected by more than this is an occluder.
 
-        A vague expectation has no occluders: the margin reaches to the camera.
+        With an uncertain expectation there are no occluders: the margin reaches to the camera.
         """
         if self.sigma < MAX_EXPECTED_SIGMA:
             return max(min(GATE_SIGMAS * self.sigma, MAX_OCCLUDER_MARGIN), MIN_OCCLUDER_MARGIN)
@@ -56,12 +56,12 @@ class DepthSource(Protocol):
 
     @property
     def has_sharp_edges(self) -> bool:
-        """Whether depth changes at the same pixels as the picture."""
+        """Whether depth edges are at the same pixels as the picture's."""
 
     def medians(
         self, k: Kernels, boxes: Floats, samples: int, expected: ExpectedDepth | None, gate: Gate
     ) -> Floats:
-        """(N, 3) median depths, spreads and shares in boxes (N, 4), as ``median_depths`` has them."""
+        """(N, 3) median depths, spreads and shares in boxes (N, 4), as ``median_depths`` gives them."""
 
     def posterior(
         self, k: Kernels, grid: Grid, side: int, expected: ExpectedDepth, margin: float
@@ -69,7 +69,7 @@ class DepthSource(Protocol):
         """(side, side) P(target | depth), and 1 where it is nearer than expected by more than the margin."""
 
     def noise(self, z: float, pixel_size: float) -> float:
-        """Standard deviation in meters of a depth z that is sampled in squares of so many image pixels."""
+        """Standard deviation, in meters, of a depth z sampled in squares of so many image pixels."""
 
 
 class DepthImageSource(NamedTuple):
@@ -85,7 +85,7 @@ class DepthImageSource(NamedTuple):
     def medians(
         self, k: Kernels, boxes: Floats, samples: int, expected: ExpectedDepth | None, gate: Gate
     ) -> Floats:
-        """Of the pixels under the samples, all boxes in one call."""
+        """From the pixels under the samples, all boxes in one call."""
         return k.median_depths(self.depth, boxes, samples, expected.z if expected else math.nan, *gate)
 
     def posterior(
@@ -148,8 +148,8 @@ class StereoSource(NamedTuple):
     ) -> Floats:
         """Each box is matched by itself, in the square that has its samples.
 
-        Those of a small box are too fine for the disparities of what is near. So where no depth is expected,
-        coarser ones look for what is nearer than they can find.
+        The samples of a small box are too fine for the disparities of near surfaces. So if no depth is
+        expected, coarser samples look for surfaces nearer than these can find.
         """
         found = []
         for box in boxes.tolist():
@@ -163,9 +163,9 @@ class StereoSource(NamedTuple):
         return np.concatenate(found)
 
     def _unexpected(self, k: Kernels, box: list[float], step: float, samples: int, gate: Gate) -> Floats:
-        """(1, 3) as of ``medians``, NaN where the depths don't agree with their median.
+        """(1, 3) as ``medians``, NaN if the depths don't agree with their median.
 
-        What the right image doesn't show, left of its border or covered there, has matches by chance.
+        Surfaces that the right image doesn't show, left of its border or covered there, match at random.
         """
         depths, part = self._sample_around(box, step, samples, None)
         medians = k.median_depths(depths, part, samples, math.nan, *gate)
@@ -178,8 +178,8 @@ class StereoSource(NamedTuple):
         return medians if agree else np.full((1, 3), np.nan)
 
     def _nearer(self, k: Kernels, box: list[float], step: float, samples: int, gate: Gate) -> Floats | None:
-        """(1, 3) as of ``medians``, of what fills most of a box and is nearer than ``sample`` can find with
-        samples so many pixels apart; None without that.
+        """(1, 3) as ``medians``, of a surface that fills most of a box and is nearer than ``sample`` can find
+        with samples so many pixels apart; None if there is none.
         """
         coarse = MAX_DISPARITY_OF_WIDTH * self.left.shape[1] / (MAX_DISPARITY_OF_SIDE * samples)
         if step >= coarse:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Whether a frame's depth can be believed: not in another unit, nor where it stands still while color moves.
+"""Whether to trust a frame's depth: not if it is in another unit, or frozen while color changes.
 
-Such depth is left out, and told of once; the target is then followed by color.
+Such depth is left out, with one warning; the target is then followed by color.
 """
 
 import math
@@ -18,18 +18,18 @@ from tricue.track.fused.arrays import Image, Plane
 from tricue.track.fused.depth_sources import DepthImageSource
 from tricue.track.fused.frame_observation import FrameObservation
 
-MAX_METERS, MIN_METERS = 100.0, 0.01  # no depth camera measures more, or less; all of it is in another unit
+MAX_METERS, MIN_METERS = 100.0, 0.01  # no depth camera measures more, or less: it's another unit
 SAMPLED = 24, 32  # rows and columns that are looked at, about
 MIN_FROZEN_FRAMES, MIN_FROZEN_SECONDS = 15, 0.5  # slow depth cameras repeat an image for less
 MIN_COLOR_CHANGE, MIN_CHANGED_SHARE = 10, 0.01  # levels of a sample, above noise; of the samples
 
 
 class DepthTrust(NamedTuple):
-    """What is remembered of the depth images so far; nothing changes it.
+    """An immutable memory of the depth images so far.
 
     sample: bytes of the last one's sampled pixels. checksum: of all its pixels, None until it is repeated.
-    color: sampled when it was repeated first. repeats, seconds: frames since then with the same depth.
-    frozen: whether color moved meanwhile. told: what the user was warned of.
+    color: sampled at the first repetition. repeats, seconds: frames since then with the same depth. frozen:
+    whether color changed meanwhile. told: what the user was warned of.
     """
 
     sample: bytes = b""
@@ -41,8 +41,8 @@ class DepthTrust(NamedTuple):
     told: frozenset[str] = frozenset()
 
     def examine(self, frame: FrameObservation, seconds: float) -> tuple["DepthTrust", FrameObservation]:
-        """The memory with a frame that comes so many seconds after the last, and the frame, without depth
-        where that can't be believed.
+        """The memory with a frame that comes so many seconds after the last, and the frame, without its depth
+        if that can't be trusted.
 
         ValueError for depth in another unit without color to follow instead. UserWarning, to the caller's
         caller, for the first depth of a kind that is left out.
@@ -68,7 +68,7 @@ class DepthTrust(NamedTuple):
         if content != self.sample or np.isnan(sample).all():
             return DepthTrust(content, told=self.told)
         checksum = zlib.crc32(depth.data)
-        if self.checksum not in (None, checksum):  # what moved is between the sampled pixels
+        if self.checksum not in (None, checksum):  # the change is between the sampled pixels
             return DepthTrust(content, checksum, told=self.told)
         first = self.color
         if first is None:
@@ -93,7 +93,7 @@ def _sample(depth: Plane) -> Plane:
 
 
 def _wrong_unit(sample: Plane) -> str:
-    """What is wrong with the unit and how to set it right, "" where nothing was noticed."""
+    """What is wrong with the unit and how to fix it; "" if nothing was noticed."""
     low, high = float(np.fmin.reduce(sample, axis=None)), float(np.fmax.reduce(sample, axis=None))
     if math.isnan(low):  # none is measured
         return ""

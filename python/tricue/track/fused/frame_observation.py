@@ -32,7 +32,7 @@ class FrameObservation(NamedTuple):
     messages: list[str] | None = None
 
     def for_target(self, k: Kernels, expected: ExpectedDepth | None) -> TargetObservation:
-        """What the experts read of the frame, given the target's expected depth.
+        """The frame as the experts read it, given the target's expected depth.
 
         Without color they read a picture of depth.
         """
@@ -66,7 +66,7 @@ def observe_frame(
 def _observe(
     frame: Frame, k: Kernels, cameras: tuple[StereoRig | None, Intrinsics | None], with_depth: bool
 ) -> FrameObservation:
-    """What doesn't depend on the target."""
+    """The parts of a frame's observation that don't depend on the target."""
     name, image = _picture(frame)
     size = image.shape[:2]
     if frame.depth is not None:
@@ -84,7 +84,7 @@ def _observe(
 
 
 def _picture(frame: Frame) -> tuple[str, Any]:
-    """The image in whose pixels boxes are, and its name."""
+    """The image in whose pixels boxes are given, and its name."""
     return ("depth", frame.depth) if frame.color is None else ("color", frame.color)
 
 

@@ -26,16 +26,16 @@ class Weights(NamedTuple):
 # are 0.7 above the fitted ones.
 APPEARANCE = Weights((0.0, 1.5, 7.7, 13.1), (0.2, 5.0, 0.0, 7.9), -4.0)
 STRUCTURE = Weights((0.0, 0.0, 0.0, 17.2), (0.2, 0.0, 0.0, 11.7), -1.2)  # without what light changes
-DEPTH_PICTURE_OFFSET = -3.0  # of the log-odds in a picture of depth, in which most things look alike
-# Platt 1999, on tracks of the same videos (python -m benchmarks.quality.score_fit): a target that was
-# followed is mostly there, and what its features say of one frame is much what they said of the last.
+DEPTH_PICTURE_OFFSET = -3.0  # of the log-odds in a picture of depth, in which most things look similar
+# Platt 1999, on tracks of the same videos (python -m benchmarks.quality.score_fit): a followed target is
+# mostly still there, and its features give similar evidence in consecutive frames.
 SCORE_SLOPE, SCORE_OFFSET = 0.5, 2.0
 STRUCTURE_ONLY_PENALTY = 2.0  # log-odds
 MAX_LOG_ODDS = 50.0  # beyond it a probability doesn't change
 
 
 class IdentityFeatures(NamedTuple):
-    """What tells whether a place shows the target.
+    """The features that tell whether a place shows the target.
 
     peak_sharpness: standard deviations of the filter's peak above its mean response.
     color_similarity: Bhattacharyya coefficient with the first frame's colors.
@@ -49,7 +49,7 @@ class IdentityFeatures(NamedTuple):
     first_response: float
 
     def log_odds(self, typical: "IdentityFeatures | None", weights: Weights) -> float:
-        """Of the target against anything else, by the features and their difference from typical ones.
+        """Log-odds of the target against anything else, by the features and their change from typical ones.
 
         typical: running means of them, None until the target was recognized after the first frame.
         """
@@ -61,8 +61,8 @@ class IdentityFeatures(NamedTuple):
         return IdentityFeatures(*(old + rate * (new - old) for old, new in zip(self, other, strict=True)))
 
 
-# What 95 % of the targets of the same videos have at least in their second frame: nothing is known then of
-# what is usual for one, and a black image or noise has much less.
+# The least that 95 % of the targets of the same videos have in their second frame: then typical values aren't
+# known yet, and a black image or noise has much less.
 SECOND_FRAME = IdentityFeatures(7.6, 0.68, 0.33, 0.24)
 
 
@@ -71,25 +71,25 @@ def _weighted_sum(weights: Iterable[float], values: Iterable[float]) -> float:
 
 
 def in_any_light(log_odds: float, structure_log_odds: float) -> float:
-    """Log-odds of what is in a color picture: light may have changed its colors, its structure is enough."""
+    """Log-odds in a color picture: light may have changed the colors, so the structure alone is enough."""
     return max(log_odds, structure_log_odds - STRUCTURE_ONLY_PENALTY)
 
 
 def score_of(log_odds: float) -> float:
-    """The probability in [0, 1] that a place with some log-odds by its features shows a followed target."""
+    """The probability in [0, 1] that a place whose features give these log-odds shows a followed target."""
     calibrated = SCORE_SLOPE * log_odds + SCORE_OFFSET
     return 1 / (1 + math.exp(-min(max(calibrated, -MAX_LOG_ODDS), MAX_LOG_ODDS)))
 
 
 def log_odds_of(score: float) -> float:
-    """The log-odds by its features of a place with a score in [0, 1]."""
+    """The log-odds, by its features, of a place with this score in [0, 1]."""
     if score in (0.0, 1.0):
         return math.copysign(MAX_LOG_ODDS / SCORE_SLOPE, score - 0.5)
     return (math.log(score / (1 - score)) - SCORE_OFFSET) / SCORE_SLOPE
 
 
 class FirstColors(NamedTuple):
-    """The target's colors in the first frame, which never learn.
+    """The target's colors in the first frame, which are never updated.
 
     roots: (4096,) square roots of its histogram.
     """

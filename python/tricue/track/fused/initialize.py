@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The models of the first frame, of a kind of picture that is new, and of the first depth."""
+"""Makes the models: in the first frame, at the first picture of a new kind, and at the first depth."""
 
 from tricue.kernels import Kernels
 from tricue.track.fused.depth_object import DepthObject
@@ -75,7 +75,7 @@ def initialize_depth(state: State, frame: FrameObservation, k: Kernels, p: Fused
 
 
 def renew_models(state: State, frame: FrameObservation, k: Kernels, p: FusedParams) -> State:
-    """The state with models of the whole object, once those of the first frame know a small part of it."""
+    """The state with models of the whole object, if those of the first frame know only a small part of it."""
     whole = state.depth_object
     if whole is None or whole.seen is None or not whole.outgrew_models or state.position is None:
         return state
@@ -112,7 +112,7 @@ def _appearance_models(observation: TargetObservation, target: Target, p: FusedP
 
 
 def _see_sides(sides: Sides, observation: TargetObservation, target: Target, p: FusedParams) -> Sides:
-    """What depth says of the sides of a target, at first sight."""
+    """What depth says about the sides of a target, when it is first measured."""
     window = extract_windows(observation, [target], p.context)[0]
     return sides.see(measure_reaches(window, 0.0, 0.0, covered_share(window), standing=False))
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Update the models: appearance, outline and depth, of a target that was found.
+"""Update the models of a found target: appearance, outline and depth.
 
-What is learned a little off is found a little off. Over thousands of frames that adds up, and the models
-drift from the target. So where the first frame's filter has its peak close to the place that was found, that
-peak is learned (Matthews, Ishikawa and Baker 2004, strategy 3). A peak farther off, or a low one, is that of
-another pose, of which the first frame tells nothing.
+A target learned slightly off its place is found slightly off. Over thousands of frames that adds up, and the
+models drift. So if the first frame's filter peaks close to the match, the target is learned at that peak
+(Matthews, Ishikawa and Baker 2004, strategy 3). A peak farther off, or a low one, comes from another pose,
+which the first frame doesn't show.
 """
 
 import math
@@ -25,10 +25,10 @@ from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import CELL_PIXELS, Window, extract_windows
 
 MAX_DRIFT = 0.5  # cells, from one learning to the next
-TURN_EVERY = 2  # times that appearance is learned, its turn too: more often tracks are no better, and slower
-DUE_TOLERANCE = 0.25  # of the time between two frames: so much before it is due, appearance is learned
-FRAME = 1 / 30  # seconds: learning rates are given for so many
-MIN_FIRST_RESPONSE = 0.2  # of the first frame's filter, which answers about 1 to the target as it was
+TURN_EVERY = 2  # updates of appearance per update of its turn: updating it more often is slower and no better
+DUE_TOLERANCE = 0.25  # of the time between two frames: how early appearance may be learned
+FRAME = 1 / 30  # seconds: the interval for which learning rates are given
+MIN_FIRST_RESPONSE = 0.2  # of the first frame's filter, which responds with about 1 to the unchanged target
 
 
 def update_models(
@@ -36,9 +36,9 @@ def update_models(
 ) -> State:
     """The state with a match blended into its models; before: the state after the last frame.
 
-    Nothing is learned where the target wasn't moved to the match. Appearance is learned as long as the target
-    is followed, and only in some frames of fast video, at rates that are higher for it: how fast targets
-    change goes by time, and the frames of slow video differ more.
+    Nothing is learned if the target wasn't moved to the match. Appearance is learned as long as the target is
+    followed, and only in some frames of fast video, at rates that make up for it: targets change with time,
+    so frames of slow video differ more.
     """
     if state.target is not match.target:
         return state
@@ -61,7 +61,7 @@ def update_models(
 
 
 def without_drift(target: Target, match: Match) -> Target:
-    """A match's target, moved to the peak of the first frame's filter if that is close to where it was."""
+    """A match's target, moved to the peak of the first frame's filter if that is close to the match."""
     window = match.window
     peak = window.observation.k.evidence_peak(match.first_responses[None], NO_PLANE, 1.0, 0.0).tolist()
     right, down = peak[0] - match.right / CELL_PIXELS, peak[1] - match.down / CELL_PIXELS
@@ -88,7 +88,7 @@ def _learn_turn(models: AppearanceModels, window: Window, seconds: float, p: Fus
 
 
 def rate_over(seconds: float, rate: float) -> float:
-    """The learning rate of one step over so many seconds, given that per frame."""
+    """The learning rate of one step over so many seconds, from the rate per frame."""
     kept: float = (1 - rate) ** (seconds / FRAME)
     return 1 - kept
 
@@ -96,8 +96,8 @@ def rate_over(seconds: float, rate: float) -> float:
 def update_object(state: State, observation: TargetObservation) -> State:
     """The state with the outline of the object that the target is, if it is one.
 
-    An image that the depth camera repeats may be older than the target's place. Frames without timestamps may
-    be far apart: each is looked at.
+    A depth image that the camera repeats may be older than the target's place. Frames without timestamps may
+    be far apart, so each of them is searched.
     """
     known, position = state.depth_object, state.position
     if known is None or position is None:
@@ -129,7 +129,7 @@ def _update_depth(
 ) -> State:
     """Correct the position filter by the measured depth; after LOST it starts anew, once recognized.
 
-    Where none is measured, a recognized target is still at a known place in the picture.
+    If none is measured, a recognized target still has a known place in the picture.
     """
     if state.depth is None or state.position is None:
         return state

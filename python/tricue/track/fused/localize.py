@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Localize: the place in a window with most evidence for the target."""
+"""Localize: the place in a window with the most evidence for the target."""
 
 from typing import NamedTuple
 
@@ -18,7 +18,7 @@ MAX_PEAK_CELLS = 6  # from a window's center; a peak farther off is localized ag
 
 
 class TargetModel(NamedTuple):
-    """All that the target is searched by.
+    """The models and parameters by which the target is searched for.
 
     typical: running means of its features, None until it was recognized after the first frame.
     """
@@ -30,7 +30,7 @@ class TargetModel(NamedTuple):
     params: FusedParams
 
     def limit_growth(self, growth: float, target: Target) -> float:
-        """The growth of a target, or the nearest that leaves its size within ``size_range``."""
+        """The growth of a target, limited so that its size stays within ``size_range``."""
         low, high = (bound * self.first_side / target.side for bound in self.params.size_range)
         return min(max(growth, low), high)
 
@@ -38,7 +38,7 @@ class TargetModel(NamedTuple):
 class Candidate(NamedTuple):
     """A place that may be the target's.
 
-    right, down: patch pixels from the window's center. evidence: what it was chosen by. response: of the
+    right, down: patch pixels from the window's center. evidence: by which it was chosen. response: of the
     learned filter there. first_responses: (32, 32) of the first frame's filter in the window.
     """
 
@@ -53,7 +53,7 @@ class Candidate(NamedTuple):
 
 
 def localize(model: TargetModel, window: Window) -> Candidate:
-    """The place in a window with most evidence, to a part of a cell."""
+    """The place in a window with the most evidence, to a fraction of a cell."""
     appearance, p = model.appearance, model.params
     depth = None if model.depth is None else model.depth.posterior(window)
     found, responses = window.observation.k.localize_target(
@@ -85,7 +85,7 @@ def localize(model: TargetModel, window: Window) -> Candidate:
 
 
 def recenter(model: TargetModel, candidate: Candidate) -> Candidate:
-    """The candidate itself, or localized again in a window around it, if it was near its window's edge."""
+    """The candidate, localized again in a window around it if it was near its window's edge."""
     if not is_near_edge(candidate.right, candidate.down):
         return candidate
     observation = candidate.window.observation

@@ -19,7 +19,7 @@ from tricue.track.fused.window import Window
 
 
 class Recognition(NamedTuple):
-    """A candidate, and its log-odds of being the target: by all that is known of its appearance, and by what
+    """A candidate, and its log-odds of being the target: by its whole appearance, and by its structure, which
     light doesn't change.
     """
 
@@ -31,11 +31,11 @@ class Recognition(NamedTuple):
 class Match(NamedTuple):
     """A candidate that was measured.
 
-    window, right, down: where it was measured, so many patch pixels off the window's center.
-    log_odds, structure_log_odds: of its being the target, by all that is known, and by what light doesn't
-    change. response: of the learned filter. first_responses: (32, 32) of the first frame's, in the window.
-    covered: the share of its box that an occluder covers. best_seen: log-odds of what looked most like the
-    target in a search of the whole frame; None without one.
+    window, right, down: where it was measured, in patch pixels from the window's center.
+    log_odds, structure_log_odds: that it is the target, by all evidence, and by what light doesn't change.
+    response: of the learned filter. first_responses: (32, 32) of the first frame's, in the window. covered:
+    the share of its box that an occluder covers. best_seen: log-odds of the best match in a search of the
+    whole frame; None without one.
     """
 
     target: Target
@@ -58,17 +58,17 @@ class Match(NamedTuple):
 
     @property
     def score(self) -> float:
-        """Probability of its being the target, if that is followed."""
+        """The probability that it is the target, if that is followed."""
         return score_of(self.log_odds)
 
 
 def measure_candidate(model: TargetModel, candidate: Candidate) -> Match:
-    """Recognize what is at a candidate's place, and measure its size and depth."""
+    """Recognize a candidate, and measure its size and depth."""
     return measure(model, recognize(model, candidate))
 
 
 def recognize(model: TargetModel, candidate: Candidate) -> Recognition:
-    """The log-odds of what is at a candidate's place by appearance."""
+    """The candidate with its log-odds by appearance."""
     candidate = recenter(model, candidate)
     features = candidate.features
     offset_of_kind = DEPTH_PICTURE_OFFSET if candidate.window.observation.kind == "depth" else 0.0
@@ -80,7 +80,7 @@ def recognize(model: TargetModel, candidate: Candidate) -> Recognition:
 
 
 def measure(model: TargetModel, recognition: Recognition) -> Match:
-    """Measure the size and depth of what was recognized."""
+    """Measure the size and depth of a recognized candidate."""
     candidate, p = recognition.candidate, model.params
     window = candidate.window
     observation = window.observation

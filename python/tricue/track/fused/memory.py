@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The models as they were some frames ago verify what those of today find.
+"""Models from some frames ago verify what the current ones find.
 
-What moves in front of the target is learned little by little, and soon looks like the target to the models
-that learned it. Those from before it came don't recognize it, or see the target beside it.
+Models gradually learn an occluder that moves in front of the target, and soon take it for the target. Those
+from before it came don't recognize it, or see the target beside it.
 """
 
 from typing import NamedTuple
@@ -14,7 +14,7 @@ from tricue.track.fused.models import ModelsByKind
 from tricue.track.fused.window import CELL_PIXELS, extract_windows
 
 FRAMES_APART = 5  # from one snapshot to the next, of those that were recognized
-MAX_CELLS_OFF = 3  # from a match to where the models as they were see the target, if it is the same
+MAX_CELLS_OFF = 3  # from a match to where the older models see the target, if it is the same
 LOG_ODDS_ELSEWHERE = -5.0  # of a match that is farther off
 
 
@@ -29,7 +29,7 @@ class Memory(NamedTuple):
     frames: int = 0
 
     def keep(self, models: ModelsByKind) -> "Memory":
-        """After one more frame in which the target was recognized, by these models."""
+        """The memory after one more frame in which the target was recognized, by these models."""
         frames = self.frames + 1
         return self._replace(frames=frames) if frames < FRAMES_APART else Memory(self.newer, models)
 
@@ -37,9 +37,9 @@ class Memory(NamedTuple):
 def limit_log_odds(remembered: TargetModel, match: Match) -> Match:
     """A match in a color picture, its log-odds at most those by the older models in the same window.
 
-    What has the log-odds that a missed target needs isn't asked for: the first frame's models are sure. A
-    match that is near its window's edge even after it was localized again, as in a window without any
-    texture, has to be seen in a window of its own.
+    A match with the log-odds that a missed target needs isn't limited: the first frame's models are sure. If
+    a match is near its window's edge even after it was localized again, as in a window without texture, the
+    older models look at it in a window of its own.
     """
     p, window, right, down = remembered.params, match.window, match.right, match.down
     if match.log_odds >= log_odds_of(p.min_score_to_redetect):

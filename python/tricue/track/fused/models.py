@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What is known of the target's appearance."""
+"""The models of the target's appearance."""
 
 from typing import NamedTuple
 

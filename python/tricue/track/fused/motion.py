@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""How the target moves: what jumps, where the target never did, is less likely to be it.
+"""The target's motion: a match that jumps, if the target never did, is less likely to be the target.
 
-What hides a target, or is like it and stands beside it, is seldom where the target would have been. How far
-is too far differs from video to video: a face before a resting camera goes on as it did, one before a
-shaking camera doesn't. So a jump counts by how much larger it is than those before it.
+An occluder, or a look-alike beside the target, is seldom where the target would have been. How far is too far
+differs from video to video: a face moves on steadily before a fixed camera, but not before a shaking one. So
+a jump is weighed by how much longer it is than those before it.
 """
 
 import math
@@ -11,17 +11,17 @@ from typing import NamedTuple
 
 from tricue.track.fused.target import Target
 
-LOCALIZATION_ERROR = 0.1  # of the target's side: so far from where it is led to is no jump
+LOCALIZATION_ERROR = 0.1  # of the target's side: a shorter distance from the predicted place is no jump
 MEAN_RATE = 0.05  # per frame, of the running mean of jumps
 MIN_TIME_SHARE = 0.1  # of the time to the next frame; a velocity over less comes from late timestamps
 
 
 class Motion(NamedTuple):
-    """Between frames in which the target was recognized.
+    """The motion between frames in which the target was recognized.
 
     A jump is the distance from where the target would be at the velocity of the frame before, in sides of the
     target. velocity: right and down, in sides of the target per second; None after a frame without the
-    target. typical: running mean of jumps. jumps: that were seen. seconds: over which velocity was measured.
+    target. typical: running mean of jumps. jumps: their number. seconds: over which velocity was measured.
     """
 
     velocity: tuple[float, float] | None = None
@@ -30,7 +30,7 @@ class Motion(NamedTuple):
     seconds: float = 0.0
 
     def penalty(self, last: Target, found: Target, seconds: float, weight: float) -> float:
-        """Log-odds that a place has less for its jump; 0 where nothing is known of the target's jumps.
+        """The log-odds that a jump takes off a place's; 0 if nothing is known about the target's jumps.
 
         last: the target so many seconds ago. weight: log-odds per typical jump above the first.
         """
@@ -40,7 +40,7 @@ class Motion(NamedTuple):
         return weight * max(jump / (self.typical + LOCALIZATION_ERROR) - 1, 0.0)
 
     def follow(self, last: Target, found: Target, seconds: float) -> "Motion":
-        """With one more frame in which the target was recognized."""
+        """The motion after one more frame in which the target was recognized."""
         right, down = _displacement(last, found)
         velocity = right / seconds, down / seconds
         jump = self._jump(last, found, seconds)
@@ -51,7 +51,7 @@ class Motion(NamedTuple):
         return Motion(velocity, self.typical + rate * (jump - self.typical), jumps, seconds)
 
     def interrupt(self) -> "Motion":
-        """After a frame in which the target wasn't recognized."""
+        """The motion after a frame in which the target wasn't recognized."""
         return self._replace(velocity=None)
 
     def _jump(self, last: Target, found: Target, seconds: float) -> float | None:

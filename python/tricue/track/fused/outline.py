@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How far the target extends from its center, by what is at its depth.
+"""The outline: how far the target extends from its center, by the pixels at its depth.
 
 The outline gives the box that a track reports. The target's own box, in which its appearance is measured,
 keeps its aspect ratio. A side counts only where depth showed it in the first frame: a target may stand on
@@ -23,9 +23,9 @@ MIN_FILLED_POSTERIOR = 0.45  # mean P(target | depth) along a row or column of t
 FILLED = float(np.float32(MIN_FILLED_POSTERIOR))  # as profiles hold it
 OUTLINE_CENTER_SHARE = 0.25  # of the box's sides: the rows and columns that are followed outwards
 MAX_COVERED_BY_OCCLUDER = 0.05  # of the box, above which its outline can't be measured
-BORDER_MARGIN = 0.1  # of the target's side, from the image's border: boxes are drawn by hand
+BORDER_MARGIN = 0.1  # of the target's side, distance to the image's border: boxes are drawn by hand
 MAX_FIRST_DEVIATION = 0.2  # of half the box, between a side of the first box and what depth shows
-MAX_SEEN_DEVIATION = 0.6  # of half the box, of a side that was seen; farther off it is something else's
+MAX_SEEN_DEVIATION = 0.6  # of half the box, of a side that was seen; farther off it belongs to something else
 MAX_CUT_REACH = 6.0  # halves of the box
 
 
@@ -79,9 +79,9 @@ BOX_OUTLINE = Outline()
 
 
 class Reaches(NamedTuple):
-    """How far what is at the target's depth reaches from its center, in halves of its width and height.
+    """How far the pixels at the target's depth reach from its center, in halves of its width and height.
 
-    None where it starts elsewhere, or goes on to the edge of the window.
+    None if they start elsewhere, or go on to the edge of the window.
     """
 
     left: float | None
@@ -91,10 +91,10 @@ class Reaches(NamedTuple):
 
 
 class Side(Enum):
-    """What depth says of a side of the target, by its first frame.
+    """What depth says about a side of the target, by its first frame.
 
-    HIDDEN: nothing, as what stands there is as far away, a table or a chair. SEEN: where it is. CUT: the
-    image's border cuts the target off there, so that it may reach farther.
+    HIDDEN: nothing, as something as far away is there, a table or a chair. SEEN: where it is. CUT: the
+    image's border cuts the target off there, so it may reach farther.
     """
 
     HIDDEN = 0
@@ -103,7 +103,7 @@ class Side(Enum):
 
 
 class Sides(NamedTuple):
-    """What depth says of each side."""
+    """What depth says about each side."""
 
     left: Side
     top: Side
@@ -112,7 +112,7 @@ class Sides(NamedTuple):
 
     @classmethod
     def cut_by_border(cls, target: Target, shape: tuple[int, int]) -> "Sides":
-        """Those that the border of an image of that height and width cuts off; the others HIDDEN."""
+        """CUT for the sides that the border of an image of that height and width cuts off, else HIDDEN."""
         height, width = shape
         box, margin = target.box, BORDER_MARGIN * target.side
         ends = box.x, box.y, width - box.x - box.width, height - box.y - box.height
@@ -120,11 +120,11 @@ class Sides(NamedTuple):
 
     @property
     def are_hidden(self) -> bool:
-        """Whether none of them is to be looked for in depth."""
+        """Whether depth shows none of the sides."""
         return self == ALL_HIDDEN
 
     def see(self, reaches: Reaches | None) -> "Sides":
-        """The same after the first depth: sides that are where the box has them are SEEN."""
+        """The same after the first depth: sides that depth shows where the box has them are SEEN."""
         if reaches is None:
             return self
         return Sides(
@@ -137,7 +137,7 @@ class Sides(NamedTuple):
         )
 
     def outline(self, reaches: Reaches) -> Outline:
-        """The outline with the sides that depth shows, and those of the box."""
+        """The outline with the sides that depth shows; the other ones are the box's."""
         return Outline(*(_side(*each) for each in zip(self, reaches, strict=True)))
 
 
@@ -155,10 +155,10 @@ def _side(side: Side, reach: float | None) -> float:
 def measure_reaches(
     window: Window, right: float, down: float, covered: float, standing: bool
 ) -> Reaches | None:
-    """How far what is at the target's depth reaches from a place, so many patch pixels off a window's center.
+    """How far the pixels at the target's depth reach from a place, in patch pixels from a window's center.
 
     covered: the share of its box that an occluder covers. standing: whether to leave out what it stands on.
-    None where depth has no sharp edges, or the target is covered.
+    None if depth has no sharp edges, or the target is covered.
     """
     source = window.observation.depth_source
     if window.depth is None or source is None or not source.has_sharp_edges:

@@ -25,7 +25,7 @@ MIN_POSITION_Z = 0.05  # meters in front of the camera
 MAX_POSITION_SIGMA = 3.0  # meters, in the expected depth
 LATERAL, AHEAD = [0, 1, 3, 4], [2, 5]  # of a state: X and Y, and Z, and their velocities
 MOVING = np.arange(6)  # all of a state: its position and velocity
-MAX_INNOVATION = 2.0  # standard deviations; a larger one widens the state
+MAX_INNOVATION = 2.0  # standard deviations; a larger innovation widens the state
 POSITION_MATRIX = np.eye(3, 6)  # from a state to the position that is measured
 SHARED_DEPTH_ERROR = 0.6  # of the depth spread, standard deviation; fitted: docs/fused-figures.md
 SHARED_LATERAL_ERROR = 0.05  # of the side of a track's box, standard deviation; fitted: docs/fused-figures.md
@@ -34,7 +34,7 @@ MISSED_MEAN_FACTORS = np.array([1, 1, 1, 0.8, 0.8, 0.8])
 
 @dataclass(frozen=True, kw_only=True)
 class PositionParams(Params):
-    """Of the position in meters."""
+    """The parameters of the position in meters."""
 
     acceleration_noise: float = parameter(
         4.0,
@@ -57,9 +57,10 @@ class PositionParams(Params):
 
 
 class PositionFilter(NamedTuple):
-    """mean (6,): X, Y, Z in meters, x right, y down, z forward, and their velocities in m/s.
+    """A Gaussian over position and velocity.
 
-    covariance (6, 6) of the mean.
+    mean: (6,), X, Y, Z in meters, x right, y down, z forward, and their velocities in m/s. covariance:
+    (6, 6).
     """
 
     mean: Floats
@@ -67,7 +68,7 @@ class PositionFilter(NamedTuple):
 
     @classmethod
     def at_rest(cls, point: Floats, noise: Floats, p: PositionParams) -> "PositionFilter":
-        """At rest at a measured point (3,) with covariance ``noise`` (3, 3)."""
+        """A state at rest at a measured point (3,) with covariance ``noise`` (3, 3)."""
         covariance = np.zeros((6, 6))
         covariance[:3, :3] = noise
         covariance[3:, 3:] = p.max_speed**2 / 3 * np.eye(3)
@@ -75,19 +76,19 @@ class PositionFilter(NamedTuple):
 
     @property
     def position(self) -> Floats:
-        """(3,) meters; a copy."""
+        """The position (3,), meters; a copy."""
         return np.array(self.mean[:3])
 
     @property
     def position_covariance(self) -> Floats:
-        """(3, 3) m², as if the errors of measurements were independent; a copy."""
+        """The position's covariance (3, 3), m², as if measurement errors were independent; a copy."""
         return np.array(self.covariance[:3, :3])
 
     def error_covariance(self, spread: float) -> Floats:
-        """(3, 3) m², of all errors of a target whose surface's depths have that standard deviation.
+        """The covariance (3, 3), m², of all errors, for a target with that standard deviation of its depths.
 
-        Which part of a thick target is seen, and what beside it is measured with it, is the same in many
-        frames. This error lies along the line of sight and doesn't average out: it is added to the filter's.
+        The visible part of a thick target and the background measured with it are the same in many frames.
+        This error lies along the line of sight and doesn't average out: it is added to the filter's.
         """
         x, y, z = self.mean[:3].tolist()
         depth = max(z, MIN_POSITION_Z)
@@ -97,23 +98,23 @@ class PositionFilter(NamedTuple):
         return error
 
     def expected_depth(self, spread: float) -> ExpectedDepth:
-        """The depth of a target whose surface's depths have that standard deviation, meters."""
+        """The expected depth, meters, of a target whose surface's depths have that standard deviation."""
         sigma = min(math.sqrt(float(self.covariance[2, 2])), MAX_POSITION_SIGMA)
         z = max(float(self.mean[2]), MIN_POSITION_Z)
         return ExpectedDepth(z, float(np.hypot(sigma, spread)))
 
     def move_like(self, other: "PositionFilter") -> "PositionFilter":
-        """Here, with the velocity of the other."""
+        """The state with the velocity of the other one."""
         mean, covariance = np.concatenate([self.mean[:3], other.mean[3:]]), np.zeros((6, 6))
         covariance[:3, :3], covariance[3:, 3:] = self.covariance[:3, :3], other.covariance[3:, 3:]
         return PositionFilter(mean, covariance)
 
     def slow_down(self) -> "PositionFilter":
-        """With less velocity: after a frame in which the target was missed."""
+        """The state with less velocity, after a frame in which the target was missed."""
         return PositionFilter(self.mean * MISSED_MEAN_FACTORS, self.covariance)
 
     def predict(self, k: Kernels, seconds: float, p: PositionParams) -> "PositionFilter":
-        """The state after some seconds of white acceleration, the position known to MAX_SIGMA.
+        """The state after some seconds of white acceleration, its uncertainty limited to MAX_SIGMA.
 
         Bar-Shalom, Li and Kirubarajan 2001, section 6.3.2.
         """
@@ -124,7 +125,7 @@ class PositionFilter(NamedTuple):
         return PositionFilter(mean, limit_covariance(covariance, MOVING))
 
     def distance(self, point: Floats, noise: Floats) -> float:
-        """Standard deviations to a measured point (3,) with covariance ``noise`` (3, 3)."""
+        """The distance, in standard deviations, to a measured point (3,) with covariance ``noise`` (3, 3)."""
         off = point - self.mean[:3]
         return float(np.sqrt(off @ np.linalg.solve(self.covariance[:3, :3] + noise, off)))
 
@@ -139,9 +140,9 @@ class PositionFilter(NamedTuple):
         return PositionFilter(mean, covariance)
 
     def aim(self, k: Kernels, target: Target, camera: Intrinsics) -> "PositionFilter":
-        """The state after a target was seen at a place in the picture; how deep it is stays as it was.
+        """The state after a target was seen at a place in the picture; its depth doesn't change.
 
-        Depth and its errors count as independent of the rest: else what the motion model got wrong to the
+        Depth and its errors count as independent of the rest: otherwise errors of the motion model to the
         right or down would change the depth.
         """
         z, variance = max(float(self.mean[2]), MIN_POSITION_Z), (LATERAL_NOISE * target.side) ** 2
@@ -194,10 +195,10 @@ def back_project(
 
 
 def lateral_variances(target: Target, box: Box, z: float, camera: Intrinsics) -> tuple[float, float]:
-    """m² to the right and down, of a position at depth z: errors that don't average out.
+    """The variance, m², of errors to the right and down that don't average out, of a position at depth z.
 
-    Where in the target its position is stays the same in many frames. The position is the middle of the
-    target's own box, that of a track's box may be another; the target's own middle may be either.
+    The place of the position in the target stays the same in many frames. The position is the center of the
+    target's own box; a track's box may have another center, and the true one may be either.
     """
     variance, (x, y) = SHARED_LATERAL_ERROR**2 * box.width * box.height, box.center
     right = (variance + (x - target.x) ** 2) * (z / camera.fx) ** 2

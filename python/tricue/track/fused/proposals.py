@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The windows that a search of the whole frame looks at."""
+"""The windows that are examined in a search of the whole frame."""
 
 import math
 from typing import NamedTuple, TypeVar
@@ -19,7 +19,7 @@ from tricue.track.fused.window import WINDOW_CELLS, Window, extract_windows
 
 MAX_OBJECT_PROPOSALS = 3  # per frame, of objects in depth
 MAX_COLOR_PLACES = 10  # in a frame, where the target's colors stand out
-COLOR_PLACES_IN_TURN = 2  # per frame, beside the one where they do most
+COLOR_PLACES_IN_TURN = 2  # per frame, beside the one where they stand out most
 MAX_GRID_PROPOSALS = 3  # per frame, of a grid over the whole frame
 SAMPLES_PER_TARGET = 8  # on a side of the target, in the search for its colors
 MAX_FRAME_SAMPLES = 256  # on a side of the frame, in the search for the target's colors
@@ -32,7 +32,7 @@ T = TypeVar("T")
 class LostTarget(NamedTuple):
     """A target that wasn't recognized in the last frame.
 
-    target: where it may be, as large as when it was last recognized: what was seen since needn't be it.
+    target: where it may be, as large as when it was last recognized, as later matches needn't be the target.
     missed_frames: since then. frame: number of the current one, by which proposals take turns.
     """
 
@@ -43,9 +43,9 @@ class LostTarget(NamedTuple):
 
 
 def propose_windows(model: TargetModel, observation: TargetObservation, lost: LostTarget) -> list[Window]:
-    """Windows where the target's colors are, or objects in depth, and a part of a grid over the frame.
+    """Windows where the target's colors or objects in depth stand out, and some of a grid over the frame.
 
-    With depth each is as large as the target would be there.
+    With depth, each has the size that the target would have there.
     """
     propose = _color_proposals if observation.depth_image is None else _object_proposals
     targets = propose(model, observation, lost) + _grid_proposals(observation, lost, model.params)
@@ -62,7 +62,7 @@ def propose_windows(model: TargetModel, observation: TargetObservation, lost: Lo
 def _at_depth(
     model: TargetModel, observation: TargetObservation, target: Target, depth: DepthMeasurement | None
 ) -> tuple[TargetObservation, list[Target]]:
-    """The target as large as at the depth that its place has, and the frame with that depth expected."""
+    """The target as large as it would be at its place's depth, and the frame with that depth expected."""
     if depth is None or model.depth is None:
         return observation, [target]
     growth = model.depth.length / (depth.z * target.side)
@@ -112,7 +112,7 @@ def _color_proposals(model: TargetModel, observation: TargetObservation, lost: L
 
 
 def _separate_peaks(contrast: Plane, apart: tuple[float, float]) -> list[tuple[int, int]]:
-    """Row and column of the cells with most contrast, each so many rows or columns apart from those before.
+    """Row and column of the cells with the most contrast, each so many rows or columns from those before.
 
     contrast: (R, C); overwritten.
     """

@@ -13,10 +13,11 @@ from tricue.track.fused.target_observation import TargetObservation
 def redetect(
     model: TargetModel, observation: TargetObservation, lost: LostTarget, local: Match, min_log_odds: float
 ) -> Match:
-    """Re-detect the target in the whole frame; local: what was found where it should be.
+    """Re-detect the target in the whole frame; local: the match where it should be.
 
-    Those with most evidence are recognized. A match elsewhere needs ``min_log_odds``, and more than the local
-    one has. Its distance only counts against it: what doesn't look enough like the target isn't measured.
+    The candidates with the most evidence are verified. A match elsewhere needs ``min_log_odds``, and more
+    than the local one has. Candidates that don't look enough like the target aren't measured, as distance can
+    only lower their log-odds.
     """
     windows = propose_windows(model, observation, lost)
     candidates = sorted((localize(model, each) for each in windows), key=lambda each: -each.evidence)
@@ -38,8 +39,8 @@ def _log_odds(recognition: Recognition) -> float:
 def _match_elsewhere(model: TargetModel, lost: LostTarget, recognition: Recognition) -> Match:
     """A candidate measured away from where the target should be.
 
-    Its structure has to agree by itself, too: look-alikes share the colors. Without its depth, which gives
-    its size, the distance counts against that as well.
+    Its structure has to match by itself, too, as look-alikes have the same colors. Without a depth, which
+    gives its size, the distance lowers the log-odds of the structure as well.
     """
     match = measure(model, recognition)
     penalty = _distance_penalty(model, lost, match)
@@ -48,12 +49,12 @@ def _match_elsewhere(model: TargetModel, lost: LostTarget, recognition: Recognit
 
 
 def _distance_penalty(model: TargetModel, lost: LostTarget, match: Match) -> float:
-    """Log-odds that a match has less the farther it is from where the target can be by now."""
+    """The log-odds that a match loses by its distance from where the target can be by now."""
     return 0.5 * _distance(model, lost, match) ** 2
 
 
 def _distance(model: TargetModel, lost: LostTarget, match: Match) -> float:
-    """Standard deviations from where the target can be by now, in meters if both depths are known."""
+    """The distance from where the target can be by now, in standard deviations; in 3D if depths are known."""
     if lost.position is not None and match.depth is not None:
         return lost.position.distance(*back_project(match.observation, match.target, match.depth))
     sigma = lost.target.side * model.params.lost_position_noise * (1 + lost.missed_frames)

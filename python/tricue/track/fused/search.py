@@ -15,9 +15,9 @@ NEIGHBORS = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]  # in hal
 def search_local(
     model: TargetModel, observation: TargetObservation, last: Target, mean_response: float | None
 ) -> Match:
-    """Search where the target should be; where the filter responds little there, beside it, too.
+    """Search where the target should be, and if the filter responds weakly there, beside it, too.
 
-    mean_response: of the filter on the target; None for a missed target, which is searched in the whole
+    mean_response: of the filter on the target; None for a missed target, which is searched for in the whole
     frame anyway.
     """
     p = model.params
@@ -38,7 +38,7 @@ def search_local(
 
 
 def _localize_beside(model: TargetModel, window: Window, last: Target) -> Candidate:
-    """The best place of a neighboring window, its evidence less a penalty for the window's distance."""
+    """The best place in the neighboring windows, its evidence reduced for the window's distance."""
     half = model.params.context * last.side / 2
     squared = (window.target.x - last.x) ** 2 + (window.target.y - last.y) ** 2
     candidate = localize(model, window)

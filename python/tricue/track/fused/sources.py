@@ -1,4 +1,4 @@
 # SPDX-License-Identifier: MIT
-"""Where defaults of parameters come from, if not from a paper."""
+"""The source of default parameters that come from no paper."""
 
 OURS = "our prototype, or a choice not yet compared with others"

@@ -25,7 +25,7 @@ MIN_LOST_FRAMES = 3  # missed in a row, until the target is LOST
 
 @dataclass(frozen=True)
 class State:
-    """The tracker after a frame; nothing changes it."""
+    """The immutable state of the tracker after a frame."""
 
     shape: tuple[int, int]  # of the first frame
     models: ModelsByKind
@@ -34,7 +34,7 @@ class State:
     first_side: float  # pixels, of the first box
     recognized_side: float  # pixels, when it was last recognized
     mean_response: float  # running mean of the filter's response on the target
-    sides: Sides  # what depth says of them
+    sides: Sides  # what depth says about them
     features: IdentityFeatures | None = None
     score: float = 1.0
     typical: IdentityFeatures | None = None  # running means of its features, None after the first frame
@@ -56,7 +56,7 @@ class State:
     timestamp: float | None = None
 
     def replace(self, **changes: Any) -> "State":
-        """The state with some attributes changed; a named tuple of so many takes four times as long."""
+        """The state with some attributes changed; a named tuple this large would take four times as long."""
         assert changes.keys() <= vars(self).keys(), f"expected fields of a State, got {', '.join(changes)}"
         changed = object.__new__(State)
         vars(changed).update(vars(self))
@@ -64,9 +64,9 @@ class State:
         return changed
 
     def is_lost(self, p: FusedParams) -> bool:
-        """Whether it was missed for long enough to be LOST."""
+        """Whether the target was missed for long enough to be LOST."""
         return self.missed_frames >= MIN_LOST_FRAMES and self.missed_seconds >= p.lost_after
 
     def is_followed(self, p: FusedParams) -> bool:
-        """Whether it is where it should be, or was missed for so short a time that it may still be."""
+        """Whether the target is where it should be, or was missed so briefly that it may still be there."""
         return self.missed_frames == 0 or self.missed_seconds <= p.max_missed_seconds + ADDED_TIME_ERROR

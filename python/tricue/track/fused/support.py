@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The plane that a target stands on, lies on or leans against: it is as far away, and not the target."""
+"""The plane that a target stands on, lies on or leans against: it is at its depth, but not the target."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,11 +17,11 @@ DRAWS: Floats = np.random.default_rng(0).integers(2**32, size=(TRIALS, 3)) / 2**
 def find_support(
     k: Kernels, depth: Plane, grid: Grid, side: int, size: tuple[float, float], z: float, camera: Intrinsics
 ) -> NDArray[np.bool_]:
-    """(side, side) the pixels of a target's surround, and of its box, that lie on one plane.
+    """The pixels (side, side) of a target's surround, and of its box, that lie on one plane.
 
     depth: (H, W) meters, of which the target at depth z has a grid of squares around it. size: the target's
     width and height in squares.
-    None of them where no plane holds enough of what is around the target, or it holds the target itself.
+    None of them if no plane holds enough of the target's surround, or if it holds the target itself.
     """
     on_plane = k.support_pixels(depth, *grid, side, *size, z, camera.vector, DRAWS, SUPPORT_TOLERANCE * z)
     return on_plane.view(np.bool_)

@@ -39,7 +39,7 @@ class Target(NamedTuple):
 
     @property
     def upright(self) -> "Target":
-        """The target that isn't turned and just holds this one's ellipse."""
+        """The smallest target that isn't turned and holds this one's ellipse."""
         if not self.turn:
             return self
         across, down = axes(self.turn)
@@ -52,11 +52,11 @@ class Target(NamedTuple):
         return Target(x, y, self.width, self.height, self.turn)
 
     def shift(self, right: float, down: float) -> "Target":
-        """The target so many pixels farther right and down in the image."""
+        """The target moved so many pixels to the right and down in the image."""
         return self.at(self.x + right, self.y + down)
 
     def along(self, right: float, down: float) -> tuple[float, float]:
-        """How far right and down in the image so many pixels along its own axes are."""
+        """The shift to the right and down in the image of so many pixels along its own axes."""
         cosine, sine = axes(self.turn)
         return cosine * right - sine * down, sine * right + cosine * down
 

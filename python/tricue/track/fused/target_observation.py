@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the experts read of one frame, given the depth at which the target is expected."""
+"""The frame as the experts read it, given the depth at which the target is expected."""
 
 import math
 import operator
@@ -52,7 +52,7 @@ class TargetObservation(NamedTuple):
     def sample(self, windows: Floats, side: int) -> Image:
         """(N, side, side, 3) samples of the picture in windows (N, 4): left, top, width, height in pixels.
 
-        Of depth only the part with the windows is drawn; it is black where no depth is expected.
+        A picture of depth is drawn only under the windows; it is black if no depth is expected.
         """
         if self.picture is not None:
             return self.k.sample_windows(self.picture, windows, side, side)
@@ -71,7 +71,7 @@ class TargetObservation(NamedTuple):
     def sample_squares(self, targets: Sequence[Target], sides: Sequence[float], side: int) -> Image:
         """(N, side, side, 3) samples of the picture in squares around targets, turned as these are.
 
-        sides: of the squares, image pixels. Only targets in a picture of color are turned.
+        sides: of the squares, image pixels. Targets are turned only in a picture of color.
         """
         each = list(zip(targets, sides, strict=True))
         if self.picture is None or not any(target.turn for target in targets):
@@ -85,7 +85,7 @@ class TargetObservation(NamedTuple):
         """(side, side) P(target | depth), and 1 where an occluder is, else 0.
 
         x, y, pixel_size: top left corner of a grid of squares and their side, in image pixels.
-        None where there is no depth, or none is expected.
+        None if there is no depth, or none is expected.
         """
         if self.depth_source is None or self.expected_depth is None:
             return None
@@ -102,7 +102,7 @@ def _bgr(gray: Image) -> Image:
 
 
 def _span(starts: list[float], lengths: list[float], size: int) -> tuple[int, int]:
-    """The first and the end of the pixels of an axis that windows read, at least one."""
+    """The start and the end of the pixels that windows read along an axis, at least one."""
     first = max(min(starts) - SAMPLE_REACH, 0.0)
     end = min(max(map(operator.add, starts, lengths)) + SAMPLE_REACH, size)
     return int(min(first, size - 1)), max(math.ceil(end), 1)

@@ -38,22 +38,22 @@ from tricue.track.fused.verify import verify
 # Standard deviations, as shares of guessed meters:
 GUESSED_CAMERA_ERROR = 0.4  # to the right and down; cameras 40 and 90 degrees wide are off by 0.4 and 0.7
 GUESSED_RIG_ERROR = 0.7  # of all; pairs 5 and 25 cm apart are off by 0.6 and 1.1
-UNTIMED_FACTOR = 2.0  # frames without timestamps may be so much farther apart than ``rate`` says
+UNTIMED_FACTOR = 2.0  # how much farther apart than ``rate`` says frames without timestamps may be
 
 
 class FusedTracker(TrackerBase[FusedParams, State]):
-    """Follows any target by experts whose evidence adds up, in whatever channels a frame has.
+    """Follows any target by experts whose evidence adds up, with whatever channels a frame has.
 
     A correlation filter, the target's colors and its depth localize it. A second filter, in log-polar
-    coordinates, and its distance give its size. Features of the first frame verify that it is the target:
-    where it isn't, nothing is learned, and the search widens to the whole frame.
+    coordinates, and its distance give its size. Features of the first frame verify that it is the target: if
+    it isn't, nothing is learned, and the search widens to the whole frame.
 
     Frames have ``color`` (BGR or gray), alone or with registered ``depth`` or with ``right``, or ``depth``
     alone; channels may come and go. ``position``, ``covariance`` and ``depth`` are given once depth was
     measured, in the frame of the camera that ``intrinsics=``, or ``rig=`` for a stereo pair, describes.
-    Without these a default camera is assumed, so that meters to the right and down are a guess, and without
-    ``rig`` all those of a stereo pair, which then has no ``depth``; ``covariance`` has what such a guess may
-    be off by. Nothing is random: ``seed`` is taken as by every tracker and not used.
+    Without these a default camera is assumed, so meters to the right and down are a guess; without ``rig``,
+    so are all meters of a stereo pair, and tracks then have no ``depth``. ``covariance`` includes the error
+    of such a guess. Nothing is random: ``seed`` is accepted, as by every tracker, but not used.
 
         tracker = tricue.FusedTracker()
         track = tracker.init(frame, box=(x, y, width, height))
@@ -88,11 +88,11 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         self.rig, self.intrinsics = validation.cameras(rig, intrinsics)
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
-        """Start, or start again, on ``box``, at least 2 pixels wide and high, a part of it in the image.
+        """Start, or start again, on ``box``, at least 2 pixels wide and high and partly in the image.
 
-        UserWarning where left and right seem to be swapped, or not rectified, where depth seems not to be
-        registered to color, and where it is in another unit than meters; it is then left out. ValueError for
-        such depth without color.
+        UserWarning if left and right seem to be swapped, or not rectified, if depth seems not to be
+        registered to color, and if it is in another unit than meters: then it is left out. ValueError for
+        depth in another unit without color.
         """
         observed = self._observe(frame, None)
         target = Target.of(validation.initial_box(box, observed.shape))
@@ -107,9 +107,9 @@ class FusedTracker(TrackerBase[FusedParams, State]):
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
 
-        Timestamps give the position filter the time since the last frame, ``rate`` where there are none.
-        Depth in another unit than meters, or that stays the same for half a second while color changes, is
-        left out, with a UserWarning for the first; ValueError for depth in another unit without color.
+        Timestamps give the position filter the time since the last frame; without them ``rate`` does. Depth
+        in another unit than meters, or that stays the same for half a second while color changes, is left
+        out, with a UserWarning the first time; ValueError for depth in another unit without color.
         RuntimeError before ``init``. An error leaves the tracker as it was.
         """
         before = validation.require_initialized(self._state)
@@ -168,8 +168,8 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         return redetect(model, observation, lost, local, state.clutter.min_log_odds(p))
 
     def _limit_log_odds(self, state: State, observation: TargetObservation, match: Match) -> Match:
-        """The match with less log-odds for its jump, and, where no depth tells more, at most those by the
-        models as they were.
+        """The match with log-odds reduced for its jump and, without depth, limited to those by the older
+        models.
         """
         penalty = state.motion.penalty(state.target, match.target, state.seconds, self.params.jump_weight)
         match = match._replace(log_odds=match.log_odds - penalty)

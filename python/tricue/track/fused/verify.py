@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Verify: whether a match is the target, and the state that follows from it.
 
-What is learned of a missed target may be what hides it, so that the next frames look like the target. So a
-missed target needs more to be recognized than one that is followed; where depth shows what hides it, only
-once it is LOST.
+A model of a missed target may have learned its occluder, so that the next frames look like the target. So a
+missed target needs more log-odds to be recognized than a followed one; if depth shows the occluder, only once
+it is LOST.
 """
 
 import math
@@ -18,12 +18,12 @@ VERIFIED_TIME_CONSTANT = 0.65  # seconds, of the running means over frames in wh
 
 
 def verify(state: State, match: Match, p: FusedParams) -> State:
-    """Move the target to the match if that may be it; count the frame as missed unless it is recognized."""
+    """Move the target to the match if it may be the target; the frame is missed unless it is recognized."""
     occluded = match.covered > p.max_covered
     needed = _min_log_odds(state, match, p)
     recognized = not occluded and match.log_odds >= needed
-    # A LOST target may be anywhere: what has just what it needs is as likely the target as what has
-    # ``min_score`` where one is followed.
+    # A LOST target may be anywhere: a match with just the log-odds that it needs is as likely the target as
+    # one with ``min_score`` is a followed target.
     score = score_of(match.log_odds - needed + log_odds_of(p.min_score)) if state.is_lost(p) else match.score
     if not recognized:
         score = min(score, p.min_score)
@@ -58,14 +58,14 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
 
 
 def running_mean_rate(frames: int, seconds: float) -> float:
-    """Of the last of so many frames in their running mean, so many seconds after the one before; at first the
-    mean of all.
+    """The weight of the latest of so many frames in a running mean, so many seconds after the previous one;
+    at first that of a mean of all.
     """
     return max(1 / frames, 1 - math.exp(-seconds / VERIFIED_TIME_CONSTANT))
 
 
 def _min_log_odds(state: State, match: Match, p: FusedParams) -> float:
-    """What a match needs to be recognized."""
+    """The log-odds that a match needs to be recognized."""
     sees_occluders = match.observation.depth_source is not None
     if state.is_lost(p) or (state.missed_frames and not sees_occluders):
         return state.clutter.min_log_odds(p)

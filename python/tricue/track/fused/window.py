@@ -34,9 +34,9 @@ class Window:
 
     patch: (64, 64, 3) BGR samples. pixel_size: image pixels per patch pixel. target: the one that the window
     is centered on. size: the target's width and height in patch pixels.
-    depth: (64, 64) P(target | depth), 0.5 where none is measured, and 1 where an occluder is, else 0. In a
-    picture of depth without what the target stands on, which looks like it there; color tells them apart.
-    None without depth or where none is expected.
+    depth: (64, 64) P(target | depth), 0.5 where none is measured, and 1 where an occluder is, else 0. With a
+    picture of depth, what the target stands on is excluded, as it looks like the target there; color tells
+    them apart. None without depth or if none is expected.
     has_occluder: whether anything in the window is nearer than expected.
     """
 
@@ -50,7 +50,7 @@ class Window:
 
     @cached_property
     def standing(self) -> Plane | None:
-        """(64, 64) P(target | depth) without what the target stands on; None where ``depth`` is."""
+        """(64, 64) P(target | depth) without what the target stands on; None if ``depth`` is."""
         if self.depth is None or self.observation.kind == "depth":
             return self.depth and self.depth[0]
         return self._without_support(self.depth[0])
@@ -101,7 +101,7 @@ def _span(center: float, length: float) -> slice:
 
 
 def _hann_window() -> Plane:
-    """(32, 32), so that the cells fade out towards the window's edge."""
+    """The weights (32, 32) with which the cells fade out towards the window's edge."""
     profile: Floats = np.sin(np.pi * (np.arange(WINDOW_CELLS) + 0.5) / WINDOW_CELLS) ** 2
     return np.outer(profile, profile).astype(np.float32)
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The experts: one cue's model of the target each.
+"""The experts: each is one cue's model of the target.
 
-All are immutable: learning returns another. The kernel ``localize_target`` combines what they tell of pixels
-by Bayes' rule, and adds up what they tell of places (:mod:`tricue.track.fused.localize`).
+All are immutable: learning returns a new one. The kernel ``localize_target`` combines their posteriors of
+pixels by Bayes' rule, and adds up their evidence for places (:mod:`tricue.track.fused.localize`).
 """
 
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ Cue = Literal["filter", "color", "size", "turn", "depth"]
 
 @dataclass(frozen=True, kw_only=True)
 class CueParams(Params):
-    """Which experts are asked."""
+    """Which experts are used."""
 
     cues: tuple[Cue, ...] = parameter(
         ("filter", "color", "size", "turn", "depth"),

@@ -59,7 +59,7 @@ class ColorExpert(NamedTuple):
         return cls(empty, empty, empty).learn(window, 1.0)
 
     def learn(self, window: Window, rate: float) -> "ColorExpert":
-        """The expert with a window blended in, whose center is the target's.
+        """The expert with a window around the target blended in.
 
         Pixels in the box that are farther or nearer than the target are learned as its surround.
         """

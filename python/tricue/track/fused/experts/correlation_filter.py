@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The correlation filter: it responds where orientations and colors are arranged as on the target."""
+"""The correlation filter: it responds where orientations and colors are arranged as in the target."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -16,7 +16,7 @@ from tricue.track.fused.window import CELL_PIXELS, HANN_WINDOW, WINDOW_CELLS, Wi
 
 @dataclass(frozen=True, kw_only=True)
 class FilterParams(FirstFrameParams, WindowParams):
-    """Of the cue "filter"."""
+    """The parameters of the cue "filter"."""
 
     label_width: float = parameter(
         0.1,
@@ -51,12 +51,12 @@ class FilterParams(FirstFrameParams, WindowParams):
 class CorrelationFilterExpert(NamedTuple):
     """A filter on orientations and colors, learned from one frame at a time (Li et al. 2018).
 
-    It keeps near the filter before it, which remembers former frames, and is 0 outside of the target, so that
-    it learns to tell the target from what surrounds it.
+    It stays near the previous filter, which remembers earlier frames, and is 0 outside the target, so that it
+    learns to tell the target from its surround.
 
-    learned, first: (19, 32, 17) the filter as it is now, and that of the first frame. applied: two filters,
-    the learned one with a share of the first frame's, against forgetting, and the first frame's alone. label:
-    spectrum of the desired response.
+    learned, first: (19, 32, 17) the current filter, and that of the first frame. applied: two filters, the
+    learned one mixed with a share of the first frame's, against forgetting, and the first frame's alone.
+    label: spectrum of the desired response.
     """
 
     learned: Spectra
@@ -74,7 +74,7 @@ class CorrelationFilterExpert(NamedTuple):
         return cls(first, first, np.stack([first, first]), label, p)
 
     def learn(self, window: Window) -> "CorrelationFilterExpert":
-        """The expert after a window whose center is the target's."""
+        """The expert after learning a window around the target."""
         p = self.params
         learned, applied = self._learn(window, p.temporal_weight, p.first_frame_weight)
         return self._replace(learned=learned, applied=applied)
@@ -82,7 +82,7 @@ class CorrelationFilterExpert(NamedTuple):
     def _learn(
         self, window: Window, temporal_weight: float, first_frame_weight: float
     ) -> tuple[Spectra, Spectra]:
-        """The filter as it is learned, and the applied ones."""
+        """The learned filter, and the applied ones."""
         p, mask = self.params, target_mask(window.size, self.params.filter_mask_size)
         return window.observation.k.learn_place_filter(
             window.patch,
@@ -109,7 +109,7 @@ def _mask_profile(length: float, outer: float) -> Floats:
 
 
 def target_mask(size: tuple[float, float], outer: float) -> Plane:
-    """(32, 32) weights of the cells that may add to the filter's response.
+    """The weights (32, 32) with which cells may add to the filter's response.
 
     1 in the box of a target's size, in patch pixels, falling to 0 at ``outer`` times that size.
     """

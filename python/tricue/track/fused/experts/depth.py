@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The target's depth: it tells its pixels, its size, and its occluders."""
+"""The target's depth: it shows its pixels, its size, and its occluders."""
 
 import math
 from collections.abc import Sequence
@@ -22,8 +22,8 @@ MIN_MEASURED_SHARE = 0.1  # of the samples
 INITIAL_DEPTH_SPREAD = 0.1  # meters, of a target that was never measured
 MIN_DEPTH_SPREAD, MAX_DEPTH_SPREAD = 0.04, 0.4  # meters
 MAX_GROWTH_PER_FRAME = 1.25  # times
-SURROUND_SIZE = 2.0  # of the box: what depth_continuity compares it with
-FULL_WEIGHT_SIGMA = 0.25  # meters; a vaguer expected depth counts less in depth_continuity
+SURROUND_SIZE = 2.0  # of the box: the surround with which depth_continuity compares it
+FULL_WEIGHT_SIGMA = 0.25  # meters; a less certain expected depth counts less in depth_continuity
 DEPTH_CENTER_SHARE = 0.5  # of the box's sides: the part that is the target's where no depth is expected
 MAX_CENTER_SIDE = 1.5  # of the box's shorter side: two thirds of that part are a thin target's
 MAX_DEPTH_OFFSET = 0.5  # meters from the median of that part
@@ -53,7 +53,7 @@ class DepthParams(Params):
 
 
 class DepthExpert(NamedTuple):
-    """What is known of the target's shape in meters.
+    """The target's shape in meters, as far as it is known.
 
     depth_spread: standard deviation of its surface's depth. length: side of the square with its area, if it
     is flat and faces the camera.
@@ -99,9 +99,9 @@ class DepthMeasurement(NamedTuple):
 def measure_depth(
     observation: TargetObservation, target: Target, expected: ExpectedDepth | None
 ) -> DepthMeasurement | None:
-    """The depth of what is in a target's box, near the expected depth.
+    """The depth in a target's box, near the expected depth.
 
-    Where that is None or vague, the depth of the box's center. None where too little is measured.
+    If that is None or uncertain: the depth at the box's center. None if too little is measured.
     """
     if expected is None or expected.sigma > MAX_EXPECTED_SIGMA:
         return measure_center_depths(observation, [target])[0]
@@ -116,7 +116,7 @@ def measure_depth(
 def measure_center_depths(
     observation: TargetObservation, targets: Sequence[Target]
 ) -> list[DepthMeasurement | None]:
-    """The depths of the centers of boxes, where none is expected; None where too little is measured."""
+    """The depths at the centers of boxes, if none is expected; None where too little is measured."""
     if observation.depth_source is None:
         return [None] * len(targets)
     squares = np.array([_center_square(each, observation.shape) for each in targets])
@@ -125,9 +125,9 @@ def measure_center_depths(
 
 
 def _center_square(target: Target, shape: tuple[int, int]) -> tuple[float, float, float, float]:
-    """Center and sides of the square in which a target's depth is measured where none is expected.
+    """Center and sides of the square in which a target's depth is measured if none is expected.
 
-    Of a target whose center isn't in the image it is that of its visible part.
+    For a target whose center isn't in the image it is that of its visible part.
     """
     height, width = shape
     x, y, *sides = target[:4]
@@ -142,7 +142,7 @@ def _measurements(medians: Floats) -> list[DepthMeasurement | None]:
 
 
 def covered_share(window: Window, right: float = 0.0, down: float = 0.0) -> float:
-    """The share of a target's box, so many patch pixels off the window's center, that an occluder covers."""
+    """The share that an occluder covers of a target's box, so many patch pixels off the window's center."""
     if not window.has_occluder:
         return 0.0
     assert window.depth is not None, "it has the occluder"
@@ -151,10 +151,10 @@ def covered_share(window: Window, right: float = 0.0, down: float = 0.0) -> floa
 
 
 def depth_continuity(window: Window, right: float, down: float) -> float:
-    """How far a target, so many patch pixels off the window's center, stands apart at the expected depth.
+    """How much a target, so many patch pixels off the window's center, stands apart at the expected depth.
 
-    In [0, 1]: mean P(target | depth) in its box less that around it, less where the expectation is vague; 0
-    without depth.
+    In [0, 1]: mean P(target | depth) in its box minus that around it, reduced if the expectation is
+    uncertain; 0 without depth.
     """
     expected = window.observation.expected_depth
     if window.depth is None or expected is None:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Correlation filters in log-polar coordinates, in which a change of size or a turn is a shift.
 
-They answer to it as to a shift in the image (Reddy and Chatterji 1996; Li, Zhu, Hoi, Song, Wang and Liu
-2019). They are running means over frames (Danelljan et al. 2014): one that is learned from a frame at a time
-lets the size wander.
+They respond to it as to a shift in the image (Reddy and Chatterji 1996; Li, Zhu, Hoi, Song, Wang and Liu
+2019). They are running means over frames (Danelljan et al. 2014): a filter learned from one frame at a time
+lets the size drift.
 """
 
 import math
@@ -32,7 +32,7 @@ LOG_PER_CELL = CELL_PIXELS * math.log(OUTER_RADIUS / INNER_RADIUS) / PATCH_PIXEL
 
 @dataclass(frozen=True, kw_only=True)
 class LogPolarParams(FirstFrameParams):
-    """Of the cues "size" and "turn"."""
+    """The parameters of the cues "size" and "turn"."""
 
     size_learning_rate: float = parameter(
         0.025,
@@ -65,8 +65,8 @@ class Coordinates(NamedTuple):
 class LogPolarFilter(NamedTuple):
     """A correlation filter on a patch in log-polar coordinates.
 
-    learned, first: numerator (19, 32, 17) and denominator (32, 17), as they are learned, and of the first
-    frame. applied: (1, 19, 32, 17) the learned one with a share of the first frame's, divided.
+    learned, first: numerator (19, 32, 17) and denominator (32, 17), the learned ones and those of the first
+    frame. applied: (1, 19, 32, 17) the quotient of the learned ones with a share of the first frame's.
     """
 
     learned: FilterParts
@@ -110,8 +110,8 @@ def log_polar_pixels(turn: int = 0, width: float = 1.0, height: float = 1.0) -> 
     """(64, 64) places in a square patch: angles downwards from a target's axis, log radii to the right.
 
     The patch holds the target's surround: width and height are the target's, the longer one being 1.
-    At small radii several samples share a pixel, which speaks for the size as it is: a new one is approached
-    over a few frames. Bilinear samples, which find it at once, let the size wander on recorded video.
+    At small radii several samples share a pixel, which favors the present size: a new one is approached over
+    a few frames. Bilinear samples, which find it at once, let the size drift on recorded video.
     """
     steps = (np.arange(PATCH_PIXELS) + 0.5) / PATCH_PIXELS
     radius = PATCH_PIXELS / 2 * (INNER_RADIUS / OUTER_RADIUS) ** (1 - steps)
@@ -127,7 +127,7 @@ def _nearest(offset: Floats) -> Places:
 
 
 def _taper() -> Plane:
-    """(32, 32), so that the cells fade out towards the least and the largest radius; angles have no ends."""
+    """The weights (32, 32) that fade out towards the smallest and the largest radius; angles have no ends."""
     profile = np.sin(np.pi * (np.arange(WINDOW_CELLS) + 0.5) / WINDOW_CELLS)
     return np.tile(profile, (WINDOW_CELLS, 1)).astype(np.float32)
 

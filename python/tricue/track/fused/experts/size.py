@@ -56,7 +56,7 @@ class SizeExpert(NamedTuple):
         return cls(LogPolarFilter.from_patch(observation.k, *_read(observation, target), p), p)
 
     def growth(self, observation: TargetObservation, target: Target) -> float:
-        """The ratio of the size of what is at a target's place to the target's."""
+        """The ratio of the size found at a target's place to the target's."""
         patch, penalty = _read(observation, target), self.params.size_change_penalty
         shift, _ = self.filter.shift(observation.k, *patch, FARTHEST, penalty)
         return math.exp(LOG_PER_CELL * shift)

@@ -17,7 +17,7 @@ CHANNELS = 19  # of the cells: orientations, texture and colors
 
 @dataclass(frozen=True, kw_only=True)
 class FirstFrameParams(Params):
-    """What both filters keep of the first frame."""
+    """How much of the first frame both filters keep."""
 
     first_frame_weight: float = parameter(
         0.2,

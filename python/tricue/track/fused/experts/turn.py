@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The target's turn in the picture's plane: in log-polar coordinates around its center it is a shift.
+"""The target's turn in the image plane: in log-polar coordinates around its center it is a shift.
 
-Turns add up, and so do their errors: a walker's legs turn a little in every frame. So a turn counts less
-where the filter responds less to it, as Wiener's filter weighs a signal in noise; and as most targets are
-mostly upright, a little of it is taken back.
+Turns add up, and so do their errors: a walker's legs turn a little in every frame. So a turn counts less if
+the filter's response to it is weaker, as in a Wiener filter; and as most targets are mostly upright, a little
+of it is undone in every frame.
 """
 
 from dataclasses import dataclass
@@ -62,8 +62,8 @@ class TurnExpert(NamedTuple):
         return cls(LogPolarFilter.from_patch(observation.k, *_read(observation, target), p), p)
 
     def turn(self, observation: TargetObservation, target: Target) -> float:
-        """Steps by which what is at a target's place is turned clockwise from the target, less what it
-        turns back.
+        """Steps by which the content of a target's place is turned clockwise from the target, minus the turn
+        back.
         """
         p, patch = self.params, _read(observation, target)
         shift, response = self.filter.shift(observation.k, *patch, FARTHEST, p.size_change_penalty)
