@@ -42,7 +42,7 @@ class _Row(NamedTuple):
         return value
 
     def box(self) -> list[float]:
-        """x, y, width, height. ValueError where only some are there: the row is cut off."""
+        """x, y, width, height. ValueError if only some are there: the row is cut off."""
         empty = [name for name in _BOX_COLUMNS if not self.cells[name]]
         if 0 < len(empty) < len(_BOX_COLUMNS):
             raise ValueError(f"{self.place}: expected all of x, y, width, height or none, got no {empty[0]}")
@@ -76,7 +76,7 @@ def find_box_table(folder: Path, video: Path | None = None) -> Path | None:
 def find_video_box_table(video: Path) -> Path | None:
     """The table beside a video that has its name.
 
-    None without one, where its header has no boxes, and where a tracker wrote it, whose boxes aren't true.
+    None if there is none, if its header has no boxes, and if a tracker wrote it: those boxes aren't true.
     """
     path = video.with_suffix(".csv")
     if not path.is_file():
@@ -117,7 +117,7 @@ def _cells(line: str) -> list[str]:
 
 
 def _names(cells: list[str]) -> tuple[str, ...] | None:
-    """The column names in lower case; None where the line holds values."""
+    """The column names in lower case; None if the line holds values."""
     if all(not cell or _is_number(cell) for cell in cells):
         return None
     lower = (cell.lstrip("# ").lower() for cell in cells)
@@ -150,7 +150,7 @@ def _frames(rows: list[_Row]) -> list[int]:
 
 
 def _positions(rows: list[_Row], frames: list[int], length: int) -> NDArray[np.float64] | None:
-    """The positions (length, 3) in meters; None where no row has one."""
+    """The positions (length, 3) in meters; None if no row has one."""
     given = np.array([[row.number(name) for name in _POSITION_COLUMNS] for row in rows]).reshape(-1, 3)
     if np.isnan(given).all():
         return None

@@ -19,7 +19,7 @@ _TIMEOUT = 5000  # milliseconds, in which a URL has to open, and to give an imag
 
 
 class Capture:
-    """A device by cv2.VideoCapture: a camera's number, its file such as /dev/video0, or a URL."""
+    """A device opened by cv2.VideoCapture: a camera's number, its file such as /dev/video0, or a URL."""
 
     camera: Intrinsics | None = None
 
@@ -58,14 +58,12 @@ class Capture:
 
 
 def is_url(place: str) -> bool:
-    """Whether it is the address of a stream or a file in a network."""
+    """Whether it is the address of a stream or a file on a network."""
     return _URL.match(place) is not None
 
 
 def is_capture(place: str) -> bool:
-    """Whether it is a live camera: a number that no folder has for a name, /dev/video0, or a URL that isn't a
-    file's.
-    """
+    """Whether it is a live camera: a number that isn't a folder's name, /dev/video0, or a URL of no file."""
     if place.isdecimal():
         return not Path(place).is_dir()
     if place.startswith("/dev/video"):
@@ -79,5 +77,5 @@ def is_file_url(place: str) -> bool:
 
 
 def without_password(url: str) -> str:
-    """The URL without its user and password, which end at the last @ in front of the path."""
+    """The URL without its user and password, which end at the last @ before the path."""
     return re.sub(r"^(\w+://)[^/?#]*@", r"\1", url)

@@ -24,7 +24,7 @@ def read_color_samples(place: Path) -> Iterator[ColorSample]:
     """The samples in a folder with ``image/`` and ``mask/``, or in any recording with true boxes.
 
     With boxes all pixels inside count, and frames without a box are left out. ValueError or OSError names
-    the file, or the place where there are neither masks nor boxes, or where nothing is marked.
+    the file, or the place that has neither masks nor boxes, or nothing marked.
     """
     marked = False
     for sample in _read_masks(place) if is_mask_folder(place) else _read_boxes(place):

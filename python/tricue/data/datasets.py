@@ -14,8 +14,8 @@ def find_sequences(root: str | Path) -> list[Path]:
     """The sequences at or under ``root``, in natural order.
 
     They are the folders with true boxes or KITTI's labels, and the video files with a table of boxes beside
-    them. Nothing below a sequence is searched, and each folder once, however many links lead to it. No image
-    is read, so malformed sequences are included; opening one says what is wrong with it.
+    them. Folders below a sequence aren't searched, and the others once, however many links lead to them. No
+    image is read, so malformed sequences are included; opening one says what is wrong with it.
     """
     root = Path(root)
     if root.is_file():
@@ -38,7 +38,7 @@ def _below(folder: Path, seen: set[Path]) -> Iterator[Path]:
 
 
 def _is_sequence_video(path: Path) -> bool:
-    """Whether a table is beside a video; of what may be a preview, only where no other video has its name."""
+    """Whether a table is beside a video; for a possible preview, only if no other video has its name."""
     if not may_be_video(path) or not path.is_file() or find_video_box_table(path) is None:
         return False
     return is_video(path) or not any(

@@ -43,7 +43,7 @@ class DepthReader:
 
 
 def is_depth(path: Path) -> bool:
-    """Whether an image has 16 bits per pixel in one channel; False where it can't be read."""
+    """Whether an image has 16 bits per pixel in one channel; False if it can't be read."""
     try:
         image = read_image(path, cv2.IMREAD_UNCHANGED)
     except (OSError, ValueError):
@@ -52,7 +52,7 @@ def is_depth(path: Path) -> bool:
 
 
 def require_scale(place: Path, scale: float | None) -> float:
-    """The scale, meters per unit; ValueError where it isn't given, for it is never guessed."""
+    """The scale, meters per unit; ValueError if it isn't given, as it is never guessed."""
     if scale is None:
         raise ValueError(
             f"{place}: expected --depth-scale, the meters per unit of these 16-bit images; "

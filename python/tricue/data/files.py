@@ -38,16 +38,16 @@ _OTHER_VIDEO_SUFFIXES = {
     ".vob",
     ".y4m",
 }
-"""Of videos, too, but also of previews beside one, of other files, and of what cameras send by URL."""
+"""Suffixes of videos, but also of previews beside one, of other files, and of streams that cameras send."""
 
 _NUMBER = re.compile(r"([0-9]{10,}\.[0-9]+|[0-9]+)")
-"""A time since 1970, in seconds or less, of which Python leaves out zeros at the end, or a whole number."""
+"""A time since 1970, in seconds or a smaller unit, without trailing zeros as in Python, or a whole number."""
 
-_HEAD = 1 << 16  # bytes of a PNG file that are looked through for what is before its pixels
+_HEAD = 1 << 16  # bytes of a PNG file that are searched for the chunks before its pixels
 
 
 def listed_path(folder: Path, name: str, list_file: Path) -> Path:
-    """The file of that name in a list; ValueError for one outside of the folder."""
+    """The file of that name in a list; ValueError for one outside the folder."""
     if Path(name).is_absolute() or ".." in Path(name).parts:
         raise ValueError(f"{list_file}: expected files below its folder, got {name!r:.80}")
     return folder / name
@@ -100,7 +100,7 @@ def may_be_video(path: Path) -> bool:
 
 
 def video_paths(folder: Path) -> list[Path]:
-    """The video files in a folder, in natural order; without any, those whose suffix only may be a video's.
+    """The video files in a folder, in natural order; if there are none, those that may be videos by suffix.
 
     Hidden files are left out.
     """
@@ -110,7 +110,7 @@ def video_paths(folder: Path) -> list[Path]:
 
 
 def _natural(name: str) -> list[tuple[int, str]]:
-    """A number is itself and its decimals, which are compared as digits, so that .5 is behind .123."""
+    """A number is its whole part and its decimals, compared as digits, so that .5 comes after .123."""
     parts = enumerate(_NUMBER.split(name))  # every other one is a number
     return [_number(part) if index % 2 else (-1, part) for index, part in parts]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The files that a source is read from, which nothing may be written over."""
+"""The files that a source is read from, which must not be overwritten."""
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -13,8 +13,8 @@ from tricue.data.truth import truth_files
 
 
 def input_files(source: Source, *places: Path) -> Iterator[Path]:
-    """Images, videos and recordings, the calibration, the true boxes, and the lists of the source that is at
-    these places.
+    """The source's images, videos and recordings, its calibration, true boxes and lists, at these
+    places.
     """
     for stream in source.channels.values():
         yield from stream_files(stream)

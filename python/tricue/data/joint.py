@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Joint streams: channels that are read together, for one recording or one device gives all of them."""
+"""Joint streams: channels that are read together, as one recording or device gives all of them."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from tricue.data.streams import Stream
 
 Moment = dict[str, tuple[float, NDArray[Any]]]
-"""By channel: seconds, and the image of this time."""
+"""By channel: a time in seconds, and the image of that time."""
 
 
 class Joint(Protocol):
-    """What gives the images of several channels at once."""
+    """A reader that gives the images of several channels at once."""
 
     @property
     def fps(self) -> float:
@@ -26,13 +26,13 @@ class Joint(Protocol):
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What showed while reading, one sentence each, such as images that were left out."""
+        """Problems noticed while reading, one sentence each, such as images that were left out."""
 
     def size(self, channel: str) -> tuple[int, int]:
         """Width and height of the channel's first image, pixels."""
 
     def moments(self, channels: Sequence[str], indices: Sequence[int] | None = None) -> Iterator[Moment]:
-        """The images of these channels, moment by moment; with indices from 0 only those.
+        """The images of these channels, moment by moment; with indices, from 0, only those moments.
 
         ValueError for an index beyond the last moment.
         """
@@ -42,7 +42,7 @@ class Joint(Protocol):
 
 
 class JointStream:
-    """One channel of a joint."""
+    """One channel of a joint stream."""
 
     length = None
     timed = True
@@ -70,7 +70,7 @@ class JointStream:
 
 
 def common_joint(streams: Iterable[Stream]) -> Joint | None:
-    """The joint of which all streams are channels; None where they have none in common."""
+    """The joint of which all streams are channels; None if they have none in common."""
     joints = [stream.joint if isinstance(stream, JointStream) else None for stream in streams]
     return joints[0] if joints and all(joint is joints[0] for joint in joints) else None
 

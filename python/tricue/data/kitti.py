@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """KITTI's folders: image_02 (or image_2) holds the left color images, image_03 (or image_3) the right ones.
-Without them image_00 (or image_0) and image_01 (or image_1) are taken, the gray ones.
+Without them the gray images are read: image_00 (or image_0) and image_01 (or image_1).
 
 Tracking: image_02/0005/000000.png with calib/0005.txt. Odometry: image_2/000000.png with calib.txt. Raw:
 image_02/data/0000000000.png with calib_cam_to_cam.txt one folder up. All are rectified.
@@ -23,7 +23,7 @@ RIGHT_FOLDERS = {
     "image_00": "image_01",
     "image_0": "image_1",
 }
-"""By the left one's name; of several the first is taken."""
+"""By the left one's name; if a folder has several, the first is read."""
 LABEL_WORDS = 17  # in a line of a tracking label
 IGNORED_TYPE = "DontCare"
 MAX_LABEL_VALUE = 1e9  # pixels, meters; a larger value can be neither
@@ -133,12 +133,12 @@ class KittiSequence(NamedTuple):
 
     @property
     def labels(self) -> Path:
-        """Where a tracking sequence has its labels; the file may be missing."""
+        """The file of a tracking sequence's labels, which may be missing."""
         return self.left.parent.parent / "label_02" / f"{self.left.name}.txt"
 
     @property
     def tracking(self) -> bool:
-        """Whether the sequence is of the tracking benchmark."""
+        """Whether the sequence belongs to the tracking benchmark."""
         named = self.calibration is not None and self.calibration.parent.name == "calib"
         return named or self.labels.is_file()
 
@@ -148,8 +148,8 @@ def read_channels(
 ) -> tuple[dict[str, Stream], Truth | None]:
     """The stereo pair, or the left images alone, and the truth of one target.
 
-    target: the name of a labeled target. The images are then cut to its first to last frame, by the numbers
-    in the file names. Its positions are in the left camera's frame where the calibration is beside the
+    target: the name of a labeled target. The images are then those from its first to its last frame, by the
+    numbers in the file names. Its positions are in the left camera's frame if the calibration is beside the
     images, else in camera 0's. Without a target there is no truth.
     """
     folders = {"color": sequence.left, "right": sequence.right}
@@ -177,13 +177,13 @@ def _numbered(paths: list[Path], frames: range) -> list[Path]:
 
 
 def find_labels(folder: Path) -> Path | None:
-    """The file of tracking labels of the sequence that a folder is or holds, None without one."""
+    """The file of tracking labels of the sequence that a folder is or holds; None if there is none."""
     sequence = find_sequence(folder)
     return sequence.labels if sequence is not None and sequence.labels.is_file() else None
 
 
 def find_sequence(folder: Path) -> KittiSequence | None:
-    """The sequence that a folder is or holds; None where it isn't KITTI's. ValueError if it holds several."""
+    """The sequence that a folder is or holds; None if it isn't KITTI's. ValueError if it holds several."""
     folder = folder.resolve()
     if folder.parent.name in RIGHT_FOLDERS or (folder.name in RIGHT_FOLDERS and image_paths(folder)):
         return _sequence(folder)

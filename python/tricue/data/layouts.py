@@ -25,7 +25,7 @@ COLOR_FOLDERS = ("img", "color", "left", "rgb")  # OTB, VOT, stereo pairs, RGB-D
 
 
 class Layout(NamedTuple):
-    """What a folder holds: its format's name, one stream per channel, the truth, and notes for the user."""
+    """A folder's content: its format's name, one stream per channel, the truth, and notes for the user."""
 
     format: str
     channels: dict[str, Stream]
@@ -38,8 +38,8 @@ class Layout(NamedTuple):
 def read_layout(folder: Path, scale: float | None, target: str | None = None) -> Layout:
     """The folder's channels and truth.
 
-    scale: meters per unit of depth, where the format doesn't define it or the files don't follow it. target:
-    one that :func:`list_targets` lists; a KITTI sequence is cut to the frames in which it is labeled.
+    scale: meters per unit of depth, if the format doesn't define it or the files don't follow it. target:
+    one that :func:`list_targets` lists; a KITTI sequence is limited to the frames in which it is labeled.
     ValueError names the folder or the file in it, and what was expected.
     """
     if target is not None:
@@ -56,12 +56,12 @@ def read_layout(folder: Path, scale: float | None, target: str | None = None) ->
 
 
 def note_box_table(table: Path) -> str:
-    """The note that says where the truth is from, since a table may be a tracker's result."""
+    """The note that says where the truth comes from, since a table may be a tracker's result."""
     return f"true boxes found: {table}"
 
 
 def list_targets(folder: str | Path) -> tuple[str, ...]:
-    """The names of a folder's targets, where it has several.
+    """The names of a folder's targets, if it has several.
 
     For KITTI they are the targets labeled in two frames or more, such as "Car 31"; for OTB the numbers of
     its files of true boxes. ValueError names a malformed label.
@@ -72,7 +72,7 @@ def list_targets(folder: str | Path) -> tuple[str, ...]:
 
 
 def layout_files(folder: Path) -> Iterator[Path]:
-    """The lists and labels by which a folder's layout is read, where it has them."""
+    """The lists and labels by which a folder's layout is read, if it has them."""
     names = (vot.SEQUENCE_FILE, *tum.LIST_FILES.values())
     yield from (path for path in map(folder.joinpath, names) if path.is_file())
     with suppress(ValueError):  # several sequences, none of which is read
@@ -81,7 +81,7 @@ def layout_files(folder: Path) -> Iterator[Path]:
 
 
 def depth_images(paths: Sequence[Path], scale: float | None) -> Images:
-    """A stream of depth images; ValueError where their unit isn't known.
+    """A stream of depth images; ValueError if their unit isn't known.
 
     Princeton's, whose unit is known, are recognized by their file names.
     """

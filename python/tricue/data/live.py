@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Live streams: a thread reads a device, keeps its newest images alone, and opens it again when it stops."""
+"""Live streams: a thread reads a device, keeps only its newest images, and reopens it when it stops."""
 
 import atexit
 import time
@@ -23,20 +23,20 @@ _lives: "WeakSet[Live]" = WeakSet()
 class Device(Protocol):
     """A camera or a stream. Its methods are called in one thread, and return within MAX_LAST_READ.
 
-    name: as messages call it. remote: whether it may come later, which is waited for.
+    name: used in messages. remote: whether it may become available later, and is waited for.
     """
 
     name: str
     remote: bool
 
     def open(self) -> None:
-        """Make it ready; OSError or ImportError in one line where it can't be."""
+        """Open the device; OSError or ImportError, in one line, if that fails."""
 
     def read(self) -> dict[str, NDArray[Any]] | None:
-        """The next images by channel; None where there are no more."""
+        """The next images by channel; None if there are no more."""
 
     def close(self) -> None:
-        """Let it go; it can be opened again."""
+        """Close the device; it can be opened again."""
 
     @property
     def fps(self) -> float | None:
@@ -48,8 +48,8 @@ class Device(Protocol):
 
 
 class Patience(NamedTuple):
-    """Seconds: until the first image has to come; before the first and the longest wait for another try, of
-    which each is twice as long as the one before; and without any image, after which the stream has ended.
+    """Times in seconds: how long to wait for the first image; the first and the longest wait before another
+    try, each twice as long as the one before; and the time without images after which the stream has ended.
     """
 
     start: float = 10.0
@@ -59,8 +59,8 @@ class Patience(NamedTuple):
 
 
 class Health(NamedTuple):
-    """How a stream does: images dropped because newer ones came, how often it was connected again, after how
-    many seconds without images in all, and why there are none now, "" while they come.
+    """The state of a stream: images dropped because newer ones came, number of reconnections, total seconds
+    without images, and why there are none now, "" while they come.
     """
 
     dropped: int = 0
@@ -75,10 +75,10 @@ class _Newest(NamedTuple):
 
 
 class Live:
-    """A joint of a device's channels, of which each iteration gets the newest images.
+    """A joint stream of a device's channels; each iteration gets the newest images.
 
-    It is opened at once, and waited for until its first images are there. OSError in one line where they
-    don't come, where the device can't be opened, or, while reading, where it stays silent for too long.
+    The device is opened at once, and its first images are waited for. OSError, in one line, if they don't
+    come, if the device can't be opened, or, while reading, if it sends nothing for too long.
     """
 
     def __init__(self, device: Device, patience: Patience | None = None) -> None:
@@ -103,7 +103,7 @@ class Live:
 
     @property
     def health(self) -> Health:
-        """How it does now; any thread may ask."""
+        """The stream's state now; any thread may ask."""
         with self._news:
             return Health(self._dropped, self._reopened, self._silence, self._stopped_by)
 
@@ -137,7 +137,7 @@ class Live:
         raise ValueError(f"{self.device.name}: expected a recording, of which the frames can be counted")
 
     def close(self) -> None:
-        """End the reading; iterating again begins anew."""
+        """Stop reading; iterating again starts anew."""
         with self._news:
             self._running.clear()
             self._news.notify_all()
@@ -153,7 +153,7 @@ class Live:
             self.close()
 
     # The condition guards what the thread and its reader share: _newest, _trouble, _failure, and the counts.
-    # _running is an event, which both ask at any time; who waits for the condition is told when it's cleared.
+    # _running is an event, which both check at any time; when it is cleared, the condition is notified.
 
     def _start_thread(self) -> None:
         if self._running.is_set():
@@ -208,14 +208,14 @@ class Live:
                 raise OSError(f"{self.device.name}: no image for {silence:.0f} s; the stream has ended")
 
     def _run(self) -> None:
-        """The thread: an error that ends it, also of closing the device, has to reach its reader."""
+        """The thread: an error that ends it, also one of closing the device, has to reach its reader."""
         try:
             self._read()
         except Exception as error:
             self._fail(error)
 
     def _read(self) -> None:
-        """Open, read, and open again with growing waits, until it isn't running or an error ends it."""
+        """Open, read, and reopen with growing waits, until it isn't running or an error ends it."""
         wait, stopped = self.patience.first_wait, 0.0
         any_read = False
         while self._running.is_set():
@@ -249,14 +249,14 @@ class Live:
             self._news.notify_all()
 
     def _fail(self, error: Exception) -> None:
-        """Tell the reader, unless it was told another error before."""
+        """Report an error to the reader, unless another one was reported before."""
         with self._news:
             if self._failure is None:
                 self._failure = error
             self._news.notify_all()
 
     def _pause(self, trouble: str, wait: float) -> float:
-        """Wait before another try; the next wait. trouble: "" if it is told already."""
+        """Wait before another try; return the next wait. trouble: "" if it was reported already."""
         with self._news:
             if self._running.is_set():
                 self._trouble = trouble or self._trouble
@@ -268,7 +268,7 @@ class Live:
 
 @atexit.register
 def _end_threads() -> None:
-    """Wait for the threads: one that comes out of a library while Python ends would abort the process."""
+    """Wait for the threads: one that returns from a library while Python exits would abort the process."""
     for live in [*_lives]:
         live.close()
     for live in [*_lives]:

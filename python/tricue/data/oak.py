@@ -58,7 +58,7 @@ class Oak:
 
 
 def _color_and_depth(dai: Any, pipeline: Any, aligns_apart: bool) -> Any:
-    """The queue of color and depth images of one time, of which the camera keeps the newest.
+    """The queue of simultaneous color and depth images, of which the camera keeps the newest.
 
     aligns_apart: whether the camera registers depth in a node of its own, as OAK 4 does.
     """

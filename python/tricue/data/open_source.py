@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Opens whatever can be tracked in: a video, a folder of images, a benchmark's sequence, a camera."""
+"""Opens any input for tracking: a video, a folder of images, a benchmark's sequence, a camera."""
 
 import os
 from collections.abc import Mapping
@@ -44,18 +44,19 @@ def open_source(
     Stereo pairs are KITTI's (``image_02`` and ``image_03``, or gray), or in ``left`` and ``right``.
 
     A recording is a ROS 1 bag, also RealSense's, a ROS 2 folder, or an MCAP file. A camera is a number, a
-    file such as ``/dev/video0``, a URL (rtsp, http, https, udp, tcp), ``realsense:`` or ``oak:``, which
-    a serial number may follow; each frame is the newest then, and :attr:`Source.remarks` counts the dropped.
+    file such as ``/dev/video0``, a URL (rtsp, http, https, udp, tcp), ``realsense:`` or ``oak:``, with a
+    serial number after it if needed; each frame is then the newest, and :attr:`Source.remarks` counts the
+    dropped ones.
 
     depth: a folder of 16-bit images, or a sequence folder with depth, for the color images of ``place``;
         they are paired by order.
     depth_scale: meters per unit of depth; required unless the format defines it (VOT, TUM, Princeton,
-        recordings, where it goes before the recording's own).
+        recordings, whose own it overrides).
     fps: frames per second of images without times, 30 by default; ValueError for images with times.
     right: the right camera's video, folder, number or URL; ``place`` is the left one's; paired by order.
     target: one of :func:`tricue.data.layouts.list_targets`, for a folder with several. A KITTI sequence is
-        cut to the frames in which it is labeled.
-    topics: of a recording, by channel: "color", "depth", "right"; guessed by default, which a note says.
+        limited to the frames in which it is labeled.
+    topics: of a recording, by channel: "color", "depth", "right"; by default guessed, and named in a note.
     Raises ValueError or OSError that names the place and what is wrong with it.
     """
     place = _checked(place, "place")
@@ -133,7 +134,7 @@ def _refuse_scale_of_device(place: str | Path) -> None:
 
 
 def _refuse_topics(topics: Mapping[str, str] | None, place: str | Path) -> None:
-    """ValueError for topics of what is no recording."""
+    """ValueError for topics if the place isn't a recording."""
     if topics is not None:
         raise ValueError(
             f"--topics: expected with a recording (.bag, .mcap, .db3), got {place}; leave it out"
@@ -141,13 +142,13 @@ def _refuse_topics(topics: Mapping[str, str] | None, place: str | Path) -> None:
 
 
 def _refuse_target(target: str | None, place: str | Path) -> None:
-    """ValueError for a target of what has one alone."""
+    """ValueError for a target if the place has only one."""
     if target is not None:
         check_target(target, (), place)
 
 
 def live_device(place: str) -> Device | None:
-    """The live device of this name; None for files and folders."""
+    """The live device with this name; None for files and folders."""
     if place.startswith(realsense.PREFIX):
         return realsense.RealSense(place.removeprefix(realsense.PREFIX))
     if place.startswith(oak.PREFIX):

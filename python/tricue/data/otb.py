@@ -24,18 +24,18 @@ def has_otb_truth(folder: Path) -> bool:
 
 
 def find_range(folder: Path, boxes: int) -> tuple[int, int]:
-    """The numbers of the first and the last image that so many true boxes of the sequence are for; an empty
-    range where no other images than those with boxes are known.
+    """The numbers of the first and the last image to which so many true boxes of the sequence belong; an
+    empty range if the sequence isn't known to have images without boxes.
     """
     first, last = FRAME_RANGES.get(folder.resolve().name.lower(), (0, -1))
     return (first, last) if boxes == last - first + 1 else (0, -1)
 
 
 def cut_to_range(folder: Path, color: Stream, boxes: int) -> Images | None:
-    """The images that the true boxes are for, where a sequence has more images than boxes; else None.
+    """The images to which the true boxes belong, if a sequence has more images than boxes; else None.
 
-    boxes: how many true boxes there are. Images that already begin where the range does need no cut, for
-    boxes and images then correspond by index.
+    boxes: the number of true boxes. Images that already begin where the range does need no cut, as boxes and
+    images then correspond by index.
     """
     first, last = find_range(folder, boxes)
     if first > last or not (isinstance(color, Images) and boxes < len(color.paths)):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Prefetching: a background thread makes items before they are needed, such as decoding while tracking."""
+"""Prefetching: a background thread makes items before they are needed, as in decoding while tracking."""
 
 from collections.abc import Generator, Iterable, Iterator
 from queue import SimpleQueue
@@ -18,7 +18,7 @@ def prefetch(iterable: Iterable[T], ahead: int = MAX_PREFETCHED) -> Generator[T,
     An exception of the iterable is raised after the items that came before it. The thread starts when the
     first item is requested. It ends with the iterable, or once the item in progress is made after this
     iterator is closed or garbage collected; the iterable's own iterator is closed then.
-    ValueError or TypeError where ``ahead`` isn't a whole number above 0.
+    ValueError or TypeError if ``ahead`` isn't a whole number above 0.
     """
     return _consume(_Producer(iterable, positive_whole(ahead, "ahead", "items")))
 

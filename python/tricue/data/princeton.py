@@ -26,7 +26,7 @@ def timestamped_images(paths: Iterable[Path]) -> TimedPaths:
 
 
 def find_timestamped_images(folder: Path) -> TimedPaths:
-    """The timestamped images in a folder; empty where there is no such folder."""
+    """The timestamped images in a folder; empty if there is no such folder."""
     return timestamped_images(folder.iterdir()) if folder.is_dir() else []
 
 
@@ -36,7 +36,7 @@ def depth_images(images: TimedPaths, scale: float | None) -> Images:
 
 
 def read_channels(folder: Path, scale: float | None) -> dict[str, Stream] | None:
-    """Each color image with the depth image that is nearest in time; None where the folder isn't Princeton's.
+    """Each color image with the depth image that is nearest in time; None if the folder isn't Princeton's.
 
     The true boxes belong to the color images.
     """

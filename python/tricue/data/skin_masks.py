@@ -25,7 +25,7 @@ class MaskedImage(NamedTuple):
     def read(self) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
         """BGR (H, W, 3), and (H, W) True where the mask is white.
 
-        ValueError or OSError names the file that can't be read, or the mask of another size.
+        ValueError or OSError names a file that can't be read, or a mask of another size.
         """
         image: NDArray[np.uint8] = read_image(self.image, cv2.IMREAD_COLOR).astype(np.uint8, copy=False)
         mask = read_image(self.mask, cv2.IMREAD_GRAYSCALE)
@@ -46,8 +46,8 @@ def is_mask_folder(folder: Path) -> bool:
 def find_masked_images(folder: Path) -> list[MaskedImage]:
     """The pairs in a folder with ``image/`` and ``mask/`` (or ``images/``, ``masks/``), in natural order.
 
-    A mask has the name of its image, up to the suffix. ValueError names a folder that isn't there or is
-    empty, an image without a mask, a mask without an image, and the second of two of one name.
+    A mask has the name of its image, up to the suffix. ValueError names a folder that is missing or empty, an
+    image without a mask, a mask without an image, and the second of two files with one name.
     """
     image_folder, mask_folder = _required(folder, IMAGE_FOLDERS), _required(folder, MASK_FOLDERS)
     images, masks = _by_name(image_folder), _by_name(mask_folder)

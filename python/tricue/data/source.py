@@ -32,20 +32,20 @@ class Source:
     truth: (M, 4) true boxes x, y, width, height in pixels from 0, NaN where absent or unknown; M may differ
         from the number of frames.
     calibration: a calibration file that was found beside the images.
-    kitti_cameras: whose images they are, left and right, in a calibration by KITTI.
-    camera: the camera or the stereo pair as the recording or the device itself tells it: of registered depth
-        the color camera, else the depth camera.
+    kitti_cameras: the left and right camera's numbers in a KITTI calibration.
+    camera: the camera or the rig that the recording or the device itself describes: for registered depth the
+        color camera, else the depth camera.
     notes: what was left out of a folder and why, one sentence each.
     rate: frames per second, for images without times.
     rectify: rectifies a raw stereo pair (color, right).
-    register: brings depth into the color image's pixels.
+    register: maps depth to the color image's pixels.
     absent: (M,) whether the target is known to be out of sight; other frames without a box, and frames after
         the last row, are unknown.
     positions: (K, 3) the target's true X, Y, Z in the camera's frame, meters, NaN where unknown.
     format: the name of the layout, such as "VOT RGB-D".
 
-    ValueError where the channels differ in length, which may show only while iterating, and for a ``rate``
-    where images have times of their own.
+    ValueError if the channels differ in length, which may show only while iterating, and for a ``rate`` if
+    images have times of their own.
     """
 
     name: str
@@ -79,7 +79,7 @@ class Source:
 
     @property
     def knows_times(self) -> bool:
-        """Whether something tells when frames are; else they are assumed to come at ``fps``."""
+        """Whether the times of frames are known; otherwise they are assumed to come at ``fps``."""
         return self.rate is not None or self.clock.timed
 
     @property
@@ -95,24 +95,24 @@ class Source:
 
     @property
     def size(self) -> tuple[int, int]:
-        """Width and height in pixels that a calibration has to match: of depth, unless it gets registered to
-        color, else of color images.
+        """Width and height in pixels that a calibration has to match: those of depth, unless it is to be
+        registered to color, else those of color images.
         """
         registered = self.register is not None and "color" in self.channels
         return self.channels.get("color" if registered else "depth", self._first).size
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What showed while reading, one sentence each: images left out, a recording cut off."""
+        """Problems noticed while reading, one sentence each: images left out, a recording cut off."""
         return tuple(remark for joint in joints_of(self.channels.values()) for remark in joint.remarks)
 
     @property
     def first_box(self) -> Box | None:
-        """The true box in the first frame; None where it isn't known."""
+        """The true box in the first frame; None if it isn't known."""
         return self.true_box(0)
 
     def true_box(self, number: int) -> Box | None:
-        """The true box in a frame by its number from 0; None where it isn't known."""
+        """The true box in a frame by its number from 0; None if it isn't known."""
         if self.truth is None or len(self.truth) <= number or np.isnan(self.truth[number]).any():
             return None
         return Box(*self.truth[number].tolist())
@@ -121,7 +121,7 @@ class Source:
         return self._frames(self._moments(), count())
 
     def frames(self, indices: Iterable[int]) -> Iterator[Frame]:
-        """Only the frames with these increasing indices from 0; of image files only those are read.
+        """A source of only the frames with these increasing indices from 0; other image files aren't read.
 
         ValueError for indices that don't increase, and for an index beyond the last frame.
         """
@@ -141,7 +141,7 @@ class Source:
     def _together(
         self, streams: Mapping[str, Iterator[tuple[float, NDArray[Any]]]], numbers: Iterable[int]
     ) -> Iterator[Moment]:
-        """Moments of streams that are paired by order; ValueError where one ends before the others."""
+        """Moments of streams that are paired by order; ValueError if one ends before the others."""
         for number in numbers:
             found = {name: next(stream, None) for name, stream in streams.items()}
             moment = {name: image for name, image in found.items() if image is not None}

@@ -25,7 +25,7 @@ TIME_ROUNDING = 0.001  # seconds, the unit of times in Matroska and Flash
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 PNG_END = 4096  # bytes in which its last chunk is, as some tools write more after it
 MAX_DAMAGED = 100  # frames in a row that can't be decoded, before the video is taken to end
-DOUBTED_FPS = 60.0  # above it FFmpeg may tell the unit of a container's times, where that states no rate
+DOUBTED_FPS = 60.0  # above it FFmpeg may give the unit of a container's times, if that states no rate
 FIRST_FRAMES = 16  # by whose times such a rate is checked
 
 Image = NDArray[Any]
@@ -44,7 +44,7 @@ class Stream(Protocol):
 
     @property
     def fps(self) -> float:
-        """Frames per second; 30 where the input doesn't say."""
+        """Frames per second; 30 if the input doesn't say."""
 
     @property
     def timed(self) -> bool:
@@ -61,7 +61,7 @@ class Stream(Protocol):
     def __iter__(self) -> Iterator[tuple[float, Image]]: ...
 
     def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
-        """Only the images with these increasing indices; ValueError for an index beyond the last image."""
+        """A stream of only these images, by increasing indices; ValueError for one beyond the last image."""
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ class Images:
 
 
 def image_names(channels: Mapping[str, Stream]) -> Sequence[str]:
-    """The names of the image files in whose pixels boxes are: color, or else depth; none of a video."""
+    """The names of the image files in whose pixels boxes are: color, or else depth; none for a video."""
     stream = channels.get("color") or channels.get("depth")
     return [path.name for path in stream.paths] if isinstance(stream, Images) else ()
 
@@ -120,10 +120,10 @@ def timed_images(images: TimedPaths, read: ImageReader = read_color) -> Images:
 
 
 class FrameTimes:
-    """When the frames of a video are shown, from what its container says of each in turn.
+    """The times at which a video's frames are shown, from what its container says about each in turn.
 
     Seconds from the first frame, always rising. At a constant rate they are number / fps, without the
-    container's rounding; so they are from where it doesn't tell any. fps: frames per second.
+    container's rounding, and so are those that it doesn't give. fps: frames per second.
     """
 
     def __init__(self, fps: float) -> None:
@@ -134,7 +134,7 @@ class FrameTimes:
         self.constant = True
 
     def add(self, told: float) -> float:
-        """The next frame's time. told: what the container says, seconds."""
+        """The next frame's time. told: the time in the container, seconds."""
         self._number += 1
         if self._number == 0:
             self._begin, self.last = told, 0.0
@@ -154,9 +154,9 @@ class FrameTimes:
 
 
 class Video:
-    """A video file. Its length is None, for containers state their frame count wrongly or not at all.
+    """A video file. Its length is None, as containers state their frame count wrongly or not at all.
 
-    url: where it is instead, in a network. shown: how messages name it, without a password.
+    url: its address, if it is on a network instead. shown: its name in messages, without a password.
     """
 
     length = None
@@ -185,7 +185,7 @@ class Video:
             capture.release()
 
     def __iter__(self) -> Iterator[tuple[float, Image]]:
-        """A damaged frame between others has the image of the one before, so that all keep their numbers."""
+        """A damaged frame between others gets the previous one's image, so that all keep their numbers."""
         capture, count, times = self._open(), 0, FrameTimes(self.fps)
         stated = capture.get(cv2.CAP_PROP_FRAME_COUNT)
         rate = plausible_fps(capture.get(cv2.CAP_PROP_FPS)) or self.fps
@@ -215,7 +215,7 @@ class Video:
             warnings.warn(f"{self.place}: only {missing} can be decoded; is it cut off?", stacklevel=2)
 
     def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
-        """Reads all frames between, for seeking in videos isn't reliable."""
+        """Reads all frames between, as seeking in videos isn't reliable."""
         capture, index, whole = self._open(), -1, 0
         frames = self._grab(capture, FrameTimes(self.fps))
         try:
@@ -239,7 +239,7 @@ class Video:
         return len(self.times)
 
     def _grab(self, capture: cv2.VideoCapture, times: FrameTimes) -> Iterator[tuple[float, bool]]:
-        """The seconds of each frame, grabbed but for the damaged ones between, and whether it is whole."""
+        """The seconds of each frame, grabbed unless it is a damaged one between, and whether it is whole."""
         damaged, patience = 0, 0  # none before the first frame, nor of a URL
         while damaged <= patience:
             if not capture.grab():
@@ -285,7 +285,7 @@ def _told(capture: cv2.VideoCapture) -> float:
 
 
 def _missing(count: int, times: FrameTimes, stated: float, fps: float) -> str:
-    """How little of a video was decoded, "" where all of it was.
+    """A sentence about how much of a video was decoded; "" if all of it was.
 
     stated: the frames that its container states, or its duration in frames at ``fps``, which is no number of
     frames where the rate isn't constant.
@@ -319,12 +319,12 @@ def _is_truncated(content: NDArray[np.uint8]) -> bool:
 
 
 def plausible_fps(fps: float) -> float | None:
-    """The frame rate that a file states; None where it is implausible: 0, NaN, thousands."""
+    """The frame rate that a file states; None if it is implausible: 0, NaN, thousands."""
     return fps if 0 < fps <= MAX_FPS else None
 
 
 def checked_fps(fps: float | None, times: Sequence[float]) -> float | None:
-    """The stated rate, or, where there is none or one far above it, that of the first frames' seconds."""
+    """The stated rate; if there is none, or it is far too high, that of the first frames' times."""
     step = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
     doubted = fps is None or (fps > DOUBTED_FPS and step > 1.5 / fps)
     return plausible_fps(1 / step) if doubted and step > 0 else fps

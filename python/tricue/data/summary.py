@@ -36,7 +36,7 @@ def compute_duration(source: Source, frames: int) -> float:
 
 
 def compute_rate(source: Source, frames: int) -> float:
-    """Frames per second; of a video whose rate isn't constant the mean."""
+    """Frames per second; the mean for a video whose rate isn't constant."""
     seconds = compute_duration(source, frames)
     if not isinstance(source.clock, Video) or not seconds:
         return source.fps
@@ -67,8 +67,8 @@ def summarize_depth(stream: Stream, source: str) -> Summary | None:
     """The unit, the 5th and 95th percentile of the depth in meters, and the share of pixels without depth.
 
     They are taken over all frames, or over MAX_SAMPLED_FRAMES evenly spaced ones. The percentiles are None
-    where no pixel has a depth; the summary is None where the stream has no unit. source: where the unit is
-    from, as it is reported.
+    if no pixel has a depth; the summary is None if the stream has no unit. source: where the unit comes from,
+    as it is reported.
     """
     scale, rotated = _depth_unit(stream)
     if scale is None:
@@ -112,7 +112,7 @@ def summarize_truth(source: Source, frames: int) -> Summary | None:
 def summarize_calibration(source: Source, given: Path | None) -> Summary | None:
     """The camera or the stereo rig in the given calibration file, or in the one beside the images.
 
-    None without a file. ValueError or OSError where the given file can't be used; for one that was found,
+    None without a file. ValueError or OSError if the given file can't be used; for a file that was found,
     "error" says why.
     """
     path = given or source.calibration

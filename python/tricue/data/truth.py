@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 OTB_TRUTH, VOT_TRUTH, PRINCETON_FIRST_BOX = "groundtruth_rect.txt", "groundtruth.txt", "init.txt"
 ABSENT_TAGS = ("absent.tag", "absence.label", "full_occlusion.txt", "out_of_view.txt")
-"""Of VOT, GOT-10k and, the last two, LaSOT: a number per frame, 1 where the target can't be seen."""
+"""Files of VOT, GOT-10k and, the last two, LaSOT: a number per frame, 1 where the target can't be seen."""
 _WHOLE_TAGS = ABSENT_TAGS[1:]  # as many as boxes; the VOT toolkit takes those that a shorter file lacks for 0
 MAX_FRAME_NUMBER = 10_000_000  # a day at 100 frames per second; a larger number can't be a frame's
 DEPTHS_FILE = (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Array types that the modules of scenes share."""
+"""Array types that the scene modules share."""
 
 import numpy as np
 from numpy.typing import NDArray

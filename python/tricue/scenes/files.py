@@ -23,12 +23,12 @@ MIN_WRITTEN_SIDE = 1.0  # pixels; smaller boxes aren't written
 def write_sequence(scene: StressScene | RoomScene, folder: str | Path) -> None:
     """Write a scene's images without loss, its true boxes and positions, and its camera's calibration.
 
-    A stereo pair goes to left/ and right/. Other scenes become a sequence of VOT with color/, depth/ in
-    millimeters, or both; their boxes are clipped to the image. The camera goes to intrinsics.toml, a pair's
-    with its baseline. The truth goes to boxes.csv, with empty cells where nothing of the target is visible,
-    which readers take as absent. Of the times only the frame rate is kept, and of a stereo pair's not even
-    that.
-    FileExistsError where the folder has files already.
+    A stereo pair goes to left/ and right/. Other scenes become a sequence in VOT's layout with color/, depth/
+    in millimeters, or both; their boxes are clipped to the image. The camera goes to intrinsics.toml, that of
+    a stereo pair with its baseline. The truth goes to boxes.csv, with empty cells if nothing of the target is
+    visible, which readers take as absent. Of the times only the frame rate is kept, and for a stereo pair
+    not even that.
+    FileExistsError if the folder has files already.
     """
     folder = Path(folder)
     if folder.exists() and any(folder.iterdir()):

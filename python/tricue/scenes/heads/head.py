@@ -53,7 +53,7 @@ def head(
         "ramp": the light falls linearly from 1 to 0.5 within 100 frames;
         "hidden": as "normal", and a hand in front of the head, which is then at 1 to 2.1 m, hides it
         completely from the left camera for 10 frames or more (in scenes of about 40 frames or longer).
-    light: by how much the light's gain differs from 1 at most, 0 to 1; not used by "ramp".
+    light: the largest difference of the light's gain from 1, 0 to 1; not used by "ramp".
     noise: standard deviation in levels of 255, independent in both images.
 
     The seed decides the person's size, skin, hair and clothes, the path and the gestures, the room and the
@@ -82,13 +82,13 @@ def static_head(
     light: float = 0.0,
     noise: float = 2.0,
 ) -> StereoScene:
-    """As :func:`head`, of a person who stands still and looks at the cameras.
+    """As :func:`head`, with a person who stands still and looks at the cameras.
 
-    distance: of the head's center along the camera's axis, 0.5 to 10 m. aside: where the head is to the right
-    of and below the middle between the cameras, as shares of half the view. ValueError where a camera
+    distance: of the head's center along the camera's axis, 0.5 to 10 m. aside: how far the head is to the
+    right of and below the midpoint of the cameras, as shares of half the view. ValueError if a camera
     wouldn't see all of it.
-    light: by how much the light's gain differs from 1 at most; its color sways by 4 % then, and neither
-    changes at 0.
+    light: the largest difference of the light's gain from 1; its color then varies by 4 %. At 0 neither
+    changes.
     """
     _check(frames, camera, "normal", light, noise)
     if not 0.5 <= finite(distance, "distance", "meters") <= 10:

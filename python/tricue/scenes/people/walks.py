@@ -30,7 +30,7 @@ class WalkableArea(NamedTuple):
     side: float  # meters to each side at most
 
     def reach(self, z: Array) -> Array:
-        """How far to each side a walker at depth z may go, to be visible and clear of the walls, meters."""
+        """How far to each side a walker at depth z may go and stay visible and clear of the walls, meters."""
         return np.minimum(self.slope * z, self.side) - BODY_CLEARANCE
 
 
@@ -62,7 +62,7 @@ def sample_gestures(frames: int, rate: float, rng: np.random.Generator) -> Gestu
 
 
 def sample_loop(floor: WalkableArea, crouch: Array, rate: float, rng: np.random.Generator) -> Array:
-    """A random closed path (M, 2), of a size that it is walked about once.
+    """A random closed path (M, 2), of such a size that it is walked about once.
 
     crouch: (M,) 0 to 1; a crouching person walks slower. The speed varies within MIN_WALKING_SPEED and
     MAX_WALKING_SPEED.

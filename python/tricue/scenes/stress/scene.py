@@ -29,7 +29,7 @@ STRESS_KINDS = tuple(FRAME_COUNTS)
 STRESS_CHANNELS = ("color", "rgbd", "stereo", "depth")
 MIN_IMAGE_SIDE = 80  # pixels along each side of an image
 MIN_AWAY_FRAMES = 2  # the one it is gone in first, and the one it returns after
-EXPOSURE_SAMPLES = 5  # of which the mean makes a motion-blurred image
+EXPOSURE_SAMPLES = 5  # whose mean makes a motion-blurred image
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -96,8 +96,8 @@ def stress_scene(
         seed and size, all have the same truth and the same color images.
     noise: standard deviation in levels of 255, independent in both images. shutter: exposure time as a share
         of a frame's time; above 0 there is motion blur.
-    away: of the kinds "leaving" and "hidden", for how many frames, at least 2, instead of 30 and 20; the
-        scene is longer by as many.
+    away: for the kinds "leaving" and "hidden", the number of frames, at least 2, instead of 30 and 20; the
+        scene's length changes by the difference.
 
     The seed decides the appearance, the room, the path and the times. No shadows are cast. ValueError or
     TypeError names the argument that is wrong.
