@@ -3,9 +3,9 @@
 
 Whole recordings are drawn: seeds and starts of a sequence are averaged before, and sequences of one
 recording, such as its several targets, stay together. Percentile intervals of few values are too narrow;
-theirs are widened as Hesterberg (2015, "What teachers should know about the bootstrap") does, so that they
-are as wide as Student's t demands. With fewer than MIN_CLUSTERS recordings there is no interval and
-no test: of five differences with the same sign the exact test still has a p-value of 1/16.
+they are widened as by Hesterberg (2015, "What teachers should know about the bootstrap"), so that they are as
+wide as Student's t requires. With fewer than MIN_CLUSTERS recordings there is no interval and no test: for
+five differences with the same sign the exact test still gives a p-value of 1/16.
 """
 
 import math
@@ -21,12 +21,12 @@ Array = NDArray[np.float64]
 
 LEVEL, DRAWS, SEED = 0.95, 10_000, 0
 MIN_CLUSTERS = 6  # for an interval and a test
-MAX_EXACT = 14  # recordings of which all signs are tried; of more, so many are drawn:
+MAX_EXACT = 14  # recordings for which all signs are tried; for more, this many are drawn:
 SIGN_DRAWS = 20_000
 
 
 class Interval(NamedTuple):
-    """A mean, and the ends of its interval; these are NaN where nothing can be told."""
+    """A mean, and the ends of its interval; these are NaN if there are too few recordings."""
 
     mean: float
     low: float
@@ -39,17 +39,17 @@ class Interval(NamedTuple):
 
     @property
     def excludes_zero(self) -> bool:
-        """Whether 0 lies outside; False where nothing can be told."""
+        """Whether 0 lies outside; False without an interval."""
         return self.low > 0 or self.high < 0
 
 
 def mean_interval(values: ArrayLike, clusters: Sequence[str], least: int = MIN_CLUSTERS) -> Interval:
     """The mean of some values and its LEVEL interval; the same for the same arguments.
 
-    values: (N,). clusters: (N,) what each value is of: values of one cluster, such as those of sequences of
-    the same recording, depend on each other, so that clusters are drawn. least: the number of clusters, 2 or
-    more, below which the ends are NaN. ValueError unless there is a name for each value, and one value or
-    more.
+    values: (N,). clusters: (N,) the name of each value's cluster: values of one cluster, such as those of
+    sequences of the same recording, depend on each other, so whole clusters are drawn. least: the number of
+    clusters, 2 or more, below which the ends are NaN. ValueError unless there is a name for each value, and
+    one value or more.
     """
     sums, counts = _by_cluster(values, clusters)
     mean, size = float(sums.sum() / counts.sum()), len(sums)
@@ -66,30 +66,31 @@ def sign_flip_p(differences: ArrayLike, clusters: Sequence[str]) -> float:
     """The two-sided p-value of "these paired differences have a mean of 0", by Fisher's randomization test.
 
     If two trackers are alike, each recording's difference could as well have the other sign: the p-value is
-    the share of the signs with which the mean is as far from 0 or farther. All signs are tried of MAX_EXACT
-    recordings or fewer, else SIGN_DRAWS are drawn from a fixed seed. NaN with fewer than MIN_CLUSTERS.
+    the share of the sign combinations with which the mean is as far from 0 or farther. For MAX_EXACT
+    recordings or fewer all are tried, else SIGN_DRAWS are drawn from a fixed seed. NaN with fewer than
+    MIN_CLUSTERS.
     """
     sums, _ = _by_cluster(differences, clusters)
     size = len(sums)
     if size < MIN_CLUSTERS:
         return math.nan
     signs = _signs(size)
-    drawn = int(size > MAX_EXACT)  # then the signs as they are count, too
+    drawn = int(size > MAX_EXACT)  # then the actual signs count, too
     observed = abs(float(sums.sum()))
     as_far = np.abs(signs @ sums) >= observed - 1e-12 * np.abs(sums).sum()
     return float((as_far.sum() + drawn) / (len(signs) + drawn))
 
 
 def least_p(size: int) -> float:
-    """The least p-value that :func:`sign_flip_p` can have of so many recordings: that of differences which
-    are all the same, where only equal signs are as far. NaN with fewer than MIN_CLUSTERS.
+    """The smallest p-value that :func:`sign_flip_p` can give for so many recordings: if all differences are
+    the same, only equal signs are as far from 0. NaN with fewer than MIN_CLUSTERS.
     """
     return sign_flip_p(np.ones(size), [str(each) for each in range(size)]) if size else math.nan
 
 
 def separable(sizes: Sequence[int]) -> bool:
-    """Whether any of several tests, each of so many recordings, can show a difference: whether the least
-    p-value that it has is below 1 - LEVEL by Holm's method.
+    """Whether any of several tests, each of so many recordings, can show a difference: whether its smallest
+    possible p-value is below 1 - LEVEL by Holm's method.
     """
     return any(len(sizes) * least_p(size) < 1 - LEVEL for size in {*sizes})
 

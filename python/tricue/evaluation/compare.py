@@ -22,8 +22,8 @@ Rows = Sequence[Mapping[str, Any]]
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """One tracker on a group of sequences by one protocol. difference: of the means, new minus old, over the
-    sequences that both have. by_sequence: the old and the new number of each. better: 1 if higher is better.
+    """One tracker on a group of sequences with one protocol. difference: of the means, new minus old, over
+    the sequences that both have. by_sequence: the old and new number of each. better: 1 if higher is better.
     """
 
     group: str
@@ -34,13 +34,13 @@ class Change:
     new: float
     difference: Interval
     adjusted: float
-    """The p-value of the sign-flip test, by Holm's method for all changes; NaN where nothing can be told."""
+    """The p-value of the sign-flip test, by Holm's method for all changes; NaN if there are too few."""
     by_sequence: Mapping[str, tuple[float, float]]
     better: int
 
     @property
     def verdict(self) -> Verdict:
-        """What the difference tells at LEVEL."""
+        """What the difference shows at LEVEL."""
         if math.isnan(self.adjusted):
             return "nothing can be told"
         if self.adjusted >= 1 - LEVEL:
@@ -53,15 +53,15 @@ class Change:
         return self.better * self.difference.mean
 
     def worst_first(self) -> list[tuple[str, float, float]]:
-        """Sequence, old and new number, what got worse most first."""
+        """Sequence, old and new number, sorted by how much they got worse."""
         lines = [(name, old, new) for name, (old, new) in self.by_sequence.items()]
         return sorted(lines, key=lambda line: self.better * (line[2] - line[1]))
 
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """All changes of one number. notes: why nothing can be told of any, and which trackers and sequences one
-    of both alone has.
+    """All changes of one number. notes: why no change can be shown, and which trackers and sequences only one
+    of the two evaluations has.
     """
 
     number: str

@@ -52,8 +52,8 @@ def auroc(overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None = Non
     """The chance that a frame on the target scores above a lost one, ties counted half, in [0, 1].
 
     The area under the ROC curve of "lost" by falling score, by the rank sum of Mann and Whitney (1947). 0.5
-    is chance, at 1 one threshold on the score separates both. NaN unless there are frames of both kinds.
-    Scores may be any numbers, for their order alone counts; NaN is the lowest.
+    is chance; at 1 a threshold on the score separates both kinds. NaN unless there are frames of both. Scores
+    may be any numbers, as only their order counts; NaN is the lowest.
     """
     overlap, score, gone = _frames(overlaps, scores, absent)
     bad = lost(overlap, gone)

@@ -27,7 +27,7 @@ from tricue.data.recordings.recording import is_recording
 from tricue.data.streams import Images
 
 FORMAT_RATES = {"KITTI tracking": 10.0}
-"""Frames a second of the cameras of formats whose files don't contain them (Geiger et al. 2013)."""
+"""Frame rates (frames/s) of formats whose files don't contain them (Geiger et al. 2013)."""
 STEREO_CALIBRATION = "calibration.yml"
 """File name of OpenCV's calibration of a stereo pair, searched beside its images."""
 CLIPPED_FORMATS = ("VOT", "VOT RGB-D", "KITTI tracking")
@@ -45,8 +45,8 @@ OPTIONAL_CAMERA_KEYS = {"width", "height", "pose", "rotation", "translation"}
 class ReadOptions:
     """How to read a data set's files, for values that they don't contain.
 
-    depth_scale: meters per unit of depth, where the format doesn't define it. fps: frames a second of images
-    without times. unit: meters per unit of OpenCV's stereo calibrations. truth: the channel, "color" or
+    depth_scale: meters per unit of depth, if the format doesn't define it. fps: frames/s of images without
+    times. unit: meters per unit of OpenCV's stereo calibrations. truth: the channel, "color" or
     "depth", in whose pixels the true boxes are given. None means color, or depth if it isn't registered to
     color and positions were measured in it.
     """
@@ -142,7 +142,7 @@ class OpenedSequence:
 
     @property
     def intrinsics(self) -> Intrinsics | None:
-        """The depth camera's, if a file beside the images has them."""
+        """The depth camera's intrinsics, if a file beside the images has them."""
         path = self.source.calibration
         if path is None or "depth" not in self.source.channels:
             return None
@@ -164,8 +164,8 @@ class OpenedSequence:
         return np.empty((0, 4)) if known is None else known
 
     def check(self) -> None:
-        """ValueError if there is no frame to start in, or none after it, or if an image is missing among
-        others, so that all true boxes after it would be those of other images.
+        """ValueError if there is no frame to start in, or none after it, or if an image is missing between
+        others, so that all later true boxes would be assigned to the wrong images.
         """
         start, length = self.start, self.source.length
         if length is not None and length < start + 2:
@@ -185,8 +185,8 @@ class OpenedSequence:
         return int(known[0])
 
     def truth(self, frames: int) -> NDArray[np.float64]:
-        """(frames, 4) true boxes to compare others with, NaN where the target is absent, its box unknown, or
-        all of it outside an image to which boxes are clipped.
+        """(frames, 4) true boxes to compare results with, NaN where the target is absent, its box unknown, or
+        wholly outside an image to which boxes are clipped.
         """
         boxes: NDArray[np.float64] = _fit_to_frames(self.boxes, frames, np.nan)
         return self.clip(boxes)
@@ -250,8 +250,8 @@ def find_entries(root: Path, reading: ReadOptions = ReadOptions()) -> list[Entry
 
 
 def short_names(entries: Sequence[Entry]) -> dict[str, str]:
-    """By name, the fewest last parts of each entry's name that no other's ends with; of a target at least the
-    sequence that it is in and its own, such as "Jogging/2".
+    """By name, the fewest last parts of each entry's name with which no other name ends; for a target at
+    least its sequence's name and its own, such as "Jogging/2".
     """
     parts = {each.name: each.name.split("/") for each in entries}
 
@@ -274,8 +274,8 @@ def _relative_name(root: Path, place: Path) -> str:
 
 
 def _check_numbers(place: Path, images: Images, boxes: int) -> None:
-    """ValueError names the first missing image where there are as many true boxes as there would be images
-    with it. Images at, say, every other number have as many boxes as images.
+    """ValueError names the first missing image if there are as many true boxes as there would be images with
+    the missing ones. Images with only, say, every other number have as many boxes as images.
     """
     matches = [re.fullmatch(r"(.*?)(\d+)", path.stem) for path in images.paths]
     named = [match for match in matches if match]
@@ -295,15 +295,15 @@ def _check_numbers(place: Path, images: Images, boxes: int) -> None:
 
 
 def _image_name(number: int, others: Sequence[re.Match[str]]) -> str:
-    """The number as in the names of other images: with their zeros before it, if they have such."""
+    """The number as in the names of other images: with leading zeros, if they have such."""
     width = min(len(match[2]) for match in others)
     return f"{number:0{width}d}"
 
 
 def _depth_scale_of(entry: Entry, scale: float | None) -> float | None:
-    """The depth scale, or None where the format defines it, and without depth, where none may be given.
+    """The depth scale; None if the format defines it or there is no depth, so that none may be given.
 
-    That of a robot's recording is overridden.
+    The scale of a robot's recording is overridden.
     """
     if scale is None:
         return None

@@ -41,13 +41,13 @@ RUNS = "runs"  # the folder of finished runs in an evaluation's
 
 @dataclass(frozen=True)
 class Options:
-    """What to run.
+    """The options of an evaluation: what to run.
 
     trackers: names of ours, of the baselines and of others, such as ``mine.py:Mine``; None for all that are
-    installed. settings: parameters that aren't the defaults, by trackers' names. seeds: runs of those that
-    draw random numbers. restarts: whether to run each with restarts, too. reading: how the data set's files
-    are read. results: folders of others' results, NAME=FOLDER. time_limit: seconds for an update of a tracker
-    that isn't ours. protocols: names of those that are run beside one pass, see
+    installed. settings: parameters that aren't the defaults, by tracker name. seeds: runs of each tracker
+    that draws random numbers. restarts: whether to run each with restarts, too. reading: how the data set's
+    files are read. results: folders of others' results, NAME=FOLDER. time_limit: seconds for an update of a
+    tracker that isn't ours. protocols: names of those that are run in addition to one pass, see
     :mod:`tricue.evaluation.protocols`.
     """
 
@@ -104,13 +104,13 @@ class Evaluation:
 
     @property
     def recordings(self) -> dict[str, str]:
-        """What each sequence is of, by name: several targets may be in one recording."""
+        """The recording of each sequence, by name: several targets may be in one recording."""
         return {each.entry.name: str(each.entry.place) for each in self.opened}
 
     @property
     def unstarted(self) -> dict[str, dict[str, list[str]]]:
-        """The trackers that started on no sequence, since they couldn't be made or refused to: the sequences
-        by reason, by the tracker's name.
+        """The trackers that started on no sequence, as they couldn't be made or refused to: by the tracker's
+        name, the sequences by reason.
         """
         found: dict[str, dict[str, list[str]]] = {}
         started = {each.row.tracker for each in self.results if not _start_error(each.scored)}
@@ -160,11 +160,11 @@ def evaluate(
     on_progress: Callable[["ProgressUpdate"], None] = lambda _: None,
     work: Perform = perform,
 ) -> Evaluation:
-    """Run all that is missing in ``folder`` of the data set at ``root``, and score all runs.
+    """Run what ``folder`` lacks of the data set at ``root``, and score all runs.
 
     jobs, scheduler: as :func:`tricue.evaluation.schedule.run_tasks` takes them. fresh: whether to run all
-    again. on_progress: called after each run. ValueError or OSError for a data set, a folder or options
-    that can't be used, before the first run.
+    again. on_progress: called after each run. ValueError or OSError, before the first run, for a data set, a
+    folder or options that can't be used.
     """
     plan = _Plan(Path(root), options)
     store = Store(Path(folder) / RUNS)
@@ -212,7 +212,7 @@ class _Plan:
         self.tasks = [task for opened in self.opened.values() for task in self._list_tasks(opened)]
 
     def _open_all(self, entries: Sequence[Entry]) -> Iterator[tuple[str, OpenedSequence]]:
-        """Those that can be read; if none can, the first one's error is raised."""
+        """The sequences that can be read; if none can, the first one's error is raised."""
         for entry in entries:
             opened = _try_open(entry)
             if isinstance(opened, OpenedSequence):
@@ -238,7 +238,7 @@ class _Plan:
         return tasks
 
     def _add_results(self, spec: ResultsSpec, opened: OpenedSequence) -> list[Task]:
-        """Score others' runs on a sequence, each as that of a seed; their tasks, which are done."""
+        """Score others' runs on a sequence, each as the run of one seed; return their finished tasks."""
         try:
             found = spec.read(opened, self.opened)
         except (OSError, ResultError) as error:
@@ -256,7 +256,7 @@ class _Plan:
 
     @property
     def missing(self) -> list[Task]:
-        """The tasks whose runs aren't known."""
+        """The tasks that haven't been run."""
         return [task for task in self.tasks if task not in self.scored]
 
     def fingerprint(self, task: Task) -> str:
@@ -299,7 +299,7 @@ class _Plan:
                 )
 
     def _surplus_notes(self) -> Iterator[str]:
-        """Which sequences have true boxes behind their last frame."""
+        """The sequences that have true boxes after their last frame."""
         seen: dict[str, int] = {}  # frames of videos, whose length is known from runs alone
         for task, scored in self.scored.items():
             if task.kind == ONE_PASS and not isinstance(task.tracker, ResultsSpec):

@@ -63,13 +63,13 @@ class PrecisionRecall:
 
     @property
     def best(self) -> "Best":
-        """The threshold with the highest F, the highest threshold of equals."""
+        """The threshold with the highest F; of several, the highest one."""
         index = int(np.argmax(self.f))
         return Best(*(float(each[index]) for each in (self.precision, self.recall, self.f, self.thresholds)))
 
 
 class Best(NamedTuple):
-    """What VOT long-term reports of a tracker."""
+    """The numbers that VOT long-term reports for a tracker."""
 
     precision: float
     recall: float
@@ -80,7 +80,7 @@ class Best(NamedTuple):
 def rates(boxes: ArrayLike, truth: ArrayLike, reported_present: ArrayLike, absent: ArrayLike) -> Rates:
     """OxUvA's rates of a result: boxes and truth are (M, 4), both flags (M,) bool.
 
-    Frames without a true box count as negatives where ``absent`` holds, and are left out elsewhere.
+    Frames without a true box count as negatives if ``absent`` is true, and are left out otherwise.
     """
     overlap = overlaps(boxes, truth)
     present, gone = (
@@ -92,7 +92,7 @@ def rates(boxes: ArrayLike, truth: ArrayLike, reported_present: ArrayLike, absen
 
 
 def vot_frames(boxes: ArrayLike, truth: ArrayLike, scores: ArrayLike, absent: ArrayLike) -> Frames:
-    """A result with all that the VOT toolkit adds: boxes and truth are (M, 4), scores and absent (M,).
+    """A result as the VOT toolkit counts it: boxes and truth are (M, 4), scores and absent (M,).
 
     The first frame, in which the tracker is started, has overlap 0 and score 0 but counts as visible. In an
     absent frame a box has overlap 0, and no box overlap 1, as "two empty regions are identical". Frames whose

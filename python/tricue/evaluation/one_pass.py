@@ -20,10 +20,10 @@ _NO_TRACK = Track(Box(0, 0, 1, 1), 0.0, Status.LOST)
 
 
 class AnyTracker(Protocol):
-    """What can be evaluated: every tricue tracker, the baselines, and others' trackers.
+    """A tracker that can be evaluated: one of tricue's, of the baselines, or of others.
 
-    One that runs in another process has an attribute ``update_seconds``, of its last update, measured there.
-    One that may fail has an attribute ``error``, "" until then.
+    A tracker in another process has an attribute ``update_seconds``, the time of its last update, measured
+    there. A tracker that may fail has an attribute ``error``, "" until it does.
     """
 
     def init(self, frame: Frame, box: Box) -> Track: ...

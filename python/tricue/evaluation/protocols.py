@@ -7,8 +7,8 @@ eight runs, from 0, 1/4, 1/2 and 3/4 of the sequence to its end, and the same on
 alone, as a slow camera or computer would. "noisy-N" starts N times on a box beside the true one (spatial
 robustness in OTB). "restarts" starts again after each failure (:mod:`tricue.evaluation.restarts`).
 
-A run starts on the first of its frames with a true box; but for "one-pass" and "restarts" it ends with the
-labels. A run may belong to several protocols, and is run once.
+A run starts on the first of its frames with a true box; except with "one-pass" and "restarts" it ends with
+the labels. A run may belong to several protocols, and is run once.
 """
 
 import hashlib
@@ -31,13 +31,13 @@ ONE_PASS, RESTARTS, BACKWARD, STARTS = "one-pass", "restarts", "backward", "star
 EVERY, NOISY = "every", "noisy"  # of a number, as in every-3
 START_SHARES = (0.0, 0.25, 0.5, 0.75)
 NOISE = 0.1
-"""Of the first box: how far its center is moved, in units of its size, and by how much sides may differ."""
+"""Noise of the first box: how far its center is moved, in units of its size, and how much sides change."""
 BLOCK_PIXELS = 50_000_000  # decoded at once of a reversed sequence
 
 
 class Order(NamedTuple):
-    """The frames of a run. start: the share of the sequence that it leaves out at first. step: every how many
-    frames it sees one. noise: 0 for the true first box, else the number of the draw that moves it.
+    """The frames of a run. start: the share of the sequence that it skips at the beginning. step: it sees
+    every step-th frame. noise: 0 for the true first box, else the number of the draw that moves it.
     """
 
     start: float = 0.0
@@ -75,8 +75,8 @@ class Order(NamedTuple):
         return way[int(self.start * frames) :: self.step]
 
     def seen(self, opened: OpenedSequence) -> NDArray[np.intp]:
-        """The same of a sequence's labeled frames, from the first of them with a true box on; none unless two
-        are left.
+        """The same for a sequence's labeled frames, from the first with a true box on; none unless two are
+        left.
         """
         boxes = opened.boxes[: opened.source.length]
         numbers = self.numbers(len(boxes))
@@ -120,9 +120,9 @@ def jittered(box: Box, sequence: str, draw: int) -> Box:
 
 
 def read_frames(source: Source, numbers: NDArray[np.intp]) -> Iterator[Frame]:
-    """The frames of these numbers, which go one way; backward with the times of :func:`forward_times`.
+    """The frames with these numbers, all forward or all backward, then with :func:`forward_times`' times.
 
-    Of a reversed sequence BLOCK_PIXELS are decoded at once, so that memory doesn't grow with its length.
+    For a reversed sequence BLOCK_PIXELS are decoded at once, so that memory doesn't grow with its length.
     """
     wanted = numbers.tolist()
     if wanted == sorted(wanted):

@@ -24,7 +24,7 @@ _NO_BOX = np.full(4, np.nan)
 
 
 class Robustness(NamedTuple):
-    """failures: how often the target was lost. frames: the number in which it could have been lost.
+    """failures: how often the target was lost. frames: the number of frames in which it could be lost.
     accuracy: the mean overlap without the frames after a start, NaN if there are none left.
     """
 

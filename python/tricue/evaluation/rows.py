@@ -113,7 +113,7 @@ def score_run(record: Record, opened: OpenedSequence) -> ScoredRun:
 
 
 def without_truth(run: ScoredRun) -> ScoredRun:
-    """The same run, of which no frame counts."""
+    """The same run, but no frame counts."""
     unknown = {name: np.full_like(getattr(run, name), np.nan) for name in _OF_TRUTH}
     return dataclasses.replace(run, absent=np.zeros_like(run.absent), **unknown)
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Which trackers differ: means over sequences with intervals, and each pair's paired difference.
 
-A pair is compared on the sequences on which both ran. Its interval is its own: of twenty such intervals one
-excludes 0 by chance. Whether a pair counts as different is said by p-values adjusted for the number of pairs.
+A pair is compared on the sequences on which both ran. Its interval isn't adjusted: of twenty such intervals
+one excludes 0 by chance. P-values adjusted for the number of pairs say whether a pair counts as different.
 """
 
 import math
@@ -34,13 +34,13 @@ class Pair:
     recordings: int
     difference: Interval
     p: float
-    """Of the sign-flip test of this pair alone; NaN where nothing can be told."""
+    """The p-value of this pair's sign-flip test alone; NaN if there are too few recordings."""
     adjusted: float
     """The same by Holm's method, for all pairs of the comparison."""
 
     @property
     def different(self) -> bool:
-        """Whether they differ at LEVEL, with all pairs in mind."""
+        """Whether they differ at LEVEL, given the number of pairs."""
         return self.adjusted < 1 - LEVEL
 
 
@@ -55,16 +55,16 @@ class Comparison:
 
     @property
     def telling(self) -> bool:
-        """Whether there are recordings enough for intervals."""
+        """Whether there are enough recordings for intervals."""
         return self.recordings >= MIN_CLUSTERS
 
     @property
     def separable(self) -> bool:
-        """Whether there are recordings enough to tell trackers apart, with all pairs in mind."""
+        """Whether there are enough recordings to tell trackers apart, given the number of pairs."""
         return separable([each.recordings for each in self.pairs if not math.isnan(each.p)])
 
     def pair(self, first: str, second: str) -> Pair | None:
-        """The pair in this order; None where they have no sequence in common."""
+        """The pair in this order; None if they have no sequence in common."""
         for each in self.pairs:
             if (each.first, each.second) == (first, second):
                 return each
@@ -85,8 +85,8 @@ class Comparison:
 
 
 def compare(values: Mapping[str, Values], recordings: Mapping[str, str]) -> Comparison:
-    """values: by tracker. recordings: what each sequence is of; sequences of one recording are drawn
-    together, one that isn't named is a recording of its own.
+    """values: by tracker. recordings: the recording of each sequence; sequences of one recording are drawn
+    together, and a sequence that isn't in it is a recording of its own.
     """
     known = {
         name: {sequence: value for sequence, value in each.items() if not math.isnan(value)}

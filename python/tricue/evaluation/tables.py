@@ -58,8 +58,8 @@ def all_summaries(evaluation: Evaluation) -> list[Line]:
 
 def intervals(evaluation: Evaluation) -> list[Line]:
     """A line per group, protocol, tracker and number: the mean over sequences, its 95 % interval, and whether
-    the tracker is the best or can't be distinguished from it (1, else 0; NaN where nothing can be told). Of
-    other protocols than one pass the AUC alone.
+    the tracker is the best or can't be distinguished from it (1, else 0; NaN if there are too few
+    recordings). For protocols other than one pass only the AUC.
     """
     lines = []
     for group in evaluation.groups:
@@ -103,7 +103,7 @@ def significance(evaluation: Evaluation) -> list[Line]:
 
 def speeds(evaluation: Evaluation) -> list[Line]:
     """The same lines with medians over the runs: updates per second and percentiles of the update time. NaN
-    where no run has times.
+    if no run has times.
     """
     lines = []
     for group, tracker, results in _compare(evaluation):
@@ -179,7 +179,7 @@ def settings(evaluation: Evaluation, **how: Any) -> Line:
 
 
 def processor() -> str:
-    """The processor's name, as far as the system tells it."""
+    """The processor's name, if the system tells it."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
         return next(line.partition(":")[2].strip() for line in lines if line.startswith("model name"))

@@ -116,7 +116,7 @@ class TrackerSpec:
         yield partial(self.make, opened)
 
     def keywords(self, opened: SequenceInfo) -> dict[str, Any]:
-        """What the tracker is made with for a sequence: its camera or rig, and the parameters."""
+        """The tracker's keywords for a sequence: its camera or rig, and the parameters."""
         return _keywords(self.traits, opened) | dict(self.settings)
 
     def sees_a_picture(self, opened: SequenceInfo) -> bool:
@@ -159,7 +159,7 @@ def _keywords(traits: Traits, opened: SequenceInfo) -> dict[str, Any]:
 
 
 def _search_range(rig: StereoRig) -> tuple[float, float]:
-    """The nearest and farthest distance, meters, at which to search: those of the largest and smallest
+    """The nearest and farthest distance to search, meters: those of the largest and the smallest
     disparity.
     """
     product = rig.intrinsics.fx * rig.baseline
