@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from tricue.doctor.called import is_called as doctor_is_called
 
-if not doctor_is_called():  # it says what is wrong where nothing of this can be imported
+if not doctor_is_called():  # it has to run, and say what is wrong, even if none of this can be imported
     try:
         importlib.import_module("tricue._core")
     except ImportError as error:
@@ -70,7 +70,7 @@ _TRACKERS = {
 
 
 def __getattr__(name: str) -> Any:
-    """What is looked up when first asked for, so that the import stays quick."""
+    """Names that are looked up at their first use, so that the import stays quick."""
     if name in _TRACKERS:
         return tracker_class(_TRACKERS[name])
     if name == "open_source":

@@ -11,11 +11,11 @@ class MissingChannelError(ValueError):
 
 
 class UnregisteredDepthError(ValueError):
-    """The depth image has another shape than the color image whose pixels it should have."""
+    """The depth image isn't registered to color: its shape differs from the color image's."""
 
 
 class BoxError(ValueError):
-    """A tracker can't start on this box: it is no box, it is outside the image, or nothing in it can be
+    """A tracker can't start on this box: it isn't a box, it is outside the image, or nothing in it can be
     tracked.
     """
 
@@ -25,7 +25,7 @@ class BoxNeededError(BoxError):
 
 
 class TargetNotFoundError(BoxError):
-    """``init`` got no box, and the tracker found no target in this frame; it may in another."""
+    """``init`` got no box, and the tracker found no target in this frame; another frame may have one."""
 
 
 class NoDepthInBoxError(BoxError):

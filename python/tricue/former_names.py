@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Modules by their names in version 0.1.0: they work for one release, with a DeprecationWarning."""
+"""The former names of modules, from version 0.1.0: they work for one release, with a DeprecationWarning."""
 
 import importlib
 import importlib.util
@@ -68,7 +68,7 @@ def attributes(module: str, names: Mapping[str, str]) -> Callable[[str], Any]:
 
 
 class _Former:
-    """Finds and loads a module by its former name: it is the present one."""
+    """Finds a module by its former name, and loads the present one."""
 
     def find_spec(
         self, name: str, path: Sequence[str] | None = None, target: ModuleType | None = None

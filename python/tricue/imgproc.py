@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Image processing by the OpenCV of the system that the core was built with, for scenes and cameras.
 
-cv2 gives other pixels from version to version: its warps interpolate at multiples of 1/32 pixel before
-version 5, and anywhere since. So what is rendered or rectified never depends on which cv2 is installed.
+cv2's pixels differ between versions: its warps interpolate at multiples of 1/32 pixel before version 5, and
+at any position since. With this module, rendered and rectified images don't depend on the installed cv2.
 
 Images are uint8, float32 or float64, (H, W) or (H, W, C) with up to 4 channels; their pixels are packed, rows
 may be padded. Results have the image's type and channels. ValueError or TypeError names what is wrong.
@@ -61,12 +61,12 @@ def box_blur(image: NDArray[Scalar], side: int) -> NDArray[Scalar]:
 
 
 def erode(image: NDArray[Scalar], side: int, anchor: int = MIDDLE) -> NDArray[Scalar]:
-    """The minimum in a square of ``side`` pixels. anchor: its pixel, in both axes, that is the result's."""
+    """The minimum in a square of ``side`` pixels. anchor: the result's index in it, along both axes."""
     return cast("NDArray[Scalar]", _imgproc.erode(image, side, anchor))
 
 
 def dilate(image: NDArray[Scalar], side: int, anchor: int = MIDDLE) -> NDArray[Scalar]:
-    """The maximum in a square of ``side`` pixels. anchor: its pixel, in both axes, that is the result's."""
+    """The maximum in a square of ``side`` pixels. anchor: the result's index in it, along both axes."""
     return cast("NDArray[Scalar]", _imgproc.dilate(image, side, anchor))
 
 
@@ -82,7 +82,7 @@ def shift(
 ) -> NDArray[Scalar]:
     """An image (height, width) in which the given one begins at x, y, which needn't be whole pixels.
 
-    border: around it is a constant value, or its edge.
+    border: a constant value around it, or its edge repeated.
     """
     return cast("NDArray[Scalar]", _imgproc.shift(image, x, y, height, width, method, border, value))
 
@@ -90,7 +90,7 @@ def shift(
 def warp_perspective(
     image: NDArray[Scalar], matrix: NDArray[np.float64], height: int, width: int
 ) -> NDArray[Scalar]:
-    """Map an image by a homography (3, 3) from its pixels to the result's, linearly; 0 outside of it."""
+    """Warp an image by a homography (3, 3) from its pixels to the result's, linearly; 0 outside it."""
     return cast("NDArray[Scalar]", _imgproc.warp_perspective(image, matrix, height, width))
 
 

@@ -38,15 +38,15 @@ def log(
     """Log a frame's images and what a tracker found in them.
 
     The images are ``camera/color``, ``camera/depth`` and ``camera/right``; the box is ``camera/<name>``, with
-    status and score; the position ``world/<name>`` is in meters: in the world, where the track has it, else
-    in the camera's frame (x right, y down, z forward). Log several targets of a frame under names of their
-    own; ``frame`` may be None after the first.
+    status and score; the position ``world/<name>`` is in meters: in the world if the track has it, else in
+    the camera's frame (x right, y down, z forward). Log several targets of a frame under different names;
+    ``frame`` may be None after the first.
 
-    camera: of the images, so that Rerun shows them in space, at the pose of the frame or the camera; of a
-        stereo pair its left one's images are shown so.
+    camera: of the images, so that Rerun shows them in space, at the pose of the frame or the camera; for a
+        rig, this applies to the left images.
     number: of the frame, for a second timeline. recording: a ``rerun.RecordingStream``; by default the
         current one.
-    ImportError where rerun-sdk isn't installed; TypeError or ValueError for what is no frame.
+    ImportError if rerun-sdk isn't installed; TypeError or ValueError for anything but a frame.
     """
     rr = _library()
     shown = None if frame is None else as_frame(frame)
@@ -68,7 +68,7 @@ def log(
 def log_path(tracks: list[Track] | tuple[Track, ...], *, name: str = "target", recording: Any = None) -> None:
     """Log the path of all positions up to now as a line, ``world/<name>/path``.
 
-    It is broken where the target wasn't tracked. recording: as for :func:`log`.
+    The line is broken where the target wasn't tracked. recording: as for :func:`log`.
     """
     rr = _library()
     lines: list[list[NDArray[np.float64]]] = [[]]

@@ -37,13 +37,13 @@ _REPETITION = re.compile(
 
 
 class ResultError(ValueError):
-    """A sequence has no result that fits; says why."""
+    """A sequence has no result that fits; the message says why."""
 
 
 @dataclass(frozen=True)
 class ResultsSpec(TrackerSpec):
-    """Results under a name. form: one of OTB, GOT10K and VOT. first_pixel: the first pixel's coordinate in
-    OTB's files, None as in the true boxes' file.
+    """Others' results under a name. form: one of OTB, GOT10K and VOT. first_pixel: the first pixel's
+    coordinate in OTB's files; None: as in the file of true boxes.
     """
 
     folder: Path = Path()
@@ -157,9 +157,9 @@ def _result_files(folder: Path) -> list[Path]:
 
 
 def sequence_names(entry: Entry, among: Collection[str] = ()) -> list[str]:
-    """How toolkits may name a sequence, the most telling first; in lower case, with _ for blanks.
+    """How toolkits may name a sequence, the most specific name first; in lower case, with _ for blanks.
 
-    among: the names of all sequences. What would be the name of several is left out.
+    among: the names of all sequences. Names that several of them would have are left out.
     """
     parts = entry.name.split("/")
     named = len(parts) - (1 if entry.target is None else 2)
@@ -270,8 +270,8 @@ def _read_box(line: str, path: Path, number: int) -> Sequence[float]:
 
 
 def _first_pixel(spec: ResultsSpec, opened: OpenedSequence, boxes: Array) -> float:
-    """The first pixel's coordinate: as told; as the first box shows, which is the true one; or else, in OTB's
-    form, as in the file of true boxes.
+    """The first pixel's coordinate: the given one; the one that the first box, a true one, shows; or else, in
+    OTB's form, that of the file of true boxes.
     """
     if spec.first_pixel is not None:
         return spec.first_pixel

@@ -56,7 +56,7 @@ def _run_here(tasks: Sequence[Task], perform: Perform) -> Generator[Finished, No
 
 
 def _run_in_processes(tasks: Sequence[Task], perform: Perform, jobs: int) -> Generator[Finished, None, None]:
-    """A killed process breaks its pool. What ran then runs again, each alone, to find the cause."""
+    """A killed process breaks its pool. Its tasks are then repeated, each alone, to find the cause."""
     try:
         from joblib.externals.loky import ProcessPoolExecutor  # unlike Python's it needs no main module
     except ImportError:
@@ -96,7 +96,7 @@ def _run_in_pool(
             done, running = wait(running, return_when=FIRST_COMPLETED)
             yield from (future.result() for future in done)
     finally:
-        # What still runs isn't wanted. One call: a second, as by ``with``, would take kill_workers back.
+        # Running tasks aren't wanted. One call: a second, as by ``with``, would undo kill_workers.
         try:
             _wait_until_given(running)
         finally:

@@ -18,7 +18,7 @@ class Store:
         self.folder = folder
 
     def prepare(self) -> None:
-        """Make the folder; OSError where nothing can be written into it, which is better known early."""
+        """Make the folder; OSError early if nothing can be written into it."""
         self.folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=self.folder):
             pass
