@@ -44,11 +44,11 @@ NO_DRIFT = 0.0, 0.0, 0.0, 0.0
 
 
 class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
-    """Tracks a face, or any target with a color and structure of its own, in BGR video.
+    """Tracks a face, or any target with distinctive colors and structure, in BGR video.
 
     Particles are ellipses (x, y, minor, major). They are drawn from the target's motion model and from the
     detections of a skin classifier. Their weights come from the ranks of their pixels' colors, which don't
-    change with the light, and from the contrast of their colors to those around them.
+    change with the light, and from the contrast of their colors to the surround's.
 
     ``ColorParticleTracker(seed=0, kernels="native", **parameters)`` takes the parameters of :attr:`Params`,
     one by one or all at once as ``params=``. The same seed gives the same track, bit for bit. A tracker
@@ -97,9 +97,9 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         """Start, or restart, on the target in ``box``: (x, y, width, height), pixels.
 
         The box may extend beyond the image. Without a box it starts on the head that stands out in a stereo
-        pair or in depth, if the frame has them, or else on the largest frontal face. ValueError where no part
-        of the box is inside, and, without a box, where none is found (TargetNotFoundError) or nothing is
-        installed that detects faces (BoxNeededError).
+        pair or in depth, if the frame has them, or else on the largest frontal face. ValueError if no part of
+        the box is inside the image, and, without a box, if no target is found (TargetNotFoundError) or no
+        face detector is installed (BoxNeededError).
         """
         image, timestamp = validation.color_image(frame)
         k = self._k
@@ -154,7 +154,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         return self._keep(state, frame)
 
     def _follow(self, state: State, image: Image) -> State:
-        """Predict, measure, weigh, estimate; once more and wider where the likelihood has dropped."""
+        """Predict, measure, weigh, estimate; again, in a wide search, if the likelihood has dropped."""
         k, p, motion = self._k, self.params, state.motion
         prediction = motion.predict(p, state.shape)
         detection = detect_skin(k, image, state.skin_color, motion.ellipse, prediction, p)
@@ -208,7 +208,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         return max(narrow, close, key=lambda each: each.log_likelihood)
 
     def _redetect(self, state: State, image: Image) -> State:
-        """Search for a lost target in the whole frame, and track it again where it is recognized."""
+        """Search for a lost target in the whole frame, and track it again if it is recognized."""
         k, p, appearance = self._k, self.params, state.appearance
         candidates = draw_candidates(k, image, state.skin_color, state.motion, p, self._rng)
         log_likelihood = appearance.log_likelihood(k, image, candidates, searching=True)
@@ -235,16 +235,15 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         motion: EllipseMotion,
         first_log_likelihood: float | None = None,
     ) -> State:
-        """The state with these particles; what is recognized in them, and their likelihood, tell whether they
-        are on the target.
+        """The state with these particles; recognition and likelihood tell whether they are on the target.
 
-        By chance the ranks of some place are a little like those of a covered target. Its likelihood, to
-        which colors add, isn't; were it learned, the tracker would stay there. What is learned beside the
-        target is recognized there, too, so the score is told by what was learned from the first frame, and by
-        the lead over what is beside it; and after a frame in which the target was missed, it has to be high.
-        What is far from where it moves has to be as likely as usual: most often it is something else. A LOST
-        target passed the search's own test. first_log_likelihood: by the first frame's appearance,
-        where it is known.
+        By chance some place has ranks a little like those of a covered target. Its likelihood, to which
+        colors add, isn't like the target's; if it were learned, the tracker would stay there. A model that
+        learned something beside the target recognizes that, too. So the score depends on the first frame's
+        model, and on the lead over the windows beside it; after a frame in which the target was missed, the
+        score has to be high. A place far from the target's predicted motion has to be as likely as usual, as
+        mostly it is something else. A LOST target passed the search's own test. first_log_likelihood: by the
+        first frame's appearance, if known.
         """
         k, p, log_likelihood = self._k, self.params, particles.log_likelihood
         recognition = state.appearance.recognition(k, particles.seen)
@@ -279,8 +278,8 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         )
 
     def _jumped(self, state: State, particles: ParticleSet) -> bool:
-        """Whether the estimate is less likely than usual, and farther from where the velocity leads than a
-        wide search usually goes.
+        """Whether the estimate is less likely than usual, and farther from the predicted place than a wide
+        search usually goes.
         """
         p, motion = self.params, state.motion
         if particles.log_likelihood >= state.mean_log_likelihood - p.likelihood_drop:
@@ -291,7 +290,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         return off > p.wide_search_spread * motion.side
 
     def _lead(self, appearance: Appearance, image: Image, ellipse: Floats, log_likelihood: float) -> float:
-        """The lead over what is beside an ellipse (4,); NEVER where its likelihood doesn't tell."""
+        """The lead over the windows beside an ellipse (4,); NEVER if likelihoods aren't comparable."""
         return appearance.lead(self._k, image, ellipse, log_likelihood) if self._comparable else NEVER
 
     def _learn(self, state: State, image: Image, rate: float) -> Appearance:

@@ -127,9 +127,8 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
         """Start, or restart, on the target in ``box``: (x, y, width, height), pixels of the depth image.
 
-        Without a box, start on the most prominent person. ValueError where no part of the box is inside the
-        image, or no depth in the middle of the box is in range. Without a box, ValueError where no person is
-        detected.
+        Without a box, start on the most prominent person. ValueError if no part of the box is inside the
+        image, if no depth in the middle of the box is in range, or, without a box, if no person is detected.
         """
         depth, timestamp = validation.depth_image(frame)
         camera = validation.camera_or_default(self.intrinsics, depth.shape).vector
@@ -179,7 +178,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
     def _follow(
         self, state: State, depth: NDArray[np.float32], timestamp: float | None, seconds: float
     ) -> State:
-        """Segment, predict, measure, weigh, estimate; learn, or coast where the target is missed."""
+        """Segment, predict, measure, weigh, estimate; learn, or coast if the target is missed."""
         k, p = self._k, self.params
         fg, plane = extract_foreground(k, depth, state.camera, state.plane, self._rng, p)
         objects = segment(k, fg, plane, p, others=state.others if p.leave_out_others else NOTHING_KNOWN)
@@ -235,7 +234,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         return FilteredTarget(found, state.model.observation(observed), histogram)
 
     def _draw(self, shape: tuple[int, ...]) -> tuple[float, Floats]:
-        """Random numbers of a step: of resampling, and normal ones of each sampling."""
+        """The random numbers of a step: for resampling, and normal ones for each sampling."""
         noise = np.empty((self.params.sweeps, *shape))
         self._rng.standard_normal(out=noise[0])
         offset = self._rng.random()
@@ -244,7 +243,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         return offset, noise
 
     def _recognized(self, state: State, observed: DepthObservation, target: TargetObject | None) -> bool:
-        """Whether the target is visible at the estimate; after it was missed, only where an object is it."""
+        """Whether the target is visible at the estimate; if it was missed, only if it matches an object."""
         if state.missed_seconds > 0 and target is None:
             return False
         return (
@@ -255,7 +254,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
     def _accept(
         self, state: State, fg: Foreground, found: FilteredTarget, motion: BodyMotion, changes: Changes
     ) -> State:
-        """The state at the particles' estimate, which is where the target is, with other changes."""
+        """The state at the particles' estimate, where the target is, with other changes."""
         others = remember_others(
             self._k, state.others, fg, found.particles.state, self.params.histogram_reach
         )
@@ -273,7 +272,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         )
 
     def _learn(self, state: State, found: FilteredTarget, target: TargetObject | None) -> Changes:
-        """Of the state the depth model, the running means and the signature, updated."""
+        """The updated depth model, running means and signature of the state."""
         p, signature, observed = self.params, state.signature, found.observed
         if target is not None and all(target.whole.tolist()):
             signature = signature.learn(target.signature)

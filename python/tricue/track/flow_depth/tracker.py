@@ -41,11 +41,11 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
     """Follows one person or object among others by its motion and its disparity, also with a moving camera,
     through overtaking and complete occlusion.
 
-    Each frame has ``color`` (BGR or gray), rectified, and ``right`` or ``depth``; the depth is that of the
-    color image's pixels. Where a frame has both, right is left out. ``cues`` chooses flow, disparity or both.
-    Flow alone needs color alone. Disparity alone with a depth camera needs depth alone. The box is in pixels
-    of the left image. Tracks have a ``position`` and a ``covariance`` with ``rig=`` for a stereo pair, or
-    ``intrinsics=`` for a depth camera.
+    Each frame has ``color`` (BGR or gray), rectified, and ``right`` or ``depth``; depth has to be registered
+    to color. If a frame has both, ``right`` isn't used. ``cues`` chooses flow, disparity or both. Flow alone
+    needs only color. Disparity alone with a depth camera needs only depth. The box is in pixels of the left
+    image. Tracks have a ``position`` and a ``covariance`` with ``rig=`` for a stereo pair, or ``intrinsics=``
+    for a depth camera.
     ``vergence`` is the angle of a verged stereo pair. The tracker isn't random: the seed changes nothing.
 
         tracker = tricue.FlowDepthTracker(rig=rig)
@@ -83,11 +83,11 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         self.rig, self.intrinsics = validation.cameras(rig, intrinsics)
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
-        """Start, or start again, on what is in ``box``, (x, y, width, height) in pixels of the left image.
+        """Start, or start again, on the target in ``box``, (x, y, width, height) in pixels of the left image.
 
-        ValueError without a box, where no part of it is inside, and, unless flow is the only cue, where
-        its pixels share no disparity or depth. Warns (UserWarning) where left and right seem to be swapped,
-        or not rectified.
+        ValueError without a box, if no part of it is inside the image, and, unless flow is the only cue, if
+        its pixels share no disparity or depth. Warns (UserWarning) if left and right seem to be swapped, or
+        not rectified.
         """
         checked = validation.require_cue_channels(frame, self.params.cues)
         target = validation.initial_box(box, checked.image.shape)
@@ -102,7 +102,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
 
-        The time between frames is that of their timestamps, or 1 / ``rate`` where there are none.
+        The time between frames is that of their timestamps, or 1 / ``rate`` if there are none.
         RuntimeError before ``init``. An error leaves the tracker as it was.
         """
         before = validation.require_initialized(self._state)
@@ -129,7 +129,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
     def mask(self) -> NDArray[np.uint8] | None:
         """(H, W) 255 at the target's pixels in the newest frame, else 0; None before ``init``.
 
-        In the first frame there are none yet.
+        In the first frame it is 0 everywhere.
         """
         return None if self._state is None else target_mask(self._state)
 
@@ -250,10 +250,10 @@ def _shown_window(state: FlowDepthState, p: FlowDepthParams) -> Rectangle:
 
 
 def _shift(state: FlowDepthState, p: FlowDepthParams) -> Velocity:
-    """By which the target is expected to move until the next frame.
+    """The expected motion of the target until the next frame.
 
-    While it is missed it moves on, its center inside of the image. After ``lost_after`` nobody knows where it
-    would have gone: it is searched where it was last found.
+    While it is missed it moves on, its center inside the image. After ``lost_after`` its motion is
+    unknown: it is searched for where it was last found.
     """
     if not state.missed:
         return state.velocity

@@ -76,10 +76,10 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
         """Start, or start again, on the head in ``box``, (x, y, width, height) in pixels of the left image.
 
-        Without a box it starts on the head on shoulders that stands out most in the disparities.
-        ValueError where no part of the box is inside, where nothing in it has a disparity between near and
-        far, and, without a box, where no head is found (TargetNotFoundError). Warns (UserWarning) where the
-        pair seems not to be rectified, or its images to be swapped.
+        Without a box it starts on the head on shoulders that stands out most in the disparities. ValueError
+        if no part of the box is inside the image, if nothing in it has a disparity between near and far, and,
+        without a box, if no head is found (TargetNotFoundError). Warns (UserWarning) if the stereo pair seems
+        not to be rectified, or its images to be swapped.
         """
         left, right, timestamp = validation.stereo_pair(frame)
         rig = validation.rig_or_default(self.rig, left.shape)
@@ -118,7 +118,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
     def update(self, frame: FrameLike) -> Track:
         """Follow the head into the next stereo pair, of the same size as the first.
 
-        The time between frames is that of their timestamps, or 1 / ``rate`` where there are none.
+        The time between frames is that of their timestamps, or 1 / ``rate`` if there are none.
         RuntimeError before ``init``. An error leaves the tracker as it was.
         """
         before = validation.require_initialized(self._state)
@@ -144,7 +144,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
     def _follow(
         self, state: HeadState, pair: PreparedPair, seconds: float, timestamp: float | None
     ) -> HeadState:
-        """Predict, measure, correct and learn; or re-detect, or coast, where the head isn't recognized."""
+        """Predict, measure, correct and learn; or re-detect, or coast, if the head isn't recognized."""
         k, p, geometry = self._k, self.params, state.geometry
         predicted = head_filter.predict(k, state.filter, seconds, p)
         position = predicted.position
@@ -165,7 +165,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         return state._replace(filter=coasting, missed=missed, score=0.0, timestamp=timestamp)
 
     def _redetect(self, state: HeadState, pair: PreparedPair) -> HeadMeasurement | None:
-        """The head anywhere in the image, as far as it can have moved; None where it isn't recognized."""
+        """The head anywhere in the image, as far as it can have moved; None if it isn't recognized."""
         k, p = self._k, self.params
         radius = MIN_SEARCH_RADIUS + p.max_speed * state.missed
         head = LostHead(state.size, state.model, state.last_seen, radius)
