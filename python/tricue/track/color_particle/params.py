@@ -253,15 +253,15 @@ class ColorParticleParams(Params):
 
     @classmethod
     def paper(cls) -> "Self":
-        """The tracker as section III prints it, with no stage of ours.
+        """The tracker as section III prints it, without our additions.
 
         State and motion, (30)
             A = I: the mean stays where the particle is (``drift=0``), though the text calls that a model of
             constant velocity. K grows with the velocity, taken as the last step, unsmoothed
             (``velocity_rate=1``). Print gives no numbers for K: 5 % of the target at rest and one step more
             in motion (``velocity_noise=1``), on top of half a pixel (``MIN_PIXEL_NOISE``). Both axes of the
-            ellipse walk by 2 % a frame, each by itself (``size_noise=0``, ``aspect_noise=0.02``), without a
-            way back to a mean size; ``size_range`` only keeps them positive. "Maximum sample propagation area
+            ellipse vary by 2 % a frame, each by itself (``size_noise=0``, ``aspect_noise=0.02``), without a
+            pull to a mean size; ``size_range`` only keeps them positive. "Maximum sample propagation area
             is the 40-pixel proximity": 40 px along each axis, whatever the target's size.
         Proposal, (3)-(16)
             The moments (11)-(16) are those of the skin pixels of the whole image. (14)-(16) lack the division
@@ -283,8 +283,8 @@ class ColorParticleParams(Params):
             The model is that of the last estimate ("estimated in the previous frame"), where the confidence
             is high. Print doesn't define confidence: what is recognized, above 0.3.
 
-        There is no wide search (``likelihood_drop``) and no re-detection (``lost_after``): several hypotheses
-        are all that the paper recovers by. OCCLUDED still says that little is recognized, and that alone
+        There is no wide search (``likelihood_drop``) and no re-detection (``lost_after``): the paper recovers
+        only by its several hypotheses. OCCLUDED still says that little is recognized, and only that
         (``max_likelihood_drop``); a likelihood as printed has no lead (``min_lead``), nor a look back.
         """
         return cls(

@@ -228,29 +228,29 @@ class DepthParticleParams(SegmentationParams):
 
     @classmethod
     def paper(cls) -> "Self":
-        """The tracker as section IV prints it, with no stage of ours.
+        """The tracker as section IV prints it, without our additions.
 
         - Segmentation (32)-(36): all maxima of the density divide the range (``prominence``), and nothing but
           connected components separates what a division holds: no floor, no edges, no filled gaps, nothing
           remembered or completed. The kernel's width (``bandwidth``) and the least area of an object aren't
           printed, and stay ours. Images of 480 columns and more are thinned (``resolution``); the paper's 176
           aren't.
-        - Human candidates: by aspect ratio and by size at their mean depth, always; not by how much of its
-          box one fills. The limits aren't printed, and stay ours.
+        - Human candidates: by aspect ratio and by size at their mean depth, always; not by the share of its
+          box that a candidate fills. The limits aren't printed, and stay ours.
         - Which candidate is the target: by place and extent along the image's axes and in depth, by its
           horizontal and vertical distribution, and by the depth histogram of its rectangle, (38). No measure
-          of likeness is printed: it is the cost of :mod:`tricue.track.depth_particle.matching`. Of who the
-          image's border cuts it leaves out the distributions; a size that was never wholly in the image is a
-          lower bound.
+          of similarity is printed: it is the cost of :mod:`tricue.track.depth_particle.matching`. For a
+          person cut off by the image's border it leaves out the distributions; a size that was never wholly
+          in the image is a lower bound.
         - State: "a scalable rectangle"; ours is in meters, with a depth. The location is the expected value,
           the rectangle's center. Particles, (39): A = I, and K grows with the speed, that of the last step
           (``velocity_rate``); K's numbers, and the share drawn from the segmented object, aren't printed.
         - Likelihood (37), (38): 1 - d of the depths' histograms, 256 levels over the camera's range, of 64 x
-          64 places in a rectangle in place of its every pixel. Printed are counts, with which d would
-          exceed 1: they are divided by their sum, and d by its maximum, the square root of 2.
+          64 places in a rectangle instead of all its pixels. With the counts as printed d would exceed 1:
+          they are divided by their sum, and d by its maximum, the square root of 2.
         - The histogram is updated "if estimation confidence is high": while the likelihood of the estimate is
           above 0.6 of its running mean (``likelihood_drop``). Neither number nor rate is printed.
-        - Nothing is printed of hidden targets: the filter goes on, and every frame is TRACKED.
+        - Nothing is printed about hidden targets: the filter goes on, and every frame is TRACKED.
         - Number of particles and range: those of section V, 100 (of figure 1) and 0.3 to 7.5 m.
         """
         return cls(

@@ -399,38 +399,38 @@ class FlowDepthParams(Params):
 
     @classmethod
     def paper(cls) -> "Self":
-        """The paper as printed, without any stage of ours; for one cue alone, ``cues`` can be replaced.
+        """The paper as printed, without our additions; for one cue alone, ``cues`` can be replaced.
 
         Where print is wrong:
 
-        - (4) lacks the minus of (3); it is there.
+        - (4) lacks the minus of (3); here it has it.
         - (7) equates slopes with slopes; the difference of brightness is meant.
         - (8) lacks its parentheses and moves rows alone, so that one depth has other disparities in other
           columns. Rows and columns are rectified (the kernel rectify_verged).
 
         Where it is changed: f in (7) and (9), the images in print, are their derivatives along x, which a
-        change of light leaves nearly as they are. So (9) has second derivatives.
+        change of light hardly affects. So (9) has second derivatives.
 
-        Where it is silent, and what was taken:
+        Where it is silent, and our choice:
 
         - The filters g, h of (4): derivatives of a Gaussian along x and y. Flow beyond 2.2 of its deviations,
-          where it is ambiguous, is left out.
+          where it is ambiguous, isn't used.
         - (7) reaches one or two pixels: the right image is shifted by the last disparity. A depth camera's
           disparities all have the weight 1 in place of (9).
         - (7) divides by the squared slope, which may be 0: 0.01 is added to it, so that the last disparity
           stays where there is hardly any contrast.
-        - The velocity without flow, ``cues=("disparity",)``: it takes 0.3 of each step by which the target
-          pixels' center is off it.
-        - The first disparity: the one that most of the box has by block matching, or by the depth image.
+        - The velocity without flow, ``cues=("disparity",)``: it changes by 0.3 of the distance between the
+          target pixels' center and the predicted one.
+        - The first disparity: that of most of the box, by block matching or by the depth image.
         - Histograms (section 4.2) are centered on the last peak.
         - P(F) in (11) is constant, and has no number. Here P(obj|F) is P(F|obj) P(obj) over itself plus even
           densities: a probability, and a threshold on it is one on P(F|obj) P(obj), as with a constant.
-          A pixel needs a reading of every cue.
+          A pixel needs a measurement of every cue.
         - Votes and negative votes (section 4.4) add up over all frames in which a block has one state. A mean
           disparity needs a fifth of the block's cells; without it a block isn't nearer.
         - Too few target pixels and no occluded block (section 4.5): the target is missed, moves on at its
-          last velocity as far as the image's edge. Hidden by something nearer it is never LOST, of which
-          print doesn't speak; else it is after a while.
+          last velocity as far as the image's edge. If something nearer hides it, it is never LOST, which
+          isn't printed; otherwise it is LOST after a while.
         - After a complete occlusion the disparity in the window is the target's.
         - All thresholds, sizes and numbers of votes: those that did best of some 2,000 settings on the scenes of
           ``tricue reproduce okada-fig8``, the last 300 of them on seeds 20 to 35. The least reliability (9) is

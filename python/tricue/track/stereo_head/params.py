@@ -291,7 +291,7 @@ class StereoHeadParams(Params):
 
     @classmethod
     def paper(cls) -> "Self":
-        """The tracker that the paper prints, with no stage of ours; figure 3, unfused, has ``fuse=False``.
+        """The tracker that the paper prints, without our additions; figure 3, unfused, has ``fuse=False``.
 
         Where print is silent or can't be followed to the letter:
 
@@ -353,7 +353,7 @@ class StereoHeadParams(Params):
 
 
 def _check_histogram(histogram: tuple[tuple[int, float], ...], bins: int) -> None:
-    """ValueError for a bin that there isn't, one that is there twice, and for no weight at all."""
+    """ValueError for a bin that doesn't exist or occurs twice, and for weights without a positive sum."""
     indices = [index for index, _ in histogram]
     if len(set(indices)) < len(indices) or max(indices, default=0) >= bins:
         raise ValueError(f"head_colors: expected each bin once and below {bins}, the product of bins")
