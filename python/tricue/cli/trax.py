@@ -21,7 +21,8 @@ from tricue.track.base.settings import read_settings
 PROGRAM = "python -m tricue.cli.trax"
 _NOTES = """\
 Options that the command line lacks are taken from the environment: TRICUE_TRACKER, TRICUE_SET
-("particles=300 low=0.2"), TRICUE_PARAMS, TRICUE_SEED, TRICUE_CALIBRATION. That is for VOT's trackers.ini:
+("particles=300 min_score=0.2"), TRICUE_PARAMS, TRICUE_SEED, TRICUE_CALIBRATION. That is for VOT's
+trackers.ini:
 
   [color-particle]
   protocol = traxpython
