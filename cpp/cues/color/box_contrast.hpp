@@ -14,8 +14,8 @@ struct FramedBox {
 
 /// Center-surround contrast of a map: its mean in a box minus `around` times its mean in the frame around the box.
 ///
-/// Output (i, j) is for the box centered at x = C + 2 (j - C // 2), y = R + 2 (i - R // 2), so the middle output is for the middle
-/// of the map. A pixel counts by the part of it that is covered; outside the map the values are 0. Sums are float64.
+/// Output (i, j) is for the box centered at x = C + 2 (j - C // 2), y = R + 2 (i - R // 2), so the middle output is for the
+/// middle of the map. A pixel counts by its covered fraction; outside the map the values are 0. Sums are float64.
 ///
 /// @param plane float32 (2R, 2C), finite, at least 2 x 2
 /// @param around weight of the frame, finite

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t kMaxSide = 32768;
 constexpr double kMaxGain =
-    255.0;  // more makes no difference, but may be infinite in float32: 0 times that is no number
+    255.0;  // larger gains change nothing, but may be infinite in float32, and 0 times infinity is NaN
 
 /// An axis as factors: floor(v bins / levels) is the integer part of (v bins + 1/2) (1 / levels). That is at least 1 / (2 levels) away
 /// from an integer, a hundred times the rounding error of float32.

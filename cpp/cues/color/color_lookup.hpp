@@ -6,7 +6,7 @@
 
 namespace tricue {
 
-/// Looks the color of each sample up in a table: table[b B // 256, g B // 256, r B // 256].
+/// Looks up the color of each sample in a table: table[b B // 256, g B // 256, r B // 256].
 ///
 /// @param samples uint8 (N, 3, n): N ellipses, channels B, G, R
 /// @param table float32 (B, B, B), B a power of two up to 64; in C++ B² rows (blue, green) of B reds

@@ -6,7 +6,7 @@
 
 namespace tricue {
 
-/// Looks the color of each pixel of an image up in a table, as color_lookup does for samples: P(target | color).
+/// Looks up the color of each pixel of an image in a table, as color_lookup does for samples: P(target | color).
 ///
 /// @param image uint8 (H, W, 3) BGR
 /// @param table float32 (B, B, B), B a power of two up to 64; in C++ B² rows (blue, green) of B reds

@@ -10,7 +10,7 @@ namespace tricue {
 /// level) / n.
 ///
 /// Equation (17) as printed counts all samples of the same level, so that a large flat area ranks higher than a small one; the
-/// mid-rank has no such bias, and a mean of 1/2. Any strictly increasing change of a channel leaves the ranks as they are.
+/// mid-rank has no such bias, and a mean of 1/2. Any strictly increasing change of a channel leaves the ranks unchanged.
 ///
 /// @param samples uint8 (N, 3, n): N ellipses, channels B, G, R, n at least 1
 /// @returns float32 (N, 3, n), each in (0, 1); in C++ N rows of 3 n

@@ -19,7 +19,7 @@ constexpr int kBins = 8, kUnsigned = 4, kBlocks = 4, kColors = 3;
 constexpr int kContrasts = kBins + kUnsigned + kBlocks;
 constexpr float kMinContrast = 102.0F;  // gray levels; added to the energy of every block
 constexpr float kMaxShare = 0.2F;       // of a block's contrast in one orientation of one cell
-constexpr float kTexture = 0.2357F;     // 1 / sqrt(18), as Felzenszwalb et al. have it
+constexpr float kTexture = 0.2357F;     // 1 / sqrt(18), as in Felzenszwalb et al.
 
 TRICUE_MULTIVERSION
 void split_row(const std::uint8_t* __restrict pixels, int n, float* __restrict blue, float* __restrict green,

@@ -32,7 +32,7 @@ void add_blocks(const std::uint8_t* bytes, int blocks, int size, std::uint16_t* 
     size == 3 * kBlock ? add<3 * kBlock>(bytes, blocks, size, sums) : add<0>(bytes, blocks, size, sums);
 }
 
-/// Sums of samples, by sums of all pixels in blocks, of which only those of samples are looked at.
+/// Sums of samples: all pixels are summed in blocks, and only the sums at samples are used.
 class BlockSums {
 public:
     explicit BlockSums(int step)

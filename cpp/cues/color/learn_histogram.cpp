@@ -9,7 +9,7 @@
 namespace tricue {
 namespace {
 
-/// What the numbers are mixed by.
+/// The shares in which the histograms are mixed.
 struct Shares {
     double rate, weight;
 };

@@ -23,7 +23,7 @@ std::vector<double> find_distances(int size, double length) {
     return distances;
 }
 
-/// Pixels from `first` to before `end` of a row.
+/// Pixels [first, end) of a row.
 struct Run {
     int first, end;
 };
@@ -72,7 +72,7 @@ private:
         });
     }
 
-    /// Whether another cue tells that more than half of the ellipse's pixels are the target's.
+    /// Whether another cue says that more than half of the ellipse's pixels are the target's.
     bool is_seen(const LearnedPixels& pixels) const {
         if (other_.rows == 0) return false;
         std::ptrdiff_t all = 0, seen = 0;
@@ -118,7 +118,7 @@ void require_arguments(const ImageView& patch, const PlaneView& other, const Lea
         if (!(number >= 0.0 && number <= 1.0)) refuse(name, "a number in [0, 1]", number);
 }
 
-constexpr double kUnseen = 0.5;  // P(target) of a color that neither side has: it tells nothing
+constexpr double kUnseen = 0.5;  // P(target) of a color that neither side has: no evidence
 
 }  // namespace
 

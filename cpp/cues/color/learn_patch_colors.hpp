@@ -11,17 +11,17 @@ namespace tricue {
 /// Which pixels of a patch are a target's, and which its surround's.
 struct LearnedPixels {
     double width, height;  ///< of the target's box, pixels
-    double outer;          ///< of the box, outside of which pixels are the surround's
-    double least_own;      ///< above this, P(target) of the target's pixels
-    double most_other;     ///< below this, P(target) of the pixels in the box that are the surround's
+    double outer;          ///< scale of the box, outside of which pixels are the surround's
+    double least_own;      ///< P(target) of the target's pixels is above this
+    double most_other;     ///< P(target) of the surround's pixels in the ellipse is below this
 };
 
 /// learn_contrast of a patch with the target in its middle: one stage of the frame, in one call.
 ///
-/// The target's pixels are those with their centers in the ellipse that fits into its box; half a box's sides count as a pixel at
-/// least. The surround's are those with their centers outside of the box times `outer`; where there are none, those outside of the
-/// ellipse. Where another cue tells that more than half of the ellipse's pixels are the target's, by more than `least_own`, only these
-/// are, and those with less than `most_other` are the surround's. A color that neither has tells nothing:
+/// The target's pixels are those with their centers in the ellipse that fits into its box; half of a side counts as at least one
+/// pixel. The surround's are those with their centers outside of the box times `outer`; if there are none, those outside of the
+/// ellipse. If another cue gives more than half of the ellipse's pixels a P(target) above `least_own`, only these pixels are the
+/// target's, and the ellipse's pixels with less than `most_other` are the surround's, too. A color that neither has gets 1/2:
 ///     table = (target + rare / 2) / (target + surround + rare)
 ///
 /// @param patch uint8 (H, W, 3) BGR

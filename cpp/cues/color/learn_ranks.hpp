@@ -5,7 +5,7 @@
 
 namespace tricue {
 
-/// Moves the first of some rank maps towards the ranks that are seen: new = old + rate (seen - old), in float32. The others stay.
+/// Moves the first of M rank maps toward the ranks that are seen: new = old + rate (seen - old), in float32. The others stay.
 ///
 /// @param models float32 (M, 3, n): rank maps, M at least 1; in C++ M rows of 3 n
 /// @param ranks float32 (3, n): as rank_window has them; in C++ one row of 3 n

@@ -18,7 +18,7 @@ using PlacesRef = Eigen::Ref<const PixelPlaces>;
 /// @param places int64 (R, C): y W + x of each pixel, from 0 to H W - 1
 /// @returns uint8 (R, C, 3); in C++ the bytes one after the other
 /// @throws std::invalid_argument on a place outside of the image, or padded rows
-/// Source: the log-polar coordinates that it serves for, Reddy and Chatterji 1996.
+/// Source: Reddy and Chatterji 1996, for the log-polar coordinates.
 PixelBytes pick_pixels(const ImageView& image, PlacesRef places);
 
 }  // namespace tricue

@@ -9,7 +9,7 @@
 
 namespace tricue {
 
-/// Where an ellipse is read.
+/// The places at which an ellipse and its surround are sampled.
 struct Windows {
     /// float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in sample_ellipses
     StatesRef inside;
@@ -20,8 +20,8 @@ struct Windows {
 struct ColorLook {
     FloatsRef
         models;  ///< float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1; in C++ M rows of 3 n
-    VectorRef shares;  ///< float64 (M,): of each map in the mean distance, finite
-    bool nearest;      ///< whether to take the least distance instead: shares only have to be valid
+    VectorRef shares;  ///< float64 (M,): weight of each map in the mean distance, finite
+    bool nearest;      ///< whether to take the least distance; shares then only have to be valid
     FloatsRef table;   ///< float32 (B, B, B): P(target | color), as color_lookup takes it
 };
 
@@ -31,7 +31,7 @@ struct LookWeights {
     double contrast_weight;  ///< nats, finite
 };
 
-/// Measures as rank_likelihood, more than once in an image. What it is made of must outlive it.
+/// Measures as rank_likelihood, more than once in an image. The arguments of its constructor must outlive it.
 class RankMeter {
 public:
     /// @throws std::invalid_argument as rank_likelihood
@@ -51,14 +51,14 @@ private:
 
 /// The measurement of the color particle tracker in one pass: log p(y | x) = −sharpness d² + contrast_weight c, nats.
 ///
-/// d is the mean of the distances between the samples inside the ellipse and each rank map, as rank_distance has them, by the maps'
-/// shares; or the least of them. c is the mean of the table over the samples inside less that over those around it. The samples are
-/// those of sample_ellipses; one pass keeps them in the cache.
+/// d is the mean, weighted by the maps' shares, of the distances (rank_distance) between the samples inside the ellipse and each
+/// rank map; or the least of these distances. c is the mean of the table over the samples inside minus that over those around the
+/// ellipse. The samples are those of sample_ellipses; one pass keeps them in the cache.
 ///
 /// @param image uint8 (H, W, 3) BGR, at least one pixel
 /// @param ellipses float64 (N, 4): center x, y, semi-axes along x (minor) and y (major), pixels, finite
 /// @returns float64 (N,)
-/// @throws std::invalid_argument as the kernels that it joins, on a pattern without places, or without maps
+/// @throws std::invalid_argument as the kernels that it combines, on a pattern without places, or without maps
 /// Source: orders of corresponding pixels, Sabeti, Parvizi, Wu 2008, section III.B; the contrast is ours.
 Vector rank_likelihood(const ImageView& image, StatesRef ellipses, const Windows& windows,
                        const ColorLook& look, const LookWeights& weights);

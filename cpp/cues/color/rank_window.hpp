@@ -12,10 +12,10 @@ struct RankWindow {
     Vector correlations;  ///< float64 (M,): in [0, 1], with each of the models
 };
 
-/// The order of the pixels in one ellipse, and how much it is like that of each rank map: what a color tracker learns, and its score.
+/// The order of the pixels in one ellipse, and its correlation with each rank map: what a color tracker learns, and its score.
 ///
-/// Spearman's correlation of all 3 n ranks, at least 0. As the mean of a map is 1/2, it is (Σab − N/4) / √((Σa² − N/4) (Σb² − N/4)),
-/// N = 3 n. A window or a map that is nearly flat has no order: the correlation is 0.
+/// The correlation is Spearman's, of all 3 n ranks; negative ones become 0. As the mean of a map is 1/2, it is (Σab − N/4) /
+/// √((Σa² − N/4) (Σb² − N/4)), N = 3 n. A window or a map that is nearly flat has no order: the correlation is 0.
 ///
 /// @param image uint8 (H, W, 3) BGR, at least one pixel
 /// @param ellipse float64 (4,): center x, y, semi-axes along x and y, pixels, finite

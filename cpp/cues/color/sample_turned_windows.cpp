@@ -15,20 +15,21 @@ namespace {
 constexpr int kSubpixels = 16;   // places are rounded to 1 / kSubpixels of a pixel
 constexpr int kMaxSide = 4;      // pixels, of the square that a sample is the mean of
 constexpr int kChunk = 64;       // samples whose places are found at once
-constexpr int kLinePixels = 21;  // whole ones in a line of the cache
-constexpr int kRowsAhead = 3;    // of samples, whose pixels are loaded ahead
-constexpr int kLanes = 8;        // numbers of two neighboring pixels, and two that mean nothing
+constexpr int kLinePixels = 21;  // whole pixels in a cache line
+constexpr int kRowsAhead = 3;    // rows of samples whose pixels are loaded ahead
+constexpr int kLanes = 8;        // numbers of two neighboring pixels, and two unused ones
 
 using Bytes = Pack<std::uint8_t, 2 * kLanes>;
 using Words = Pack<std::uint16_t, kLanes>;
 using Sums = Pack<std::uint32_t, kLanes / 2>;
 
-/// Where some samples of a row are: the upper left pixel of their squares, and the way from there in subpixels.
+/// The places of some samples of a row: the upper left pixel of their squares, and the offset from there in subpixels.
 struct Places {
     std::int32_t x[kChunk], y[kChunk], right[kChunk], down[kChunk];
 };
 
-/// One coordinate of n squares in an image of `size` pixels: of these the last but `side` at most, so that there is a next one.
+/// One coordinate of n squares in an image of `size` pixels: at most that of the pixel `side` before the last, so that the
+/// square's last pixel has a next one.
 TRICUE_MULTIVERSION
 void find_places(double start, double apart, double offset, int n, int size, int side,
                  std::int32_t* __restrict pixels, std::int32_t* __restrict fractions) {
@@ -94,7 +95,7 @@ TRICUE_INLINE void sum_rows(const Square& square, std::int32_t down, Row<kSide>&
     }
 }
 
-/// Three numbers of a pixel, and one that means nothing.
+/// Three numbers of a pixel, and an unused one.
 template <int kSide, int kPixel>
 TRICUE_INLINE void take_pixel(const Row<kSide>& row, Sums& numbers) {
     Words words = row.pairs[kPixel / 2], lower, upper;
@@ -125,7 +126,7 @@ TRICUE_INLINE void sum_columns(const Row<kSide>& row, std::int32_t right, Sums& 
     sum = first * rest + last * share + inner * static_cast<std::uint32_t>(kSubpixels);
 }
 
-/// A square at the end of memory, of which no more than it covers is read.
+/// A copy of a square at the end of memory; no bytes beyond the square are read.
 template <int kSide>
 Square copy_square(const std::uint8_t* pixels, std::ptrdiff_t stride, std::uint8_t* copy) {
     for (int y = 0; y <= kSide; ++y)
@@ -133,7 +134,7 @@ Square copy_square(const std::uint8_t* pixels, std::ptrdiff_t stride, std::uint8
     return {copy, kRowBytes<kSide>};
 }
 
-/// Sums of n samples' squares. `sums` has a number more than 3 a sample.
+/// Sums over the squares of n samples. `sums` has room for 3 numbers per sample and one more.
 template <int kSide>
 TRICUE_INLINE void sum_squares(const ImageView& image, const Places& places, int n, std::uint32_t* sums) {
     std::uint8_t copy[(kSide + 1) * kRowBytes<kSide>] = {};
@@ -174,12 +175,12 @@ void divide(const std::uint32_t* __restrict sums, float whole, int n, std::uint8
     }
 }
 
-/// Of n samples along a vector.
+/// The step between n samples along a vector.
 double find_step(double x, double y, int n) {
     return std::sqrt(x * x + y * y) / n;
 }
 
-/// Pixels a side of the squares that are read, which with a pixel more are in the image.
+/// The side of the squares in pixels; squares one pixel larger are still in the image.
 int find_side(const ImageView& image, const double* window, int rows, int columns) {
     const double step =
         std::min(find_step(window[2], window[3], columns), find_step(window[4], window[5], rows));
@@ -187,7 +188,8 @@ int find_side(const ImageView& image, const double* window, int rows, int column
     return std::min({side, image.rows - 1, image.cols - 1});
 }
 
-/// A window's samples: the upper left pixel of the square in its middle, and the way from one to the next in a row and in a column, pixels.
+/// A window's samples: the upper left corner of the square at the window's center, and the steps from one sample to the next in a
+/// row and in a column, pixels.
 struct TurnedGrid {
     int rows, columns, side;
     double left, top, right_x, right_y, down_x, down_y;
@@ -209,9 +211,10 @@ TurnedGrid find_grid(const ImageView& image, const double* window, int rows, int
             window[5] / rows};
 }
 
-/// Begins to load what the samples of a row read and those before it didn't, if there is such a row: a turned row's pixels lie in so many
-/// lines of the cache that hardware loads none ahead. Some neighboring samples share a line in each row of pixels; the new ones are the
-/// lowest, or the uppermost if the rows of samples go up. Few windows are turned by over 45 degrees: they are left out.
+/// Begins to load the pixels that a row of samples, if it exists, reads and the rows before it didn't: a turned row's pixels lie
+/// in so many cache lines that hardware loads none ahead. Some neighboring samples share a cache line in each row of pixels; the
+/// new lines are the lowest ones, or the uppermost if the rows of samples go up. Few windows are turned by over 45 degrees: for
+/// these nothing is loaded ahead.
 void prefetch_row(const ImageView& image, const TurnedGrid& grid, int y) {
     if (y >= grid.rows || std::abs(grid.right_x) <= std::abs(grid.right_y)) return;
     const int samples = std::max(static_cast<int>(kLinePixels / std::max(std::abs(grid.right_x), 1.0)), 1);
@@ -252,7 +255,7 @@ void sample_window(const ImageView& image, const double* window, int rows, int c
     }
 }
 
-/// The pixels of an image with one row or column, which is repeated.
+/// The pixels of an image whose only row or column is repeated.
 std::vector<std::uint8_t> repeat_edge(const ImageView& image, int rows, int cols) {
     std::vector<std::uint8_t> pixels;
     for (int y = 0; y < rows; ++y)

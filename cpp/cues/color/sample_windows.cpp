@@ -61,7 +61,7 @@ struct Rows {
     }
 };
 
-/// Where in a row of numbers a reading's two pixels begin, and the weight of each number of BGR pixels.
+/// The offset of a reading's two pixels in a row of numbers, and the weight of each number of BGR pixels.
 struct Column {
     int at;
     float weights[kLanes];
@@ -100,7 +100,7 @@ void blend_rows(const Rows& rows, int n, float* blend) {
         blend_all<kMaxRows>(rows, n, blend);
 }
 
-/// Samples of kEach columns. `sums` has kLanes - 3 numbers more than 3 a sample.
+/// Samples of kEach columns. `sums` has room for 3 numbers per sample and kLanes - 3 more.
 template <int kEach>
 inline void sum_samples(const Column* columns, int count, const float* blend, float* sums) {
     for (int i = 0; i < count; ++i, columns += kEach, sums += 3) {

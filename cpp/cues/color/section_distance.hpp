@@ -13,7 +13,7 @@ namespace tricue {
 /// @param sections float32 (N, 3, S), as rank_sections gives them; in C++ 3 N rows
 /// @param model float32 (3, S)
 /// @returns float64 (N,)
-/// @throws std::invalid_argument on unlike numbers of sections
+/// @throws std::invalid_argument on different numbers of sections
 /// Source: Sabeti, Parvizi, Wu 2008, equation (29).
 Vector section_distance(FloatsRef sections, FloatsRef model);
 

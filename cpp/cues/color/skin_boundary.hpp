@@ -19,7 +19,7 @@ using Boundary = Eigen::Array<std::int16_t, Eigen::Dynamic, Eigen::Dynamic, Eige
 /// Source: Sabeti, Parvizi, Wu 2008, equations (4)-(10).
 Boundary skin_boundary(const ImageView& image, const Bgr& reference);
 
-/// The same for `n` packed pixels of one row: what the other kernels of skin classify with.
+/// The same for `n` packed pixels of one row; the other skin kernels classify with it.
 void skin_boundary_row(const std::uint8_t* pixels, int n, const Bgr& reference, std::int16_t* boundary);
 
 /// The least value of 255 Δ that is skin, so that `boundary >= least` is Δ > threshold for whole numbers.

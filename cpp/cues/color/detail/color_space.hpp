@@ -10,8 +10,8 @@ namespace tricue {
 
 /// The axes (B - G, G - R, B + G + R) of Birchfield 1998, each cut into equal bins: bin (i, j, k) has index (i n_1 + j) n_2 + k.
 ///
-/// The two of chroma reach from -chroma to chroma; what lies beyond is in the end bins. Over their whole range, ±255, nearly all
-/// pixels of a real picture fall into a few bins round 0. The third axis reaches from 0 to 765.
+/// The two chroma axes range from -chroma to chroma; values beyond go to the end bins. Over the whole range, ±255, nearly all
+/// pixels of a real picture would fall into a few bins around 0. The third axis ranges from 0 to 765.
 struct ColorSpace {
     std::array<int, 3> bins;
     int chroma;

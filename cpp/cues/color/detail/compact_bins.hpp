@@ -16,7 +16,8 @@ namespace tricue {
 struct CompactBins {
     static constexpr std::uint16_t kOutside = 0;    ///< the index of pixels without a bin
     static constexpr std::uint16_t kUnmatched = 1;  ///< the first index of bins that are empty in the model
-    /// How many indices those bins share, unless they are fewer: neighbors then needn't wait for each other's count.
+    /// How many indices the bins that are empty in the model share, unless there are fewer of them: with several, neighboring
+    /// pixels needn't wait for each other's count.
     static constexpr int kUnmatchedCount = 8;
     static constexpr std::size_t kPadding = 16;  ///< the number of indices is a multiple of this
 

@@ -64,7 +64,7 @@ void split_channels(const std::uint32_t* __restrict words, std::ptrdiff_t n, std
     });
 }
 
-/// From the first byte of an image to its last. The rows of a broadcast one are a single row.
+/// Bytes from the first of an image to its last. The rows of a broadcast image are a single row in memory.
 std::ptrdiff_t count_bytes(const ImageView& image) {
     return (image.rows - 1) * image.stride + 3 * std::ptrdiff_t{image.cols};
 }

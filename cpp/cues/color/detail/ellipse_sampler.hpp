@@ -8,7 +8,7 @@
 
 namespace tricue {
 
-/// Samples an image at the places of a pattern under many ellipses. The image must outlive it.
+/// Samples an image at the places of a pattern under many ellipses. The image must outlive the sampler.
 class EllipseSampler {
 public:
     /// @throws std::invalid_argument on a pattern that isn't n x 2 or not finite, and on an image without pixels
@@ -22,8 +22,8 @@ public:
     /// How many ellipses are read at once.
     static constexpr std::ptrdiff_t kBatch = 8;
 
-    /// The samples of at most kBatch ellipses as words, size() an ellipse, valid until the next call: the lowest byte is blue, then
-    /// green, red, and one without a meaning.
+    /// The samples of at most kBatch ellipses as words, size() an ellipse, valid until the next call: the lowest byte is blue,
+    /// then green, red, and an unused one.
     const std::uint32_t* read_words(const double* ellipses, std::ptrdiff_t count);
 
     /// Writes the planes of the words of so many ellipses.

@@ -30,7 +30,7 @@ struct ColorCounts {
 /// Throws std::invalid_argument as learn_contrast says.
 void require_histograms(FloatsRef target, FloatsRef surround, double rate, double rare);
 
-/// What learn_contrast returns, of histograms that were seen; `unseen` is P(target) of a color that neither side has.
+/// The result of learn_contrast from histograms that were seen; `unseen` is P(target) of a color that neither side has.
 ColorContrast learn_histograms(Floats within, Floats without, FloatsRef target, FloatsRef surround,
                                double rate, double rare, double unseen);
 

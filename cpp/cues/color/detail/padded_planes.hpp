@@ -7,7 +7,8 @@
 
 namespace tricue {
 
-/// Planes of floats with a border of one number, so that every number inside has all its neighbors. Initially they are unspecified.
+/// Planes of floats with a border of one number, so that every number inside has all its neighbors. Initial values are
+/// unspecified.
 class PaddedPlanes {
 public:
     PaddedPlanes(int planes, int rows, int cols)

@@ -29,7 +29,7 @@ TRICUE_INLINE void rank_places(const std::uint8_t* __restrict levels, std::size_
         places[k] = static_cast<std::uint8_t>((levels[k] >> 3) | (levels[k] << 5));
 }
 
-/// Counts the places of three planes, eight of each at a time, as to load bytes one by one takes as long as to count them.
+/// Counts the places of three planes, eight of each at a time, because loading bytes one by one takes as long as counting them.
 template <typename Count>
 TRICUE_INLINE void count_places(const std::uint8_t* places, std::size_t n, Count (*counts)[2][256]) {
     const std::size_t whole = n & ~std::size_t{7};

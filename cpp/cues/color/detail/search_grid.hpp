@@ -11,7 +11,7 @@ struct SearchGrid {
     int rows, cols, step;
 };
 
-/// Throws std::invalid_argument unless rows, cols and step are 1 to 1024 and the grid reaches over at most 16384 pixels.
+/// Throws std::invalid_argument unless rows, cols and step are 1 to 1024 and the grid spans at most 16384 pixels.
 void require_grid(const SearchGrid& grid);
 
 /// The pixels that a region covers when it is moved to all positions of a grid.

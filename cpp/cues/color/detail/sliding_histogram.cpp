@@ -47,7 +47,7 @@ void SlidingHistogram::replace(const Offsets& leave, const Offsets& enter) {
     }
 }
 
-/// Runs get shorter towards the top and the bottom: of the runs over a column, the first is the first that is as wide, from above.
+/// Runs get shorter toward the top and the bottom: the first pixel of a column is in the first run, from above, that reaches it.
 void SlidingHistogram::find_boundaries(const EllipseShape& shape) {
     // No structured binding: lambdas can't capture one before C++20.
     const EllipseShape::Run range = shape.column_range();

@@ -13,7 +13,7 @@ namespace tricue {
 /// The histogram under a shape that moves over an image one pixel at a time: only pixels of its outline leave and enter.
 class SlidingHistogram {
 public:
-    /// @param image must outlive it, and contain the shape wherever it is moved
+    /// @param image must outlive the histogram, and contain the shape wherever it is moved
     /// @param start the offset of the pixel that the shape is relative to
     /// @param unit  what one pixel counts
     SlidingHistogram(const EllipseShape& shape, const CompactBins& image, std::ptrdiff_t start,
