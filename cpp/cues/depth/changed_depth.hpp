@@ -9,10 +9,10 @@
 
 namespace tricue {
 
-/// Where a depth image differs from one before by more than noise: 0 where |z - z'| <= noise + slope (z z), otherwise 1, also where
-/// either isn't measured.
+/// Where a depth image differs from an earlier one by more than noise: 0 where |z - z'| <= noise + (slope z) z, otherwise 1, also
+/// where either isn't measured.
 ///
-/// In float32, to which noise and slope are rounded, in this order; slope z first.
+/// Computed in float32, to which noise and slope are rounded, in this order.
 ///
 /// @param depth float32 (H, W): z, meters, NaN where nothing was measured
 /// @param before float32 (H, W): z', likewise

@@ -14,7 +14,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// Box, sides that are cut, and centroid less the box's center, of one or several objects.
+/// Box, sides that are cut, and centroid minus the box's center, of one or several objects.
 struct JoinedObjects {
     RectangleState state;
     std::array<bool, 4> cut;

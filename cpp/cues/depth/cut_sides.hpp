@@ -10,19 +10,19 @@ namespace tricue {
 
 using Flags = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// When an object may go on beyond a side of its box.
+/// When an object may continue beyond a side of its box.
 struct Cut {
-    int border;  ///< pixels from the image's edge within which an object may go on outside, at least 0
+    int border;  ///< pixels from the image's edge within which an object may continue outside, at least 0
     /// distance from the side at which something nearer is looked for, meters, finite, at least 0
     double beside;
     double nearer;  ///< how much nearer than the object that must be, meters, finite, at least 0
-    double share;   ///< share of the side on more than which it must be, in [0, 1]
+    double share;   ///< share of the side on more than which it must be nearer, in [0, 1]
 };
 
-/// At which sides of its box a segmented object may go on: at the image's border, or behind something nearer.
+/// The sides of its box at which a segmented object may continue: at the image's border, or behind something nearer.
 ///
-/// 12 pixels are read beside a side, `beside` meters away at the object's depth, in the middles of 12 equal parts of the side of
-/// the box enlarged by `beside` all around. Pixels outside the image, or not measured, are not nearer.
+/// Beside each side 12 pixels are read: those at the middles of 12 equal parts of that side of the box enlarged by `beside`
+/// meters, at the object's depth, all around. Pixels outside the image, or not measured, don't count as nearer.
 ///
 /// @param depth float32 (H, W), meters
 /// @param table float64 (C, 7), as depth_components gives it: x, y, width, height, area, depth z, label; sizes and z above 0

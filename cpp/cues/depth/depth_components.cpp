@@ -103,7 +103,7 @@ struct Grouping {
     std::vector<std::int32_t> component;
 };
 
-/// By the first run of each component: its box and area. No branch depends on what is joined, which can't be predicted.
+/// The box and area of each component, at its first run. No branch depends on which runs are joined, which can't be predicted.
 std::vector<Component> collect_components(PixelRuns& runs) {
     runs.flatten();
     std::vector<Component> components(runs.size());

@@ -11,14 +11,14 @@
 
 namespace tricue {
 
-/// What describes a region: a histogram of its depths, and how its pixels are spread over its box.
+/// A region's description: a histogram of its depths, and how its pixels are spread over its box.
 struct Signature {
     double near, far;  ///< range of the histograms, meters, 0 <= near < far, finite
-    int levels;        ///< levels of a histogram, 0, which is none, to 4096
-    int bins;          ///< equal parts of a box, across and down, in which pixels are counted, 1 to 4096
+    int levels;        ///< levels of a histogram, 0 (none) to 4096
+    int bins;          ///< equal parts of a box, across and down, whose pixels are counted, 1 to 4096
 };
 
-/// Which component has a pixel, from 1; 0 if none.
+/// The component of each pixel, from 1; 0 if none.
 using LabelImage = Eigen::Array<std::int32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// C regions.
@@ -28,13 +28,14 @@ struct DepthComponents {
     Floats histograms;  ///< float32 (C, levels): shares of the measured pixels at each level
     Floats columns;     ///< float32 (C, bins): shares of the area, left to right
     Floats rows;        ///< float32 (C, bins): shares of the area, top to bottom
-    LabelImage image;   ///< int32 (H, W): which region has a pixel, from 1, or 0; (0, 0) where not wanted
+    LabelImage image;   ///< int32 (H, W): the region of each pixel, from 1; 0 if none; (0, 0) if not wanted
 };
 
 /// Connected regions (8 neighbors) of one label other than 0 in a divided depth image, the largest first, with their signatures.
 ///
-/// Of equally large regions the one whose first pixel in reading order comes first is first. Pixels without a measurement belong to
-/// a region, but count neither for its mean, NaN without any, nor for its histogram, all 0 without any. Depth z has level floor((z
+/// Equally large regions are in the reading order of their first pixels. Pixels without a measurement belong to a region, but
+/// count neither in its mean nor in its histogram; in a region without measurements the mean is NaN, and the histogram all 0.
+/// Depth z has level floor((z
 /// - near) (levels / (far - near))) in float64, clamped to [0, levels - 1]. Pixel x of a box from x0 is in bin floor((2 (x - x0) +
 /// 1) bins / (2 width)); rows likewise. Shares are float64 quotients of whole numbers, rounded to float32.
 ///
@@ -51,7 +52,7 @@ DepthComponents depth_components(const ImageView& labels, const DepthView& depth
 ///
 /// @param labeled which pixels have a label; of others it isn't read
 /// @param changes where, of two neighbors in a row that have a label, the right one has another
-/// @param single whether pixels count that are alone: noise is mostly that, and each would be a run and a component
+/// @param single whether isolated pixels count: noise is mostly such pixels, and each would be a run and a component
 PixelRuns label_runs(const BitImage& labeled, const BitImage& changes, const ImageView& labels, bool single);
 
 /// The regions of these runs, as depth_components gives them.

@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: MIT
-// A rectangle is sampled on a grid: its columns and rows are found once, not for each sample. All depths are gathered before they are
-// used, so that the loops over them are vectorized, and those of several rectangles, as a vector that has just been written number by
-// number can't be loaded yet.
+// SPDX-License-Identifier: MIT A rectangle is sampled on a grid: its columns and rows are found once, not for each sample. All
+// depths are gathered before they are used, so that the loops over them are vectorized; and those of several rectangles together,
+// because a vector that has just been written number by number can't be loaded yet.
 #include "cues/depth/depth_contrast.hpp"
 
 #include <algorithm>
@@ -87,10 +86,10 @@ public:
                     pixel_.data());
     }
 
-    /// Whether all of them are in the image: the sides are the outermost.
+    /// Whether all places are in the image: those of the sides are the outermost.
     bool is_inside() const { return (pixel_[inside_] >= 0) & (pixel_[inside_ + 1] >= 0); }
 
-    /// They ascend or descend, so those in the image follow one another: [begin, end).
+    /// Places ascend or descend, so those in the image are consecutive: [begin, end).
     struct Pixels {
         const std::int32_t* pixel;
         std::size_t size, begin, end;

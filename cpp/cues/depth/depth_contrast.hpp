@@ -16,12 +16,13 @@ struct Places {
     int along;
 };
 
-/// What depth_distance measures of upright rectangles in meters, and how much around each of them is at its depth too.
+/// The measurements of depth_distance for upright rectangles in meters, and the share around each of them that is at its depth,
+/// too.
 ///
-/// A state (X, Y, Z, W, H) is a rectangle of W x H around the point (X, Y, Z). In the image its center is (X (fx / Z) + (cx + 1/2),
-/// Y (fy / Z) + (cy + 1/2)) and its size W (fx / Z) by H (fy / Z), where pixel (0, 0) covers [0, 1) x [0, 1); one so near that this
-/// overflows is outside the image. The place at the share u of the half width is in column floor(x + (w / 2) u), rows likewise, in
-/// float64. Which depths count, and the distance, are those of depth_distance.
+/// A state (X, Y, Z, W, H) is a rectangle of W x H around the point (X, Y, Z). In the image its center is (X (fx / Z) + (cx +
+/// 1/2), Y (fy / Z) + (cy + 1/2)) and its size W (fx / Z) by H (fy / Z), where pixel (0, 0) covers [0, 1) x [0, 1); a rectangle
+/// so near that this overflows is outside the image. The place at u half widths from the center is in column floor(x + (w / 2)
+/// u), rows likewise, in float64. Which depths count, and the distance, are those of depth_distance.
 ///
 /// @param depth float32 (H, W), meters; may be empty
 /// @param camera float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0; (0, 0) is the center of the first pixel
@@ -38,15 +39,15 @@ struct Places {
 States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states, const DepthModel& model,
                       const Places& places, double nearer);
 
-/// The same for one set of rectangles after the other, with memory that is kept.
+/// The same for several sets of rectangles, one after the other, with memory that is reused.
 class RectangleContrast {
 public:
-    /// Camera and model are looked at as long as this lives.
+    /// Camera and model must outlive it.
     RectangleContrast(const DepthView& depth, VectorRef camera, const DepthModel& model, const Places& places,
                       double nearer);
     ~RectangleContrast();
 
-    /// (N, 4), as by depth_contrast; what is nearer only if wanted, else 0.
+    /// (N, 4), as by depth_contrast; the share that is nearer only if wanted, else 0.
     States measure(StatesRef states, bool with_nearer);
 
     /// The histogram (L,) of the rectangle, where one was measured: of sum 1; all 0 where nothing counts.

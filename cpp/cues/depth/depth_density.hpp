@@ -7,8 +7,8 @@ namespace tricue {
 
 /// Density p(z) of depth levels: a histogram divided by its sum, smoothed by a Gaussian.
 ///
-/// The kernel exp(-(j / bandwidth)² / 2) is cut at |j| = ceil(4 bandwidth) and normalized. What it carries over an end is mirrored
-/// at the edge of the outermost level, so the density's sum is 1 too.
+/// The kernel exp(-(j / bandwidth)² / 2) is cut at |j| = ceil(4 bandwidth) and normalized. What it spreads beyond an end is
+/// mirrored at the edge of the outermost level, so the density's sum is 1, too.
 ///
 /// @param histogram float64 (L,), L at least 1, finite, none negative: pixels of each level
 /// @param bandwidth levels, in (0, L]

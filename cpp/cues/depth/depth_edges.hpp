@@ -9,10 +9,10 @@ namespace tricue {
 
 /// Where depth jumps: 1 at the farther of two neighbors (8) whose depths differ by more than noise and a slanted surface explain.
 ///
-/// So a nearer object keeps its outline, and is cut from what is behind it. An edge is where z - z' > gap + slope (z' z') for a
-/// measured neighbor z', in float32 in this order.
+/// So a nearer object keeps its outline, and is cut from the surface behind it. An edge is where z - z' > gap + slope (z' z') for
+/// a measured neighbor z', in float32 in this order.
 ///
-/// @param depth float32 (H, W), meters; what is not measured is no edge, and makes none
+/// @param depth float32 (H, W), meters; a pixel that is not measured is no edge, and makes none
 /// @param gap meters, finite, at least 0
 /// @param slope 1 / meter, finite, at least 0: noise of stereo and of structured light grows with z²
 /// @returns uint8 (H, W) of 0 and 1

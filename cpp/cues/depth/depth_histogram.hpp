@@ -17,7 +17,7 @@ struct DepthLevels {
 /// The level is floor((z - near) (levels / (far - near))), at most levels - 1, in float32, to which near and the quotient are
 /// rounded; whether z is in [near, far) is decided exactly.
 ///
-/// @param depth float32 (H, W), meters; what is not measured is not counted
+/// @param depth float32 (H, W), meters; pixels that are not measured are not counted
 /// @param mask uint8 (H, W): pixels where it is 0 are not counted
 /// @param levels 1 to 65536
 /// @returns float64 (levels,)

@@ -14,7 +14,7 @@ TRICUE_MULTIVERSION
 void find_levels(const float* __restrict depth, int n, float z, float low, float high, float per_meter,
                  std::uint8_t* __restrict levels) {
     for (int x = 0; x < n; ++x) {
-        const float near = depth[x] <= high ? depth[x] : high;  // what is NaN becomes white
+        const float near = depth[x] <= high ? depth[x] : high;  // NaN becomes white
         const float inside = near >= low ? near : low;
         levels[x] = static_cast<std::uint8_t>(static_cast<int>((inside - z) * per_meter + 128.0F));
     }

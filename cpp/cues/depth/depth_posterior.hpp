@@ -20,7 +20,7 @@ struct SampleGrid {
 struct ExpectedDepth {
     double expected;     ///< the target's expected depth, meters, finite, above 0
     double sigma;        ///< its standard deviation, meters, finite, above 0
-    double near_margin;  ///< how much nearer something before the target is, meters, finite, at least 0
+    double near_margin;  ///< how much nearer a depth in front of the target is, meters, finite, at least 0
 };
 
 struct DepthPosterior {
@@ -30,7 +30,7 @@ struct DepthPosterior {
     Eigen::Array<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> nearer;
 };
 
-/// P(target | depth) on a grid of places, and what is before the target: Bayes' rule with equal priors
+/// P(target | depth) on a grid of places, and which of them are in front of the target: Bayes' rule with equal priors
 ///     p / (p + c),  p = exp(-((z - expected) / sigma)² / 2),  c = 0.1
 ///
 /// p is the target's likelihood, 1 at the expected depth, c that of everything else at any depth. z is the depth of the pixel under

@@ -12,7 +12,7 @@ namespace tricue {
 ///
 /// Depths are compared exactly. Where two dividers are equal their division is empty.
 ///
-/// @param depth float32 (H, W), meters; what is not measured gets 0
+/// @param depth float32 (H, W), meters; pixels that are not measured get 0
 /// @param mask uint8 (H, W): pixels where it is 0 get 0
 /// @param dividers float64 (M + 1,): range dividers S(1) ... S(M + 1), meters, finite, ascending; M is 1 to 255
 /// @returns uint8 (H, W): labels

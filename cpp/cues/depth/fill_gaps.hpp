@@ -14,11 +14,11 @@ struct Gaps {
 
 /// Fills the gaps of a depth image that is riddled with small ones, and would fall apart into pieces; leaves any other as it is.
 ///
-/// Small gaps are one to three unmeasured pixels between two measured ones of a row. An image is ragged where they are more than
-/// the share `ragged` of the measured pixels. Then, until it is at most half as ragged, and at most `passes` times, each unmeasured
-/// pixel with at least two neighbors (of 8) on the nearest surface becomes their mean. On it are the neighbors z' with
-/// z' <= z + gap + slope (z z), z the nearest. Nearer things win, because a sensor loses their outlines first; so a pass also
-/// widens what ends at a large gap by a pixel.
+/// Small gaps are one to three unmeasured pixels between two measured ones of a row. An image is ragged if they are more than the
+/// share `ragged` of the measured pixels. Then, until they are at most half that share, and at most `passes` times, each
+/// unmeasured pixel with at least two neighbors (of 8) on the nearest surface becomes their mean. On it are the neighbors z' with
+/// z' <= z + (gap + slope (z z)), z the nearest. Nearer surfaces win, because a sensor loses their outlines first; so a pass also
+/// widens a surface that ends at a large gap by a pixel.
 ///
 /// All in float32, in this order; sums over the neighbors are in reading order. A pass reads the result of the one before.
 ///
@@ -27,7 +27,7 @@ struct Gaps {
 /// @param slope 1 / meter, finite, at least 0: noise of stereo and of structured light grows with z²
 /// @param ragged small gaps per measured pixel, in [0, 1]
 /// @param passes 0 to 1000
-/// @returns float32 (H, W), meters; NaN where nothing was measured and nothing filled
+/// @returns float32 (H, W), meters; NaN where nothing was measured or filled
 /// @throws std::invalid_argument on parameters out of range
 /// Source: ours.
 Floats fill_gaps(const DepthView& depth, double gap, double slope, double ragged, int passes);

@@ -44,7 +44,7 @@ struct Span {
     int first, end;
 };
 
-/// The first and the end of the lines with a depth, each of them the image's where it is far from that.
+/// The first and the end of the lines with a depth; where one of them is farther than `share` from the image's, the image's.
 template <typename LineAt>
 Span measured_span(int count, double share, LineAt line) {
     Span span{0, count};

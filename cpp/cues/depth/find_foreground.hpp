@@ -9,7 +9,7 @@
 
 namespace tricue {
 
-/// How much of the image is on a known floor, and how many pixels of it are looked at, as in plane_support.
+/// How the share of the image on a known floor is measured, as in plane_support.
 struct FloorTest {
     double tolerance;
     int step;
@@ -21,11 +21,11 @@ struct DepthForeground {
     Region measured;  ///< (x0, y0, x1, y1), pixels: outside of it nothing was measured
 };
 
-/// The part of a frame in which a target can be: every step-th pixel of every step-th row, with its gaps filled, above the floor and in
-/// range, by fill_gaps, plane_support and above_floor.
+/// The part of a frame in which a target can be: every step-th pixel of every step-th row, with gaps filled (fill_gaps), above
+/// the floor and in range (above_floor). plane_support tells whether the floor is still there.
 ///
-/// What was measured, its gaps filled, ends before the image does where at most the share `margin` of the columns (or rows) at a side
-/// have no depth, as those of registered depth.
+/// The measured rectangle leaves out the columns (or rows) at a side that have no depth even with gaps filled, as in registered
+/// depth, if they are at most the share `margin` of all.
 ///
 /// @param depth float32 (H, W), meters
 /// @param step pixels, at least 1

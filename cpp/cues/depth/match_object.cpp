@@ -29,7 +29,7 @@ public:
           deviation_{by.x, by.y, by.z, by.share * expected.size[0] + by.base,
                      by.share * expected.size[1] + by.base} {}
 
-    /// Of the distance along the camera's axis alone, which most objects exceed.
+    /// The cost of the distance along the camera's axis alone, which rules out most objects.
     double depth_cost(const RectangleState& state) const {
         const double off = std::abs(state[2] - expected_.state[2]) / deviation_[2];
         return off * off / 2;

@@ -25,7 +25,7 @@ constexpr std::size_t kTables = 4;
 
 using Numbers = std::vector<float>;
 
-/// What of a box is measured, and of how many samples; used again for the next box.
+/// The measured depths of a box, and the number of its samples; reused for the next box.
 struct Samples {
     Numbers depths, chosen, deviations;
     std::size_t count = 0;
@@ -97,7 +97,7 @@ std::vector<double> square_offsets(int samples, double square, double side) {
     return squared;
 }
 
-/// The depths that are measured in a box, in its ellipse or in the whole square around it.
+/// Reads the measured depths of a box, in its ellipse or in the whole square around it.
 void read_samples(const DepthView& depth, const double* box, int samples, bool in_ellipse, Samples& read) {
     const double x = box[0], y = box[1], width = box[2], height = box[3];
     const double square = std::max(width, height), step = square / samples;

@@ -6,22 +6,23 @@
 
 namespace tricue {
 
-/// What is a target's in its box.
+/// Which depths in a target's box are the target's.
 struct DepthGate {
     double expected;    ///< meters; NaN where it isn't known
     double max_offset;  ///< from it, meters, above 0
     double min_share;   ///< of the samples, under which nothing is measured, 0 to 1
 };
 
-/// The depths of targets in boxes: the median z of what is near the expected depth, its spread, and its share of the samples.
+/// The depths of targets in boxes: the median z of the depths near the expected one, their spread, and their share of the
+/// samples.
 ///
-/// The square of a box's center and longer side has samples² squares; a sample is the depth of the pixel under a square's center,
-/// computed in float64. Samples outside the image or not within 1 mm and 1 km are not measured. With an expected depth the samples
-/// are those in the box's ellipse, and the expected depth that is given holds. Without one they are all that are measured, and
-/// their median is the expected depth. Those within max_offset of it, in float32, are the target's.
+/// A square around a box's center, with its longer side, is divided into samples² squares; a sample is the depth of the pixel
+/// under such a square's center, computed in float64. Samples outside the image or not between 1 mm and 1 km are not measured.
+/// With an expected depth, the samples are those in the box's ellipse. Without one, they are all measured ones, whose median is
+/// taken as the expected depth. The target's are those less than max_offset from it, in float32.
 ///     spread = 1.4826 median |z_i - z|
 ///
-/// A box with none of them, or with less than min_share of the samples, has NaN for all three.
+/// Without any of these, or with less than min_share of the samples, all three are NaN.
 ///
 /// @param depth float32 (H, W), meters; may be empty
 /// @param boxes float64 (N, 4): x and y of the center, width, height, pixels; finite, sizes above 0

@@ -6,7 +6,7 @@
 
 namespace tricue {
 
-/// How much of a depth image lies on a known plane: is it still the floor?
+/// How much of a depth image lies on a known plane: this tells whether that is still the floor.
 ///
 /// Every step-th pixel of every step-th row counts, where measured. Heights h = n · X + d are in float32, to which the
 /// tolerance t and -3 t are rounded.

@@ -6,7 +6,7 @@
 
 namespace tricue {
 
-/// Histogram of the depths in one rectangle relative to its own depth, counted as by depth_distance: what its model learns.
+/// Histogram of the depths in one rectangle relative to its own depth, counted as by depth_distance, whose model learns it.
 ///
 /// @param depth float32 (H, W), meters; may be empty
 /// @param rectangle float64 (5,): center x, y, width, height, pixels; depth z, meters; finite

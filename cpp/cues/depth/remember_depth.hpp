@@ -7,9 +7,9 @@
 
 namespace tricue {
 
-/// What was last seen in each pixel beside a target: the depth image, but where it shows the target what was there before.
+/// The last depth seen in each pixel beside a target: the depth image, but the remembered depth where it shows the target.
 ///
-/// The target's own are the pixels in its region with |depth - z| < reach, in float32, to which z and reach are rounded.
+/// The target's pixels are those in its region with |depth - z| < reach, in float32, to which z and reach are rounded.
 ///
 /// @param depth float32 (H, W), meters
 /// @param before float32 (H, W), meters: what was remembered until now; (0, 0) for nothing, which gives NaN

@@ -27,7 +27,8 @@ namespace {
 constexpr int kBins = 16;                 ///< of an object's distributions
 constexpr Eigen::Index kMaxMinima = 254;  // labels have 8 bits
 
-/// The distances of a row; and with one more float at either end, infinite where nothing was measured. Returns whether anything was.
+/// The distances of a row; and a copy with one more float at either end, infinite where nothing was measured. Returns whether
+/// anything was.
 TRICUE_MULTIVERSION
 bool read_ground_row(const float* __restrict depth, const double* __restrict across, int n, double down,
                      float near, float far, float* __restrict distance, float* __restrict padded) {
@@ -71,7 +72,8 @@ void keep_changed(const float* __restrict depth, const float* __restrict before,
         n, [=](std::ptrdiff_t x) { mask[x] &= has_changed(depth[x], before[x], noise, slope); });
 }
 
-/// Reads a region of an image row by row: the distances of one, and the nearest of each pixel's neighborhood in three rows.
+/// Reads a region of an image row by row: the distances of a row, and for each of three rows the nearest of each pixel and its
+/// left and right neighbors.
 class DistanceRows {
     template <typename Rows>
     static auto& of(Rows& rows, int y) {
@@ -79,7 +81,7 @@ class DistanceRows {
     }
 
 public:
-    /// Those of the region's columns, from its first row on, and of their neighbors.
+    /// Reads the region's columns and their neighbors, from the first row on.
     DistanceRows(const DepthView& depth, const Region& region, std::optional<GroundView> ground)
         : depth_(depth),
           first_(std::max(region.x0 - 1, 0)),
@@ -95,13 +97,14 @@ public:
         for (int y = region.y0 - 1; y <= region.y0; ++y) reduce(y);
     }
 
-    /// Of the next row, which is y. One row further is read: numbers that have just been written can't be loaded yet, shifted by one.
+    /// Moves on to the next row, y. Reads one row further, because numbers that have just been written can't be loaded yet,
+    /// shifted by one.
     void next(int y) {
         read(y + 2);
         reduce(y + 1);
     }
 
-    /// Whether anything was measured in it: in most images some rows are all background.
+    /// Whether anything was measured in the row: in most images some rows are all background.
     bool is_measured(int y) const { return of(measured_, y); }
     const float* distance(int y) const { return of(distance_, y).data(); }
     const float* nearest(int y) const { return of(nearest_, y); }

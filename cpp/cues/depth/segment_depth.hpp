@@ -9,7 +9,7 @@
 
 namespace tricue {
 
-/// Where objects are looked for: in a region, and there not where the depth is the one before.
+/// Where objects are looked for: in a region, except where depth hasn't changed.
 struct SearchedPixels {
     Region region;
     DepthView before;
@@ -31,16 +31,16 @@ struct Standing {
 /// C objects, the largest first.
 struct DepthObjects {
     States measured;       ///< float64 (C, 8), as measure_objects gives it
-    Flags cut;             ///< bool (C, 4): left, right, top, bottom: whether it may go on there
+    Flags cut;             ///< bool (C, 4): left, right, top, bottom: whether each may continue there
     Floats columns, rows;  ///< float32 (C, 16), as depth_components gives them
 };
 
 /// The objects of a depth image: connected components of the divisions of its range at the minima of its density.
 ///
-/// One after the other ground_distance (where there is a floor, else distances are depths), depth_edges, whose pixels belong to
-/// nothing, changed_depth, depth_histogram, depth_density, density_extrema, divide_depth at near, the middles of the minima's
-/// levels (the first 254) and far, depth_components, cut_sides, and measure_objects; those say what each does. An object is also
-/// cut at a side less than `border` pixels from the edge of what was measured.
+/// It is ground_distance (with a floor; else distances are depths), depth_edges, whose pixels belong to no object, changed_depth,
+/// depth_histogram, depth_density, density_extrema, divide_depth at near, the middles of the minima's levels (the first 254) and
+/// far, depth_components, cut_sides, and measure_objects, one after the other. An object is also cut at a side less than `border`
+/// pixels from the edge of the measured rectangle.
 ///
 /// @param depth float32 (H, W), meters, NaN in the background; in the range
 /// @param before float32 (H, W), meters: no object is looked for where changed_depth gives 0; (0, 0) for none

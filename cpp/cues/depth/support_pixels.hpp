@@ -14,17 +14,17 @@ struct SupportedTarget {
     double z;              ///< its depth, meters, finite, above 0
 };
 
-/// The pixels of a target's surround, and of its box, that lie on one plane: what it stands on, lies on or leans against.
+/// The pixels of a target's surround, and of its box, that lie on one plane: the one it stands on, lies on or leans against.
 ///
-/// Read are the depths under the centers of a grid's squares, as by depth_posterior; those of 2 z and more count as not measured. The
-/// squares of every second row and column outside of the box, taken 1.05 times as wide and high, vote: floor_plane, with any plane
-/// for level, takes triples of those that are measured, in their order from top left; a draw u of n is number floor(u n). Then
-/// square (i, j) is on the plane where
+/// The depths under the centers of a grid's squares are read as by depth_posterior; those of 2 z and more count as not measured.
+/// The measured squares of every second row and column vote, outside of the box taken 1.05 times as wide and high: floor_plane,
+/// with every plane counted as level, takes triples of these n squares; in their order from top left, a draw u is number floor(u
+/// n). Then square (i, j) is on the plane where
 ///     |(nx X + ny Y + nz) z_ij + d| < t,  X = (x0 + j step - cx) / fx,  Y = (y0 + i step - cy) / fy
 ///
-/// in float64. Nothing is, if fewer than 60 squares vote, if the plane has less than 0.15 of them, or if it has more than half of
-/// those that are measured in the inner 0.8 of the box: such a target is as flat as the plane. A part of the box has the squares
-/// whose centers are nearer to the middle than half its width and height, and than 1 at least.
+/// in float64. No square is if fewer than 60 squares vote, if the plane has less than 0.15 of them, or if it has more than half
+/// of the measured ones in the inner 0.8 of the box: such a target is as flat as the plane. A scaled box holds the squares whose
+/// centers are nearer to the middle than half its width and height, which count as at least 1.
 ///
 /// @param depth float32 (H, W), meters; may be empty
 /// @param x0, y0 top left corner of the grid, pixels, finite

@@ -44,7 +44,7 @@ public:
         word(y, i) = read_word(last.data());
     }
 
-    /// The pixels of a word that have one of their 8 neighbors.
+    /// The set pixels of a word that have a set one among their 8 neighbors.
     TRICUE_INLINE std::uint64_t joined(int y, int i) const {
         const std::uint64_t *above = row(y - 1) + i, *here = row(y) + i, *below = row(y + 1) + i;
         return *here & (beside(here) | *above | beside(above) | *below | beside(below));
@@ -56,7 +56,7 @@ private:
     }
     std::uint64_t* row(int y) { return bits_.data() + static_cast<std::size_t>(y + 1) * stride_ + 1; }
 
-    /// Pixels that have one left or right of them.
+    /// Pixels with a set one to their left or right.
     TRICUE_INLINE static std::uint64_t beside(const std::uint64_t* word) {
         return word[0] << 1 | word[-1] >> 63 | word[0] >> 1 | word[1] << 63;
     }
@@ -76,8 +76,8 @@ private:
     std::vector<std::uint64_t> bits_;
 };
 
-/// Writes first + i for each bit i that is set, ascending, and returns the end of that; up to kAtOnce more numbers are overwritten.
-/// Whether the next bit is set can't be predicted, so kAtOnce are written anyway.
+/// Writes first + i for each bit i that is set, ascending, and returns the end of these numbers; up to kAtOnce more are
+/// overwritten. Whether there is a next bit can't be predicted, so kAtOnce are always written.
 template <int kAtOnce, typename Number>
 TRICUE_INLINE Number* list_bits(std::uint64_t bits, Number first, Number* to) {
     constexpr std::uint64_t kAll = ~std::uint64_t{0}, kHighest = std::uint64_t{1} << 63;

@@ -12,7 +12,7 @@ inline float smaller(float a, float b) {
     return a < b ? a : b;
 }
 
-/// The nearest of each of n pixels and its neighbors left and right; the row has one more float at either end.
+/// The nearest of each of n pixels and its left and right neighbors; the row has one more float at either end.
 void nearest_in_row(const float* padded, int n, float* nearest);
 
 /// Every step-th of a row, n of them.

@@ -8,7 +8,7 @@
 
 namespace tricue {
 
-/// What segment_depth tells of C objects.
+/// The features of C objects, as segment_depth gives them.
 struct ObjectFeatures {
     StatesRef measured;
     Eigen::Ref<const Flags> cut;
@@ -22,7 +22,7 @@ using RectangleState = std::array<double, 5>;
 RectangleState rectangle_of(const ObjectFeatures& objects, Eigen::Index index);
 
 /// A rectangle as if nothing cut it: extended to the size (2,) beyond the sides (4) that are cut. Cut at opposite sides, it is as
-/// near to the middle of the expected state as its visible part allows.
+/// near to the expected center as its visible part allows.
 RectangleState complete_rectangle(const RectangleState& state, const bool* cut, VectorRef expected,
                                   VectorRef size);
 

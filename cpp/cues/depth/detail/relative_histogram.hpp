@@ -16,19 +16,21 @@ public:
     /// Of `samples` depths at a time. @throws std::invalid_argument unless reach is finite and above 0
     RelativeHistogram(Eigen::Index levels, double reach, std::size_t samples);
 
-    /// How many depths are read at a time: `samples`, filled up.
+    /// How many depths are read at a time: `samples`, padded.
     static std::size_t padded(std::size_t samples);
 
-    /// @param depths `samples` depths, meters, then 0 up to `padded(samples)`; whatever isn't above 0 and finite is no measurement
+    /// @param depths `samples` depths, meters, then 0 up to `padded(samples)`; a number that isn't above 0 and finite is no
+    ///     measurement
     void count(const float* depths, double z);
 
-    /// The three steps of that. Who counts many histograms takes each step for several of them before the next: a step would wait for
-    /// what the one before has just written.
+    /// The three steps of `count`. With many histograms, take each step for several of them before the next step, which would
+    /// otherwise wait for what the one before has just written.
     void read(const float* depths, double z);
     void count();
     void finish();
 
-    /// Two at once, of as many samples: neighbors mostly share a level, and a count that was just written is read late.
+    /// Counts two of equally many samples at once: neighbors mostly share a level, and reading a count that was just written is
+    /// slow.
     void count_beside(RelativeHistogram& other);
 
     Vector shares() const;  ///< (levels,) of sum 1; all 0 where nothing counts
@@ -47,7 +49,7 @@ private:
     std::size_t samples_;
     std::vector<std::int32_t> level_;
     std::size_t table_;
-    /// Of each level and of samples that don't count, filled up to `table_`; then kLanes - 1 more such tables.
+    /// Counts of each level and of samples that don't count, padded to `table_`; then kLanes - 1 more such tables.
     std::vector<std::int32_t> counts_;
 };
 

@@ -15,10 +15,10 @@ namespace tricue {
 namespace {
 
 constexpr int kBlock = 64;  ///< pixels, so that loops over them have no remainder
-/// Of an image's pixels an eighth or fewer are searched, before a camera that doesn't move.
+/// At most an eighth of an image's pixels are searched with a camera that doesn't move.
 constexpr int kUsualShare = 8;
 
-/// A row of which a fourth or less is searched is listed.
+/// A row is listed if at most a fourth of it is searched.
 constexpr int kListedShare = 4;
 
 /// Neighbors mostly share a level, and reading a count that was just written is slow: so they count in different tables.
@@ -88,7 +88,7 @@ void mask_distances(const float* __restrict distance, const std::uint8_t* __rest
     for_overlapping_blocks(n, [=](std::ptrdiff_t x) { to[x] = mask[x] ? distance[x] : kUnmeasured; });
 }
 
-/// As mark_changes, of pixels that are listed: whether each one's left neighbor is listed, too, and has another label.
+/// As mark_changes, for listed pixels: whether each one's left neighbor is listed, too, and has another label.
 TRICUE_MULTIVERSION
 bool mark_listed_changes(const std::uint8_t* __restrict labels, const std::int32_t* __restrict columns, int n,
                          std::uint8_t* __restrict changes) {
@@ -98,7 +98,7 @@ bool mark_listed_changes(const std::uint8_t* __restrict labels, const std::int32
     return any != 0;
 }
 
-/// Memory as it is needed, and a block more: that of a whole image is fetched from the system anew in every frame.
+/// Memory grows as needed, by a block more: that of a whole image would be fetched from the system anew in every frame.
 template <typename Numbers>
 void make_room(std::ptrdiff_t pixels, Numbers& numbers) {
     if (pixels + kBlock > numbers.size())
