@@ -23,7 +23,7 @@ struct Values {
     const float* end() const { return data + count; }
 };
 
-/// The disparities that there are, in front of `found`; returns how many.
+/// Moves the disparities that exist to the front of `found`; returns how many there are.
 TRICUE_MULTIVERSION
 std::size_t pick_matched(float* found, std::size_t n, bool subpixel) {
     std::size_t matched = 0;
@@ -35,7 +35,8 @@ std::size_t pick_matched(float* found, std::size_t n, bool subpixel) {
     return matched;
 }
 
-/// Of numbers, at least one, all between `low` and `high`. It sorts only those near the middle: disparities gather round one.
+/// The median of at least one number, all between `low` and `high`. Only those near the middle are sorted: disparities cluster
+/// around one value.
 double take_median(const Values& values, float low, float high) {
     constexpr std::size_t kBuckets = 512;
     const float scale = static_cast<float>(kBuckets - 1) / (high - low);

@@ -7,30 +7,30 @@
 
 namespace tricue {
 
-/// How the disparity of an ellipse is taken of those of its pixels.
+/// How the disparity of an ellipse is computed from those of its pixels.
 struct DisparityStatistic {
     bool
-        subpixel;  ///< whether disparities keep their fractions; else each becomes the nearest whole number, of halves the smaller
+        subpixel;  ///< whether disparities keep their fractions; else each is rounded to the nearest whole number, halves down
     bool median;   ///< their median, else their mean
     float tolerance;  ///< pixels, by which a pixel near that disparity may differ from it, 0 or more
 };
 
 struct EllipseDisparity {
-    double disparity;  ///< pixels; NaN without any
-    int matched;       ///< pixels that have one
+    double disparity;  ///< pixels; NaN if no pixel has one
+    int matched;       ///< pixels that have a disparity
     int near;          ///< of these, pixels that differ from it by at most the tolerance
 };
 
-/// The disparity of the ellipse inscribed in a rectangle, by the median or the mean (5) of those of its pixels.
+/// The disparity of the ellipse inscribed in a rectangle: the median or the mean (5) of its pixels' disparities.
 ///
-/// Pixels are matched by sad_disparity, in the images turned gray. Of an even number of disparities the median is the mean of the
-/// middle two.
+/// Pixels are matched by sad_disparity in the images, which are first turned gray. Of an even number of disparities the median is
+/// the mean of the middle two.
 ///
 /// @param left uint8 (H, W, 3) BGR, rectified, at least one pixel
 /// @param right uint8 (H, W, 3) BGR, or gray (H, W), of the same size
-/// @param region (x0, y0, x1, y1), pixels, sides of 1 to 16384; may reach over the image's edge
-/// @param tolerance pixels, by which a pixel near that disparity may differ from it, 0 or more
-/// @throws std::invalid_argument on images of unlike sizes, or values out of range
+/// @param region (x0, y0, x1, y1), pixels, sides of 1 to 16384; may extend beyond the image
+/// @param tolerance a pixel is near that disparity if it differs by at most this, pixels, 0 or more
+/// @throws std::invalid_argument on images of different sizes, or values out of range
 /// Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.2, equations (3) to (5); the median is ours.
 EllipseDisparity ellipse_disparity(const ImageView& left, const ImageView& right, const Region& region,
                                    const DisparityRange& range, const StereoMatching& matching,

@@ -113,7 +113,7 @@ TRICUE_INLINE void finalize_block(const WindowColumns& columns, const WarpedRow&
     }
 }
 
-/// By blocks, of which the last begins sooner: the result has no room beyond its rows.
+/// By blocks, of which the last may begin earlier, since the result has no room beyond its rows.
 template <int kSide>
 TRICUE_INLINE void finalize_by(const WindowColumns& row, const WarpedRow& known, const Limits& limits, int n,
                                const ResultRow& to) {
@@ -147,12 +147,12 @@ Region bounding_region(const Region& one, const Region& other) {
             std::max(one.y1, other.y1)};
 }
 
-/// What each level has to measure, the finest first.
+/// The regions that each level has to measure, the finest level first.
 std::vector<Level> plan_levels(const Region& visible, int rows, int cols, double predicted, int reach,
                                const GradientMatching& matching) {
     std::vector<Level> levels;
     Region wanted = visible;
-    double uncertainty = 0.0;  // what all coarser levels add, in pixels of this one
+    double uncertainty = 0.0;  // of all coarser levels together, in pixels of this one
     for (int k = 1; k < matching.levels; ++k) uncertainty += std::ldexp(kMaxCoarseStep, k);
     for (int k = 0; k < matching.levels; ++k) {
         const LevelRegions parts =
@@ -168,7 +168,7 @@ std::vector<Level> plan_levels(const Region& visible, int rows, int cols, double
     return levels;
 }
 
-/// One image's pyramid; the parts that filters read grow by what the next coarser level is made of.
+/// One image's pyramid; the parts that filters read grow by the sources of the next coarser level.
 void build_pyramid(const ImageView& image, std::vector<Level>& levels, Region LevelRegions::* part,
                    GrayPlane Level::* plane) {
     std::vector<Region> parts;

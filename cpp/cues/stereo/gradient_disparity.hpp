@@ -13,7 +13,8 @@ struct GradientMatching {
     int radius;    ///< of the square window that an equation is solved over, pixels, 0 to 7
     /// smallest reliability (9) of a valid disparity, (gray levels / pixel²)², at least 0
     double min_reliability;
-    /// largest difference that d may leave in a window, as a share of both images' power in it, at least 0; not used with radius 0
+    /// largest difference that may remain in a window with its d, as a share of both images' power in it, at least 0; not used
+    /// with radius 0
     double max_residual;
     /// how far from its start the finest level may find the disparity, pixels, at least 0
     double max_step;
@@ -28,22 +29,23 @@ struct GradientMatching {
 /// solution in its window. f is the x-derivative of the Gaussian, which lighting changes less than brightness; f_x its central
 /// difference. Between columns f is linear.
 ///
-/// d0 is the prediction at the coarsest level of a pyramid, then the d of the coarser level; each level may move by 1.5 of its own
-/// pixels. Three levels reach 9 pixels at most, and are accurate up to 6; one level 1 to 2. Little contrast in the window leaves d0
-/// as it is. levels = 1 with radius = 0 is the paper's method.
+/// At the coarsest level of a pyramid d0 is the prediction, at the others the d of the coarser level; each level may change it by
+/// 1.5 of its own pixels. Three levels reach 9 pixels at most, and are accurate up to 6; one level 1 to 2. With little contrast
+/// in the window, d0 stays. levels = 1 with radius = 0 is the paper's method.
 ///
-/// A pixel is NaN outside the left image, where x - d0 is not in the right one, and where it is rejected: by its last step, by the
-/// differences that d leaves in its window (occlusion, noise, what the levels do not reach), or by its reliability
+/// A pixel is NaN outside the left image, where x - d0 is not in the right one, and where it is rejected: by its last step, by
+/// the differences that remain with d in its window (occlusion, noise, disparities that the levels do not reach), or by its
+/// reliability
 ///     R_d = (f_x^R)² + (f_x^L)²                                                                  (9)
 ///
 /// @param left uint8 (H, W), gray, rectified, at least one pixel
 /// @param right uint8 (H, W), gray, rectified, of the same size
 /// @param disparity the predicted disparity, pixels, -16384 to 16384
-/// @param region (x0, y0, x1, y1), pixels of the left image, sides of 1 to 16384; None for all of it. It may reach over the edge,
-///     where reliability is 0. The result is, to the last bit, that part of the result for the whole image
+/// @param region (x0, y0, x1, y1), pixels of the left image, sides of 1 to 16384; None for all of it. It may extend beyond the
+///     image, where reliability is 0. The result is, to the last bit, that part of the result for the whole image
 /// @returns disparity float32 (h, w), pixels
-/// @returns reliability float32 (h, w): (9), the mean over the window, also where the disparity is rejected
-/// @throws std::invalid_argument on images without pixels or of unlike sizes, or numbers out of range
+/// @returns reliability float32 (h, w): the mean of (9) over the window, also where the disparity is rejected
+/// @throws std::invalid_argument on images without pixels or of different sizes, or numbers out of range
 /// Source: Okada, Shirai, Miura 1996, section 3; levels, windows and the residual are ours.
 Floats gradient_disparity(const ImageView& left, const ImageView& right, double disparity,
                           const GradientMatching& matching, const Region& region);

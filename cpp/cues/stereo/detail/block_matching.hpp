@@ -9,7 +9,7 @@ namespace tricue {
 /// Rows that block matching reads or writes need room for this many numbers after their end: it works on whole registers.
 constexpr int kMatchPadding = 32;
 
-/// One row of the left image and the same of the right, which begins where the first candidate matches the left;
+/// One row of the left image and the same row of the right image, which begins where the first candidate matches the left row;
 /// candidate k is k pixels further left.
 struct RowPair {
     const std::uint8_t* left;
@@ -35,15 +35,15 @@ constexpr std::uint16_t kNoCost = 65535;
 
 /// How to search the sums.
 struct Search {
-    int window;       ///< that of pixel x is columns [x, x + window) of the sums
+    int window;       ///< width; the window of pixel x is columns [x, x + window) of the sums
     bool second;      ///< whether the second best is needed; else it isn't defined
     bool all_inside;  ///< whether all candidates lie in the right image; else
     const std::uint16_t*
         outside;  ///< outside[x - k] is 0 where candidate k of pixel x does, kNoCost elsewhere
 };
 
-/// Moves the window down by a row: what comes in is added to `n` columns of the sums, what goes out subtracted; of each pair
-/// of pixels the difference, at most `limit`.
+/// Moves the window down by a row: in `n` columns of the sums, the differences of the new row's pixels are added, those of the
+/// old row's subtracted; each counts as at most `limit`.
 void move_down(const RowPair& in, const RowPair& out, int n, std::uint8_t limit, const ColumnSums& sums);
 
 /// Finds the best candidate of `n` pixels.

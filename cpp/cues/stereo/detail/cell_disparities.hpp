@@ -13,7 +13,7 @@ struct CellPair {
     int step;
 };
 
-/// The sad_disparity of the reduce_gray of both images, in cells. Only what it compares is turned gray.
+/// The sad_disparity of the reduce_gray of both images, in cells. Only the compared cells are turned gray.
 ///
 /// Throws std::invalid_argument as those two do.
 Floats cell_disparities(const CellPair& pair, const StereoRegion& region, const DisparityRange& range,

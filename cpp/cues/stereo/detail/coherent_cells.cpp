@@ -62,7 +62,7 @@ CellMask coherent_cells(FloatsRef disparities, float expected, float tolerance, 
     if (!(tolerance >= 0.0F)) refuse("tolerance", "0 or more", tolerance);
     if (fill < 1 || fill > kMaxSide || fill % 2 == 0) refuse("fill", "an odd number from 1 to 127", fill);
     const Eigen::Index rows = disparities.rows(), cols = disparities.cols(), half = fill / 2;
-    // Rows of whole registers, as a remainder would be added one by one; nobody votes in it.
+    // Rows of whole registers, because a remainder would be added one by one; the padding has no votes.
     const Eigen::Index width = (cols + kRegister - 1) / kRegister * kRegister;
     std::vector<std::int16_t> votes(static_cast<std::size_t>(rows * width), 0);
     const auto row = [&](Eigen::Index i) { return votes.data() + i * width; };

@@ -12,14 +12,14 @@
 namespace tricue {
 namespace {
 
-constexpr int kTaps = 4;  // of f_R: the columns that x - d lies between, and one more on each side
+constexpr int kTaps = 4;  // of f_R: the two columns around x - d, and one more on each side
 
 /// Copies all taps of a pixel at once: several times faster than a gather for each tap.
 void gather(const float* f, const int* column, int n, float* taps) {
     for (int x = 0; x < n; ++x) std::memcpy(taps + kTaps * x, f + column[x] - 1, kTaps * sizeof(float));
 }
 
-/// What equation (7) is made of in a row: f_L, f_R around x - d, and the expected disparities; and where its terms go.
+/// The inputs of equation (7) in a row: f_L, f_R around x - d, and the expected disparities; and the output for its terms.
 struct EquationRow {
     const float *left, *taps;
     WarpedRow known;

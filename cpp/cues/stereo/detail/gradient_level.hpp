@@ -20,7 +20,7 @@ namespace tricue {
 struct WindowColumns {
     const float* ss;
     int stride;
-    int side;  ///< pixels that a window is wide: sums of so many columns are those of windows
+    int side;  ///< pixels that a window is wide: so many columns are summed for a window
 };
 
 /// A block of windows' means.
@@ -48,7 +48,7 @@ TRICUE_INLINE void mean_of(const WindowColumns& columns, int term, int side, int
 struct LevelRegions {
     Region wanted;       ///< the pixels to measure
     Region pooled;       ///< those of their windows
-    int first, last;     ///< columns of the right picture where those can be, both included
+    int first, last;     ///< columns of the right picture where these pixels can be, both included
     Region left, right;  ///< what filters read
 };
 

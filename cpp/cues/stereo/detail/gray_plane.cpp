@@ -19,7 +19,7 @@ struct ImageRows {
     int count;
 };
 
-/// The last block of a row begins sooner, as an image has no room beyond its rows.
+/// The last block of a row may begin earlier, since an image has no room beyond its rows.
 TRICUE_MULTIVERSION
 void to_floats(const ImageRows& rows, int n, float* __restrict to) {
     const ImageRows from = rows;

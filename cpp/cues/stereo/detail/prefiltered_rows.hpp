@@ -10,8 +10,8 @@
 
 namespace tricue {
 
-/// The rows of a gray image that block matching compares, Sobel-filtered or not, over a region that may extend beyond the image: there
-/// the image's border is replicated. Only the region is turned gray and filtered.
+/// The rows of a gray image that block matching compares, Sobel-filtered or not, over a region that may extend beyond the image,
+/// where the border is replicated. Only the region is turned gray and filtered.
 class PrefilteredRows {
 public:
     static constexpr int kClip = 31;

@@ -7,8 +7,8 @@
 
 namespace tricue {
 
-/// The disparities expected at a level before it is measured: base + 2 coarse + rest with the next coarser level's, or base + rest
-/// everywhere. The base is an integer, so that far from the left edge floats keep the fractions.
+/// The disparities expected at a level before it is measured: base + 2 coarse + rest, with `coarse` those of the next coarser
+/// level, or base + rest everywhere. The base is an integer, so that floats keep the fractions far from the left edge.
 struct DisparityPrior {
     int base;
     float rest;
@@ -24,7 +24,7 @@ struct WarpedRow {
     const int* column;     ///< x - d rounded down, clamped to [first, last]
 };
 
-/// Such rows, the last ones that were made.
+/// The last of these rows that were made.
 class WarpedColumns {
 public:
     /// @param x0, x1       the left picture's columns
@@ -33,7 +33,7 @@ public:
     /// @param kept         rows that are kept
     WarpedColumns(const DisparityPrior& prior, int x0, int x1, int first, int last, int cols, int kept);
 
-    /// Makes row y, each from above.
+    /// Makes row y; rows are made from above.
     void add_row(int y);
 
     /// Row y from x0 on.
@@ -41,7 +41,7 @@ public:
 
 private:
     void update(std::size_t slot);
-    /// Two rows have one of the coarser level.
+    /// Two rows share one of the coarser level.
     std::size_t slot(int y) const {
         return prior_.coarse == nullptr ? 0 : static_cast<std::size_t>(y / 2 & last_slot_);
     }
