@@ -22,7 +22,7 @@ namespace {
 constexpr float kMaxStep = 2;  // pixels along x and y, at a level that isn't the last
 constexpr float kMinDivisor = std::numeric_limits<float>::min();
 
-/// What is kept at the last level.
+/// The limits of valid flow at the last level.
 struct Limits {
     float angle, contrast, step;
 };
@@ -33,7 +33,8 @@ void require_pyramid(const FlowPyramid& pyramid) {
     if (!(pyramid.max_step > 0)) refuse("max_step", "a number above 0", pyramid.max_step);
 }
 
-/// The contrast (6) of the mean of two frames of nothing but rounding, variance 1/12 each: by the integral of the filters squared.
+/// The contrast (6) of the mean of two frames that are only rounding noise, variance 1/12 each: by the integral of the squared
+/// filters.
 float rounding_noise(double sigma) {
     constexpr double kPi = 3.14159265358979323846;
     return static_cast<float>(1 / (48 * kPi * std::pow(sigma, 6)));
@@ -52,7 +53,7 @@ TRICUE_INLINE void solve(float xx, float xy, float yy, float xt, float yt, float
     step.determinant = determinant;
 }
 
-/// What a row is solved from: means down the columns of windows `side` pixels wide, and the flow so far.
+/// The inputs for solving a row: means down the columns of windows `side` pixels wide, and the flow so far.
 struct StepRow {
     NormalEquations columns;
     const float *u, *v;
@@ -113,7 +114,7 @@ TRICUE_INLINE void finish_block(const StepRow& row, float damping, const Limits&
     }
 }
 
-/// By blocks, of which the last begins sooner: the planes have no room beyond their rows.
+/// By blocks, of which the last may begin earlier, since the planes have no room beyond their rows.
 template <int kSide>
 TRICUE_INLINE void finish_row_by(const StepRow& row, float damping, const Limits& limits, int n,
                                  const FlowRow& to) {
@@ -133,8 +134,8 @@ void finish_row(const StepRow& row, float damping, const Limits& limits, int n, 
         finish_row_by<0>(row, damping, limits, n, out);
 }
 
-/// Calls done(y, row) for each row y of the guess's area, from what compare(y, here, n, out) makes of row y of `now` and of the frame
-/// before.
+/// Calls done(y, row) for each row y of the guess's area, after compare(y, here, n, out) has compared row y of `now` with the
+/// frame before.
 template <typename Compare, typename Done>
 void measure(const ImageView& now, double sigma, int pool, FlowGuess& guess, const Compare& compare,
              const Done& done) {
@@ -165,7 +166,7 @@ void measure(const ImageView& now, double sigma, int pool, FlowGuess& guess, con
     }
 }
 
-/// The same at the coarsest level, where the flow so far is none.
+/// The same at the coarsest level, where there is no flow yet.
 template <typename Done>
 void measure_still(const ImageView& before, const ImageView& now, double sigma, int pool, FlowGuess& guess,
                    const Done& done) {
@@ -180,7 +181,7 @@ void measure_still(const ImageView& before, const ImageView& now, double sigma, 
         done);
 }
 
-/// The same with `before`, which holds what the guess leads to, warped by it.
+/// The same with `before` warped by the guess; it holds all pixels that the guess leads to.
 template <typename Done>
 void measure_warped(const QuadImage& before, const ImageView& now, double sigma, int pool, FlowGuess& guess,
                     const Done& done) {
@@ -194,7 +195,7 @@ void measure_warped(const QuadImage& before, const ImageView& now, double sigma,
         done);
 }
 
-/// The first level's first.
+/// The regions of each level, the first level first.
 struct PyramidPlan {
     std::vector<Region> areas;   ///< that are measured
     std::vector<Region> warped;  ///< the pixels to which the flow may lead from there
@@ -205,7 +206,7 @@ Region expanded(const Region& region, int reach, const ImageView& image) {
     return Region{region.x0 - reach, region.y0 - reach, region.x1 + reach, region.y1 + reach}.clipped(image);
 }
 
-/// A guess is off by no more than twice what the coarser level is off, and its step.
+/// The error of a guess is at most twice the sum of the coarser level's error and its step.
 PyramidPlan plan_levels(const ImageView& frame, int levels, int margin, const Region& area) {
     PyramidPlan plan;
     std::vector<ImageView> sizes{{nullptr, frame.rows, frame.cols, 1, 0}};
@@ -216,7 +217,7 @@ PyramidPlan plan_levels(const ImageView& frame, int levels, int margin, const Re
         plan.areas.push_back(coarser_region(plan.areas.back(), rows, cols));
         sizes.push_back({nullptr, rows, cols, 1, 0});
     }
-    int guessed = 0;  // pixels that a guess may be away
+    int guessed = 0;  // how far a guess may lead, pixels
     plan.warped.resize(sizes.size());
     plan.stored.resize(sizes.size());
     for (std::size_t k = sizes.size(); k-- > 0;) {

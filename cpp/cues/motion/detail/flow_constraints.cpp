@@ -9,7 +9,7 @@
 namespace tricue {
 namespace {
 
-/// The rows filtered along x around the one that is wanted, the uppermost first, and the numbers from one plane to the next in them.
+/// The rows filtered along x around the wanted one, the uppermost first, and the distance between their planes in numbers.
 struct RowsAround {
     const float* const* rows;
     int stride;
@@ -19,7 +19,7 @@ struct ConstraintBlock {
     RowBlock g_x, g_y, h_y, g_t, h_t;
 };
 
-/// A filter along y with weights that are the same above and below, or of the other sign above, which is odd.
+/// A filter along y with equal weights above and below, or, if odd, weights of opposite sign.
 template <bool kOdd>
 TRICUE_INLINE void filter_block_down(const float* const* rows, const float* weights, int radius, int x,
                                      RowBlock& total) {

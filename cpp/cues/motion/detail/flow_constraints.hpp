@@ -28,13 +28,13 @@ public:
 
     int radius() const { return taps_.radius; }
 
-    /// Where the mean of both frames in row y and its change from the first to the second belong, each of length + 2 radius() pixels,
-    /// beginning radius() left of the constraints. A batch of rows is kept.
+    /// The place for row y of the frames' mean, and for its change from the first to the second, each of length + 2 radius()
+    /// pixels, beginning radius() left of the constraints. A batch of rows is kept.
     float* mean(int y) { return compared_.row(y); }
     float* change(int y) { return compared_.row(y) + compared_stride_; }
 
-    /// Takes rows [begin, end), a batch or fewer, whose mean and change are there: each row once, from above, from radius() before
-    /// the first wanted to radius() after the last.
+    /// Takes rows [begin, end), a batch or fewer, whose mean and change have been written: each row once, from above, from
+    /// radius() before the first wanted to radius() after the last.
     void push(int begin, int end);
 
     /// The constraints of row y, with rows y - radius() to y + radius() among the last pushed, up to a batch before the newest.

@@ -22,7 +22,7 @@ struct FlowField {
 /// The area of the next coarser level, of that size, between whose pixels an area lies.
 Region coarser_region(const Region& area, int rows, int cols);
 
-/// A plane with rows that end in a number of blocks and two pixels more; what is beyond the plane repeats its end.
+/// A plane whose rows have room for whole blocks and two pixels more; pixels beyond the plane repeat its edge.
 struct PaddedPlane {
     PaddedPlane(int height, int width);
 
@@ -33,8 +33,9 @@ struct PaddedPlane {
     std::vector<float> pixels;
 };
 
-/// The initial flow of an area and of a margin around it, which repeats what is at the area's edge: from the next coarser level,
-/// median-filtered (3x3), upsampled linearly, and doubled. Zero without a coarser level. It holds the rows of a margin and of a batch.
+/// The initial flow of an area and of a margin around it, which repeats the area's edge: from the next coarser level,
+/// median-filtered (3x3), upsampled linearly, and doubled. Zero without a coarser level. It holds the rows of a margin and of a
+/// batch.
 class FlowGuess {
 public:
     FlowGuess(const Region& area, int margin);
@@ -42,10 +43,10 @@ public:
 
     const Region& area() const { return area_; }
 
-    /// Makes row y of the area, 0 the first, or those at its edge where that is beyond it; each y is one more than the last.
+    /// Makes row y of the area, 0 being the first, or its edge row if y is beyond it; each y is one more than the last.
     void advance(int y);
 
-    /// Flow along x and y in row y of the area, one of the newest, from the margin on its left to that on its right, and up to a whole
+    /// Flow along x and y in row y of the area, one of the newest, from its left margin to its right one, and up to a whole
     /// number of blocks.
     const float* u(int y) { return u_rows_.row(std::clamp(y, 0, newest_)); }
     const float* v(int y) { return v_rows_.row(std::clamp(y, 0, newest_)); }

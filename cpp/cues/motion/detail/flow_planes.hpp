@@ -29,7 +29,7 @@ struct FlowPlanes {
     Floats planes;
 };
 
-/// The least reliabilities of a flow that is kept.
+/// The least reliabilities of valid flow.
 struct FlowMinima {
     double angle, contrast;
 };

@@ -35,7 +35,7 @@ const std::uint8_t* FrameRows::row(int y) {
     if (room_.empty()) return row + x0_;
     const auto n = static_cast<int>(room_.size());
     const int begin = std::clamp(-x0_, 0, n), end = std::clamp(image_.cols - x0_, begin, n);
-    // Of an image that is kept in part, the ends are there only where they are asked for.
+    // If only a part of the image is kept, its ends are there only when they are asked for.
     if (begin > 0) std::fill(room_.begin(), room_.begin() + begin, row[0]);
     std::copy(row + x0_ + begin, row + x0_ + end, room_.begin() + begin);
     if (end < n) std::fill(room_.begin() + end, room_.end(), row[image_.cols - 1]);

@@ -13,7 +13,7 @@ class FrameRows {
 public:
     FrameRows(const ImageView& image, int x0, int n);
 
-    /// In the image itself, or, until the next call, in a buffer.
+    /// The row, in the image itself or, until the next call, in a buffer.
     const std::uint8_t* row(int y);
 
 private:

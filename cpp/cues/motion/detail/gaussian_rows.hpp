@@ -8,7 +8,7 @@ namespace tricue {
 /// The radius of the flow and depth tracker's sigma, 0.8 pixels, for which filters are compiled on their own.
 constexpr int kUsualRadius = 3;
 
-/// The weights of GaussianTaps, as functions for several levels of instructions take them.
+/// The weights of GaussianTaps, as multiversioned functions take them.
 struct TapView {
     int radius;
     const float *smooth, *slope, *curvature;  ///< radius + 1
@@ -32,9 +32,9 @@ struct GaussianTaps {
 /// Throws std::invalid_argument unless it is 0.5 to 16 pixels.
 void require_sigma(double sigma);
 
-/// A row and where its filters along x go; the curvature may be nullptr, where it isn't wanted. Each must be writable up to a whole
-/// number of blocks (row_block.hpp), and the row readable up to that and the radius of the filters on both sides. What is read beyond
-/// the row counts only there.
+/// A row and the outputs of its filters along x; the curvature may be nullptr if it isn't wanted. Each must be writable up to a
+/// whole number of blocks (row_block.hpp), and the row readable up to that and the filters' radius on both sides. Numbers read
+/// beyond the row affect only outputs beyond it.
 struct AcrossFilters {
     const float* row;
     float *smooth, *slope, *curvature;

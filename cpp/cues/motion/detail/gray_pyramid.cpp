@@ -21,8 +21,8 @@ void smooth_down(const std::array<const std::uint8_t*, 5>& rows, int n, std::uin
     });
 }
 
-/// Every second of `in`, which has two pixels more on both sides: `sums` of all pixels first, as loads of neighbors are faster
-/// than of every second.
+/// Every second pixel of `in`, which has two more on both sides: `sums` of all pixels come first, because loading neighbors is
+/// faster than loading every second pixel.
 TRICUE_MULTIVERSION
 void smooth_across(const std::uint16_t* __restrict in, int n, std::uint16_t* __restrict sums,
                    std::uint8_t* __restrict out) {
@@ -34,7 +34,7 @@ void smooth_across(const std::uint16_t* __restrict in, int n, std::uint16_t* __r
         n, [=](std::ptrdiff_t x) { out[x] = static_cast<std::uint8_t>(sums[2 * x] >> 8); });
 }
 
-/// Of n + 1 pixels of two rows.
+/// Packs the quads of n + 1 pixels of two rows.
 TRICUE_MULTIVERSION
 void pack(const std::uint8_t* __restrict upper, const std::uint8_t* __restrict lower, int n,
           std::uint32_t* __restrict quads) {
@@ -44,13 +44,13 @@ void pack(const std::uint8_t* __restrict upper, const std::uint8_t* __restrict l
     });
 }
 
-/// The pixels that quads are of, and the last column and row of the whole image.
+/// The pixels that the quads cover, and the last column and row of the whole image.
 struct QuadPlace {
     Region part;
     int last_column, last_row;
 };
 
-/// Where in the quads the block from column x0 on is in the frame before, and by which shares between the pixels there.
+/// The quads at which the block from column x0 on lies in the frame before, and its shares between their pixels.
 struct WarpedBlock {
     std::int32_t at[kRowBlock];
     float right[kRowBlock], down[kRowBlock];
@@ -78,10 +78,10 @@ TRICUE_INLINE void warp_block(const QuadPlace& place, float x0, float y, const f
     }
 }
 
-/// Between the four pixels of each quad, and compared with those of this frame.
+/// Interpolates between the four pixels of each quad, and compares the result with this frame's pixels.
 TRICUE_INLINE void interpolate_block(const std::int32_t* quads, const WarpedBlock& warped,
                                      const std::uint8_t* now, float* means, float* changes) {
-    // On its own: with bytes in it the compiler would make the other loop of four lanes.
+    // A loop of its own: with bytes in it, the compiler would give the other loop only four lanes.
     float after[kRowBlock];
     RowBlock pixels;
     load_bytes(now, pixels);
@@ -99,10 +99,10 @@ TRICUE_INLINE void interpolate_block(const std::int32_t* quads, const WarpedBloc
     }
 }
 
-/// Blocks that take a step before the next: what it stores isn't there at once.
+/// Blocks that take each step together: what a step stores can't be loaded at once.
 constexpr int kTogether = 4;
 
-/// n is a number of blocks. The quads are loaded one by one, which is faster than to gather them.
+/// n is a number of blocks. The quads are loaded one by one, which is faster than gathering them.
 TRICUE_MULTIVERSION
 void compare(const std::uint32_t* __restrict all, const QuadPlace& all_place, int x0, int y,
              const FlowPointers& flow, const std::uint8_t* __restrict now, int n, const ComparedRow& out) {

@@ -23,11 +23,11 @@ struct GrayLevel {
     }
 };
 
-/// Parts of all levels of the image's pyramid but the first, parts[0] being of the second. Each level is every second pixel of the one
-/// before, smoothed by 1, 4, 6, 4, 1 and rounded; the border is replicated. A part holds the source of the next one.
+/// Parts of all levels of the image's pyramid but the first; parts[0] is of the second level. Each level is every second pixel of
+/// the one before, smoothed by 1, 4, 6, 4, 1 and rounded; the border is replicated. A part holds the source of the next one.
 std::vector<GrayLevel> coarser_levels(const ImageView& image, const std::vector<Region>& parts);
 
-/// What a part of a level is made of, in the next finer level of that size.
+/// The source of a part of a level in the next finer level, which has that size.
 Region finer_source(const Region& part, int rows, int cols);
 
 /// Flow along x and y of the pixels of a row.
@@ -41,8 +41,8 @@ public:
     /// @param part of the image, not empty, that is read; a neighbor of it must be readable, too
     QuadImage(const ImageView& image, const Region& part);
 
-    /// Compares the image at (x0 + i - u[i], y - v[i]), i = 0 to n - 1, bilinear, with the pixels `now`: the mean of both, and the change
-    /// from the image to them. The border is replicated. Undefined for what is not in the part.
+    /// Compares the image at (x0 + i - u[i], y - v[i]), i = 0 to n - 1, bilinear, with the pixels `now`: the mean of both, and
+    /// the change from the image to them. The border is replicated. Undefined outside the part.
     void compare_row(int y, int x0, const FlowPointers& flow, const std::uint8_t* now, int n,
                      const ComparedRow& out) const;
 

@@ -14,13 +14,13 @@ public:
     /// @param length pixels of an averaged row
     NormalEquationRows(int pool, int length);
 
-    /// Where row y belongs, y from -pool on, of length + 2 pool pixels, beginning pool left of the averaged ones.
+    /// The place for row y, from -pool on, of length + 2 pool pixels, beginning pool left of the averaged ones.
     NormalEquations row(int y);
 
-    /// The means down the columns of rows [begin, end), a batch or fewer, from what is in rows begin - pool to end - 1 + pool.
+    /// Computes the means down the columns for rows [begin, end), a batch or fewer, from rows begin - pool to end - 1 + pool.
     void average_down(int begin, int end);
 
-    /// Those of a row, of length + 2 pool pixels; the last batch is kept.
+    /// The means for a row, of length + 2 pool pixels; the last batch is kept.
     NormalEquations means_down(int y);
 
 private:
@@ -44,7 +44,7 @@ TRICUE_INLINE void average_block(const Next& next, int count, float share, float
     store(mean, out);
 }
 
-/// The means of windows `side` pixels wide, from those down their columns, of the block from x on.
+/// The means of windows `side` pixels wide in the block from x on, from those down their columns.
 TRICUE_INLINE void average_across(const NormalEquations& columns, int side, int x, MeanBlock& means) {
     const float share = 1 / static_cast<float>(side);
     const auto average = [=](int plane, float* out) {
