@@ -50,7 +50,7 @@ BackProjection back_project(StatesRef measurements, StatesRef variances, VectorR
         }
         const double z = fx * baseline / d, x = (u - cx) * z / fx, y = (v - cy) * z / fy;
         result.points.row(i) << x, y, z;
-        Matrix3 jacobian;  // of x, y, z by u, v, d
+        Matrix3 jacobian;  // of x, y, z with respect to u, v, d
         jacobian << z / fx, 0.0, -x / d, 0.0, z / fy, -y / d, 0.0, 0.0, -z / d;
         const Matrix3 noise = shared ? same : Matrix3(Matrix3Ref(variances.row(i).data()));
         const Matrix3 covariance = jacobian * noise * jacobian.transpose();

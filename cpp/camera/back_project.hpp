@@ -13,8 +13,8 @@ struct BackProjection {
 /// Back-projects the measurements of a rectified stereo rig to points, with their covariances to first order:
 ///     z = fx b / d,  x = (u - cx) z / fx,  y = (v - cy) z / fy,  C = J S Jᵀ
 ///
-/// J is the Jacobian of (x, y, z) by (u, v, d), S the covariance of a measurement. A measurement that is not finite, or whose d is
-/// not above 0, gives NaN.
+/// J is the Jacobian of (x, y, z) with respect to (u, v, d), S the covariance of a measurement. A measurement that is not finite,
+/// or whose d is not above 0, gives NaN.
 ///
 /// @param measurements float64 (N, 3): u, v and d = u - u_right, pixels; (0, 0) is the center of the left image's first pixel
 /// @param variances float64 (3,): those of u, v, d, independent, for all measurements; or (N, 3, 3): a covariance S for each;
