@@ -25,7 +25,7 @@ void require_finite(VectorRef values, const char* name);
 void require_finite(StatesRef values, const char* name);
 void require_region(const Region& region, int rows, int cols);  ///< corners in order, within an image
 
-/// Of two views, of images, planes or bins.
+/// For two views: of images, planes or bins.
 template <typename Values, typename Other>
 void require_same_shape(const Values& values, const Other& other, const char* name) {
     require_shape(values.rows, values.cols, other.rows, other.cols, name);

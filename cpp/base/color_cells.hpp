@@ -20,7 +20,7 @@ void color_cells(const SampleView& samples, std::ptrdiff_t ellipse, int bits, st
 /// The same of n pixels.
 void pixel_cells(const std::uint8_t* pixels, std::ptrdiff_t n, int bits, std::int32_t* cells);
 
-/// The same of n words, in whose bytes b, g, r follow each other from the lowest.
+/// The same of n words, whose bytes are b, g, r from the lowest on.
 void word_cells(const std::uint32_t* words, std::ptrdiff_t n, int bits, std::int32_t* cells);
 
 }  // namespace tricue

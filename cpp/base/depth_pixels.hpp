@@ -30,7 +30,7 @@ struct Rays {
 };
 
 /// @param camera (4,): focal lengths fx, fy above 0, principal point cx, cy; pixels, (0, 0) is the center of the first
-/// @throws std::invalid_argument unless it is that
+/// @throws std::invalid_argument unless the camera is that
 Rays find_rays(VectorRef camera, const DepthView& depth);
 
 /// @throws std::invalid_argument unless it is (4,): fx, fy above 0, cx, cy, finite

@@ -5,7 +5,7 @@
 
 namespace tricue {
 
-/// A depth image in meters. NaN, and whatever else isn't above 0 and finite, is no measurement.
+/// A depth image in meters. NaN, and any other number that isn't above 0 and finite, is no measurement.
 using DepthView = PlaneView;
 
 }  // namespace tricue

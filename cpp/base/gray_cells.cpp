@@ -11,7 +11,7 @@ namespace tricue {
 namespace {
 
 constexpr int kMaxNarrowStep = 257;  ///< up to which the sum of a column of a cell fits 16 bits
-constexpr int kRowsAhead = 6;        ///< of which pixels are loaded, while a row is turned gray
+constexpr int kRowsAhead = 6;        ///< whose pixels are loaded while a row is turned gray
 
 /// The weights are 128 of `high` and one of `low`: both sums fit 16 bits, of which a register holds twice as many as of 32.
 TRICUE_MULTIVERSION
@@ -70,7 +70,7 @@ void average_cells(const Levels& levels, std::ptrdiff_t cells, std::uint16_t* su
     }
 }
 
-/// The same for larger steps, that nobody needs to be fast.
+/// The same for larger steps, which needn't be fast.
 void average_wide_cells(const Levels& levels, std::ptrdiff_t cells, std::uint8_t* means) {
     const std::ptrdiff_t step = levels.step;
     for (std::ptrdiff_t j = 0; j < cells; ++j) {

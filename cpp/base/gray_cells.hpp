@@ -8,7 +8,8 @@
 
 namespace tricue {
 
-/// The gray levels of an image, BGR or gray, in cells of step x step pixels, a part of a row at a time: what reduce_gray says of them.
+/// The gray levels of an image, BGR or gray, in cells of step x step pixels, as defined by reduce_gray, a part of a row at a
+/// time.
 class GrayCells {
 public:
     /// @param step 1 to the smaller side of the image
@@ -17,7 +18,7 @@ public:
     int rows() const { return image_.rows / step_; }
     int cols() const { return image_.cols / step_; }
 
-    /// Cells [x0, x1) of a row: in the image itself where they are its pixels, else in `room`, which they then fill.
+    /// Cells [x0, x1) of a row: in the image itself if they are its pixels, else in `room`, which they then fill.
     const std::uint8_t* row(int y, int x0, int x1, std::uint8_t* room);
 
 private:

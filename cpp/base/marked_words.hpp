@@ -12,13 +12,13 @@ namespace tricue {
 
 constexpr std::size_t kWordBytes = sizeof(std::uint64_t);
 
-/// The number of marks for so many pixels, one byte each, in whole words.
+/// The number of marks for `pixels` pixels, one byte each, rounded up to whole words.
 constexpr std::size_t whole_words(int pixels) {
     return (static_cast<std::size_t>(pixels) + kWordBytes - 1) / kWordBytes * kWordBytes;
 }
 
-/// Calls body(x) for each pixel x of the words in which any is marked. Where marks are rare, eight pixels at a time are skipped, as their
-/// marks are one number.
+/// Calls body(x) for each pixel x of the words in which any is marked. Where marks are rare, eight pixels are skipped at a time,
+/// because their marks are one number.
 template <typename Body>
 TRICUE_INLINE void for_marked_words(const std::vector<std::uint8_t>& marks, Body body) {
     for (std::size_t first = 0; first < marks.size(); first += kWordBytes) {

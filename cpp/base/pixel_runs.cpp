@@ -24,8 +24,8 @@ PixelRuns::PixelRuns(int cols) : cols_(cols), changes_(whole_words(cols)), edges
     runs_.reserve(kReservedRuns);
 }
 
-/// Where one run ends and the next begins. Each pixel near a change is written, and overwritten by the next unless a run ends there:
-/// a branch would be mispredicted.
+/// The places where one run ends and the next begins. Each pixel near a change is written, and overwritten by the next unless a
+/// run ends there: a branch would be mispredicted.
 std::size_t PixelRuns::find_edges(const std::uint8_t* labels) {
     mark_changes(labels, cols_, changes_.data());
     std::size_t count = 0;
@@ -69,7 +69,7 @@ std::size_t PixelRuns::root(std::size_t i) {
     return i;
 }
 
-/// A parent comes before its children, so that its own parent is the first run by then.
+/// A parent comes before its children, so its own parent is already the first run.
 void PixelRuns::flatten() {
     for (PixelRun& run : runs_) run.parent = runs_[run.parent].parent;
 }

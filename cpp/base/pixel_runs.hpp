@@ -7,7 +7,7 @@
 
 namespace tricue {
 
-/// Sets, from the second pixel of a row on, whether its label isn't that of the pixel before. Returns whether any is.
+/// Marks, from the second pixel of a row on, those whose label isn't that of the pixel before. Returns whether any is.
 bool mark_changes(const std::uint8_t* labels, int n, std::uint8_t* changes);
 
 /// Pixels [begin, end) of one row with the same label, not 0. `parent` is an earlier run of the same component, or the run itself.
@@ -30,7 +30,7 @@ public:
 
     /// The same, run by run, from left to right: add() each of a row, then end_row().
     void add(int begin, int end, std::uint8_t label) {
-        // In its place: to copy what has just been written, in other pieces, takes longer than all the rest.
+        // In place: copying numbers that have just been written, in other pieces, takes longer than all the rest.
         const std::size_t parent = runs_.size();
         PixelRun& run = runs_.emplace_back();
         run.row = row_;
@@ -47,7 +47,7 @@ public:
     /// The first run of a run's component.
     std::size_t root(std::size_t i);
 
-    /// Makes that the parent of every run.
+    /// Makes the first run of its component the parent of every run.
     void flatten();
 
 private:

@@ -22,7 +22,7 @@ int last_of_ring(int count) {
     return rows - 1;
 }
 
-/// A line more than there is room for: else rows of several buffers would meet in the same lines of the cache.
+/// One cache line more than needed: else rows of several buffers would map to the same cache lines.
 std::ptrdiff_t stride_of(int length) {
     return (length + 2 * kLine - 1) / (2 * kLine) * (2 * kLine) + kLine;
 }

@@ -18,15 +18,15 @@ public:
 
     float* row(int y) { return rows_[slot(y)]; }
 
-    /// Of `count` rows from y on, the uppermost first.
+    /// `count` rows from y on, the uppermost first.
     const float* const* from(int y) const { return rows_.data() + slot(y); }
 
 private:
     std::size_t slot(int y) const { return static_cast<std::size_t>(y & last_); }
 
-    int last_;  ///< of a number of rows that is a power of two: a division for each row would take as long as to filter it
+    int last_;  ///< of a number of rows that is a power of two: a division for each row would take as long as filtering it
     std::vector<float> data_;
-    std::vector<float*> rows_;  ///< twice, so that `count` consecutive pointers begin at any row
+    std::vector<float*> rows_;  ///< each twice, so that `count` consecutive pointers can begin at any row
 };
 
 }  // namespace tricue

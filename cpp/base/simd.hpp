@@ -32,8 +32,8 @@
 /// - Only what is inlined into the function is compiled for the new instructions: mark helpers `inline` and keep them in
 ///   the same file. Eigen's own packets stay at the baseline: write plain loops over pointers.
 /// - All versions give the same bits: -ffp-contract=off forbids fused multiply-adds, and without -ffast-math the compiler
-///   may not change the order of a floating-point sum (which is why such a sum isn't vectorized; integer sums are).
-/// - The function may not throw: GCC takes the dispatched call for one that can't, and the program ends.
+/// may not change the order of a floating-point sum (which is why such a sum isn't vectorized; integer sums are). - The function
+/// may not throw: GCC assumes that the dispatched call can't, and the program would end.
 #if TRICUE_SIMD_LEVEL >= 4
 #define TRICUE_MULTIVERSION \
     __attribute__((target_clones("default", "arch=x86-64-v2", "arch=x86-64-v3", "arch=x86-64-v4")))
@@ -45,9 +45,9 @@
 #define TRICUE_MULTIVERSION
 #endif
 
-/// Defines `void name parameters`, once for each width of registers, as `body<bytes> arguments`, bytes being 16 (SSE2, NEON),
-/// 32 (AVX2) or 64 (AVX-512). For functions on Pack, whose number of lanes has to fit the instructions; what is said of
-/// TRICUE_MULTIVERSION holds. Parameters and arguments stand in parentheses: TRICUE_MULTIWIDTH(add, add_by, (int n), (n))
+/// Defines `void name parameters`, once for each width of registers, as `body<bytes> arguments`, bytes being 16 (SSE2, NEON), 32
+/// (AVX2) or 64 (AVX-512). For functions on Pack, whose number of lanes has to fit the instructions; the rules of
+/// TRICUE_MULTIVERSION hold. Parameters and arguments stand in parentheses: TRICUE_MULTIWIDTH(add, add_by, (int n), (n))
 #define TRICUE_FOR_TARGET(target_, bytes, name, body, parameters, arguments) \
     __attribute__((target(target_))) void name parameters {                  \
         body<bytes> arguments;                                               \
@@ -68,8 +68,8 @@
     }
 #endif
 
-/// Put before a loop that writes to nothing that it reads elsewhere in it: GCC, which doesn't believe __restrict of pointers that
-/// come in a struct or an array, then vectorizes it.
+/// Put before a loop that writes no memory that it reads elsewhere: GCC, which ignores __restrict on pointers from a struct or an
+/// array, then vectorizes it.
 #if defined(__GNUC__) && !defined(__clang__)
 #define TRICUE_INDEPENDENT _Pragma("GCC ivdep")
 #else
@@ -93,9 +93,9 @@ struct Packed {
 
 }  // namespace simd_detail
 
-/// A few numbers that the compiler keeps in one vector register, or in as few as the machine has: the vector extensions of GCC and
-/// Clang, with operators lane by lane. For loops that carry a state from step to step, which the compiler would write to memory at
-/// each. Comparisons of a Pack that is wider than the registers are done one by one (TRICUE_MULTIWIDTH).
+/// A few numbers that the compiler keeps in one vector register, or in as few as the machine has: the vector extensions of GCC
+/// and Clang, with operators lane by lane. For loops that carry a state from step to step, which the compiler would otherwise
+/// write to memory at each step. Comparisons of a Pack that is wider than the registers are done one by one (TRICUE_MULTIWIDTH).
 ///
 /// Packs go from function to function by reference: how they are passed by value depends on the instructions.
 template <typename Scalar, int kLanes>
@@ -128,7 +128,7 @@ TRICUE_INLINE void permute(const Lanes& from, Lanes& to) {
 #endif
 }
 
-/// The lanes of both in turns: those of the lower halves, and those of the upper ones.
+/// The lanes of both interleaved: those of the lower halves, and those of the upper ones.
 template <typename Lanes, std::size_t... kPlace>
 TRICUE_INLINE void interleave(const Lanes& one, const Lanes& two, Lanes& lower, Lanes& upper,
                               std::index_sequence<kPlace...>) {
@@ -150,12 +150,12 @@ TRICUE_INLINE void interleave(const Lanes& one, const Lanes& two, Lanes& lower, 
     interleave(one, two, lower, upper, std::make_index_sequence<sizeof(Lanes) / sizeof(one[0])>());
 }
 
-/// In one order, whatever the machine.
+/// Sums the lanes in the same order on every machine.
 TRICUE_INLINE double sum(const Pack<double, 4>& lanes) {
     return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
-/// Which of eight bytes aren't 0: bit i for byte i. A number has its first byte lowest on all machines that tricue is built for.
+/// Which of eight bytes aren't 0: bit i for byte i. All machines that tricue is built for are little-endian.
 TRICUE_INLINE std::uint64_t nonzero_bytes(std::uint64_t bytes) {
     constexpr std::uint64_t kLow = 0x7F7F7F7F7F7F7F7F, kOnes = 0x0101010101010101,
                             kGather = 0x0102040810204080;
@@ -185,10 +185,10 @@ TRICUE_INLINE int count_bits(std::uint64_t bits) {
 #endif
 }
 
-/// Begins to load the cache line of an address that is read soon, into the second level of the cache: the first has few lines under way
-/// at a time, and then what is read meanwhile waits, too.
+/// Begins to load the cache line of an address that is read soon into the second-level cache: the first level can have only a few
+/// lines in flight, and other reads would then wait, too.
 ///
-/// The empty instruction has a reason: GCC 12 takes a function that does nothing but prefetch for one without effect, and removes calls.
+/// The empty instruction is needed: GCC 12 takes a function that only prefetches for one without effect, and removes calls.
 TRICUE_INLINE void prefetch(const void* address) {
 #if defined(__GNUC__)
     __builtin_prefetch(address, 0, 2);
@@ -207,7 +207,7 @@ TRICUE_INLINE void prefetch_bytes(const void* address, std::ptrdiff_t n) {
 /// time; `out` must not overlap the others.
 void look_up_bytes(const std::uint8_t* table, const std::uint8_t* indices, std::size_t n, std::uint8_t* out);
 
-/// By which of their versions functions run on this machine, to tell users: "x86-64" to "x86-64-v4", "NEON", or "one version".
+/// The version of the functions that runs on this machine, to tell users: "x86-64" to "x86-64-v4", "NEON", or "one version".
 const char* instructions_in_use();
 
 }  // namespace tricue
