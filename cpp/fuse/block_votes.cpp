@@ -31,7 +31,7 @@ std::uint64_t find_strange(const std::int64_t* states, const std::int64_t* votes
     return strange;
 }
 
-/// Frames are counted on: the greatest integer has no next.
+/// Frame counts are incremented, so they must be below the greatest integer.
 void require_counts(const BlockVotes& blocks) {
     if (find_strange(blocks.states.data(), blocks.votes.data(), blocks.against.data(), blocks.trusted.data(),
                      blocks.unproven.data(), blocks.states.size()) == 0)
@@ -65,7 +65,7 @@ void require_arguments(const BlockVotes& blocks, const BlockObservations& seen) 
     require_counts(blocks);
 }
 
-/// What the block has now.
+/// The block's observations in this frame.
 struct Observed {
     bool inside, found, same_depth, has_mean, hidden, similar;
 

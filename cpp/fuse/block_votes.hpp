@@ -9,24 +9,24 @@ namespace tricue {
 
 using BlockFlags = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
-/// What N blocks are, and the votes that they have.
+/// The states of N blocks, and their votes.
 struct BlockVotes {
     Indices states;   ///< int64 (N,): 0 not the target's, 1 the target's, 2 occluded
     Indices votes;    ///< int64 (N,): frames for a block to become the target's
     Indices against;  ///< int64 (N,): frames for it to leave its state
-    BlockFlags core;  ///< bool (N,): blocks that the target's disparity alone keeps
+    BlockFlags core;  ///< bool (N,): blocks for which the target's disparity alone is a vote
     Indices trusted;  ///< int64 (N,): frames for which a block counts in the model after it had target pixels
     Indices unproven;  ///< int64 (N,): frames with the target's disparity since it had target pixels
 };
 
-/// What a frame measures in N blocks.
+/// The measurements of a frame in N blocks.
 struct BlockObservations {
     Indices cells, targets, measured;
     Vector mean;
     Indices similar;
 };
 
-/// What the mean disparity of a block is compared with, and how many votes decide.
+/// The disparities that a block's mean is compared with, and how many votes decide.
 struct VoteRules {
     double target, tolerance, occluder, min_share;
     std::int64_t to_add, to_remove, to_release, max_unproven;
@@ -34,11 +34,11 @@ struct VoteRules {
 
 /// The blocks of the target window after the votes of a frame.
 ///
-/// A block with target pixels, or a core block at the target's disparity, has a vote; after as many as are needed it is the target's. A
-/// core block is kept by the disparity alone for a limited time, as the floor around the feet has it, too. One at another disparity
-/// without target pixels has a vote against it, but not if hardly any disparities are measured: cloth and cardboard without texture
-/// have none. A block whose mean disparity is an occluder's, without target pixels, is occluded; it is the target's again at a similar
-/// disparity, and released where it shows what is behind the target for long.
+/// A block with target pixels, or a core block at the target's disparity, gets a vote; with enough votes it becomes the target's.
+/// Disparity alone keeps a block for a limited time, as the floor around the feet has it, too. A block of the target at another
+/// disparity, without target pixels, gets a vote against it, but not if hardly any disparities are measured: cloth and cardboard
+/// without texture have none. A block of the target whose mean disparity is an occluder's, without target pixels, is occluded; it
+/// is the target's again at a similar disparity, and released if it shows the background for long.
 ///
 /// @param states int64 (N,): 0, 1 or 2
 /// @param votes int64 (N,), 0 to 2^31 - 1 frames
@@ -51,11 +51,11 @@ struct VoteRules {
 /// @param measured int64 (N,): those with a disparity; the mean counts from a fifth of the pixels on
 /// @param mean float64 (N,): their mean disparity
 /// @param similar int64 (N,): those at the target's disparity
-/// @param disparities (target, tolerance, occluder): a mean is similar within the tolerance of the target's disparity, and an
-///     occluder's above the third
+/// @param disparities (target, tolerance, occluder): a mean is similar if it differs by at most the tolerance from the target's
+///     disparity, and an occluder's if it is above the third
 /// @param min_share of a block's pixels, for a vote
-/// @param frames (to add, to remove, to release, unproven): votes that make a block the target's, that end this, and that release an
-///     occluded block; frames for which disparity alone keeps a block
+/// @param frames (to add, to remove, to release, unproven): votes that make a block the target's, votes against it that end this,
+///     and those that release an occluded block; frames for which disparity alone keeps a block
 /// @throws std::invalid_argument on sizes that differ, states other than 0 to 2, and numbers of frames out of range
 /// Source: Okada, Shirai, Miura 1996, section 4.4 and figure 7; core blocks, trust and release are ours.
 BlockVotes block_votes(BlockVotes blocks, const BlockObservations& seen, const VoteRules& rules);

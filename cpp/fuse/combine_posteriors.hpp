@@ -6,7 +6,7 @@
 
 namespace tricue {
 
-/// P(target | two cues) of every pixel, by the posteriors p and q of each, which are independent and have equal priors:
+/// P(target | two cues) of every pixel, from the posteriors p and q of two independent cues, with equal priors:
 ///     p q / max(p q + (1 - p) (1 - q), 1e-9)
 ///
 /// The odds p / (1 - p) and q / (1 - q) multiply, so that 1/2 changes nothing. In float32, and to the last bit as written.

@@ -20,7 +20,7 @@ using Index = Eigen::Index;
 constexpr Index kNumbers = 5;  // of a state
 constexpr double kMinLikelihood = 1e-12;
 
-/// Centers and sizes in pixels, and the depth to which a model's levels are relative: their own, unless there is one for all.
+/// Centers and sizes in pixels, and the depth to which a model's levels are relative: the rectangle's own, unless all share one.
 States project(VectorRef camera, StatesRef states, double middle) {
     States rectangles(states.rows(), kNumbers);
     for (Index i = 0; i < states.rows(); ++i) {
@@ -45,7 +45,7 @@ States grid_pattern(const Places& places) {
 
 constexpr double kNoModel = 0.0;  ///< the only level of a model that isn't compared with
 
-/// What is seen in and around rectangles.
+/// The measurements in and around rectangles.
 class Observer {
 public:
     Observer(const DepthView& depth, VectorRef camera, const DepthLikelihood& by)

@@ -11,7 +11,7 @@
 
 namespace tricue {
 
-/// Weighted rectangles, and the draw by which they are resampled.
+/// Weighted rectangles, and the offset with which they are resampled.
 struct WeightedRectangles {
     StatesRef particles;
     VectorRef weights;
@@ -24,7 +24,7 @@ struct Refinement {
     double least;
 };
 
-/// How likely a rectangle is by the depths in and around it.
+/// How the depths in and around a rectangle give its likelihood.
 struct DepthLikelihood {
     DepthModel model;
     double middle;
@@ -40,12 +40,12 @@ struct FilteredRectangles {
     Vector weights;     ///< float64 (N,) of sum 1
     Vector mean;        ///< float64 (5,): of the weighted particles
     States covariance;  ///< float64 (5, 5)
-    Vector observed;    ///< float64 (4,): what depth_contrast measures of the mean
+    Vector observed;    ///< float64 (4,): the result of depth_contrast for the mean
     Vector histogram;   ///< float64 (L,): of the depths in the mean, of sum 1; all 0 where nothing counts
 };
 
-/// One step of a particle filter on upright rectangles in meters (X, Y, Z, W, H) before a depth camera, by resample, propose,
-/// depth_contrast, rectangle_prior, reweight and summarize.
+/// One step of a particle filter on upright rectangles in meters (X, Y, Z, W, H) in front of a depth camera, by resample,
+/// propose, depth_contrast, rectangle_prior, reweight and summarize.
 ///
 /// A second sampling is drawn around the mean of the first: x = mean + scale * noise, Z at least its lower bound, W and H at least
 /// `least`; its weights are the likelihoods. The log-likelihood is l(d) + contrast (inside - around) + rectangle_prior, where d,

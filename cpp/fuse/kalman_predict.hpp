@@ -5,7 +5,7 @@
 
 namespace tricue {
 
-/// What a filter believes of a state of D numbers.
+/// A filter's estimate of a state of D numbers.
 struct Belief {
     Vector mean;        ///< float64 (D,), x'
     States covariance;  ///< float64 (D, D), P', symmetric to the last bit

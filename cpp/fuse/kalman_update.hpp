@@ -7,7 +7,8 @@
 
 namespace tricue {
 
-/// A state after a measurement, and what tells whether they agree: y S⁻¹ yᵀ has M on average if noises are what they claim.
+/// A state after a measurement, and the innovation, which tells whether they agree: y S⁻¹ yᵀ is M on average if the noises are
+/// right.
 struct Correction {
     Vector mean;                   ///< float64 (D,), x'
     States covariance;             ///< float64 (D, D), P', symmetric to the last bit
@@ -19,11 +20,11 @@ struct Correction {
 ///     y = z - H x,  S = H P Hᵀ + R,  K = P Hᵀ S⁻¹
 ///     x' = x + K y,  P' = (I - K H) P (I - K H)ᵀ + K R Kᵀ
 ///
-/// A measurement that is farther off than max_distance, in standard deviations sqrt(y S⁻¹ yᵀ), shows that the model of the motion
-/// failed: first P is multiplied by y S⁻¹ yᵀ / max_distance², which gives S, too.
+/// A measurement that is farther off than max_distance, in standard deviations sqrt(y S⁻¹ yᵀ), shows that the motion model
+/// failed: then P is first multiplied by y S⁻¹ yᵀ / max_distance², and S is computed from this larger P.
 ///
-/// P' is in Joseph's form, a sum of two squares: an error of K enters it to second order only. Below noises about 1e12 times
-/// smaller than P no form in double precision is safe.
+/// P' is in Joseph's form, a sum of two squares: an error of K enters it to second order only. With noises over about 1e12 times
+/// smaller than P, no form is safe in double precision.
 ///
 /// @param mean float64 (D,), x, D at least 1
 /// @param covariance float64 (D, D), P
@@ -33,8 +34,8 @@ struct Correction {
 /// @param max_distance standard deviations, above 0; infinite to never widen P
 /// @throws std::invalid_argument on other shapes, numbers that are not finite, invalid covariances, or an S that is not positive
 ///     definite
-/// Source: Kalman 1960; Bucy, Joseph 1968; Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, steps 3 to 5, where H = I. A larger P where
-/// the innovation is large: ours, as fading memory has it.
+/// Source: Kalman 1960; Bucy, Joseph 1968; Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, steps 3 to 5, where H = I. A larger P
+/// where the innovation is large: ours, as in fading memory.
 Correction kalman_update(VectorRef mean, StatesRef covariance, VectorRef measurement, StatesRef observation,
                          StatesRef noise, double max_distance = std::numeric_limits<double>::infinity());
 

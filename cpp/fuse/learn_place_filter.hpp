@@ -15,14 +15,14 @@ struct PlaceFilter {
 };
 
 /// Learns the filter of a target's place from a patch: one stage of the frame, in one call. It is hog_color_cells, then
-/// regularized_filter, of which the result is also blended with the first frame's filter, against forgetting:
+/// regularized_filter, whose result is also blended with the first frame's filter, against forgetting:
 ///     applied = learned + first_weight (first - learned)
 ///
 /// @param patch uint8 (2R, 2C, 3) BGR, the target in its middle
 /// @param taper float32 (R, C)
-/// @param mask, label, previous as regularized_filter has them; K is 19
+/// @param mask, label, previous as regularized_filter takes them; K is 19
 /// @param first complex64 (K, R, C // 2 + 1), of the first frame
-/// @param temporal_weight, penalty as regularized_filter has them
+/// @param temporal_weight, penalty as regularized_filter takes them
 /// @param first_weight in [0, 1]
 /// @throws std::invalid_argument on other shapes, or numbers out of range
 /// Source: Li, Tian, Zuo, Zhang, Yang 2018 (STRCF).

@@ -25,15 +25,15 @@ struct SizeFilter {
 /// correlation_train; then the parts are blended with those of the first frame, against forgetting, and divided:
 ///     A = learned + first_weight (first - learned), B alike;   applied = A / (B + ridge mean(B))
 ///
-/// mean(B) counts as 1e-12 at least.
+/// mean(B) counts as at least 1e-12.
 ///
 /// @param patch uint8 (H, W, 3) BGR, without padding between its rows
-/// @param places int64 (2R, 2C): as pick_pixels has them
+/// @param places int64 (2R, 2C): as pick_pixels takes them
 /// @param taper float32 (R, C)
-/// @param label, numerator, denominator as correlation_train has them; K is 19
+/// @param label, numerator, denominator as correlation_train takes them; K is 19
 /// @param first_numerator complex64 (K, R, C // 2 + 1), of the first frame
 /// @param first_denominator float32 (R, C // 2 + 1), of the first frame
-/// @param rate as correlation_train has it
+/// @param rate as correlation_train takes it
 /// @param first_weight in [0, 1]
 /// @param ridge finite, above 0
 /// @returns numerator complex64 (K, R, C // 2 + 1), A

@@ -34,7 +34,7 @@ PlaneView view(const Floats& plane) {
     return {plane.data(), static_cast<int>(plane.rows()), static_cast<int>(plane.cols()), plane.cols()};
 }
 
-/// How much more of what looks like the target is in its box than around it; without numbers where nothing tells.
+/// The contrast of the posterior between the target's box and the frame around it; empty if there is no posterior.
 Floats find_contrast(const ImageView& patch, FloatsRef table, const PlaneView& other,
                      const TargetSearch& search) {
     const FramedBox box{search.width, search.height, search.outer};
@@ -77,7 +77,7 @@ int bits_of(VectorRef roots) {
     refuse("roots", "(B³,), B a power of two up to 64", std::to_string(roots.size()));
 }
 
-/// The Bhattacharyya coefficient of colors around a place with those that `roots` is of.
+/// The Bhattacharyya coefficient between the colors around a place and the histogram whose square roots are `roots`.
 double color_similarity(const ImageView& patch, VectorRef roots, int bits, double right, double down,
                         const TargetSearch& search) {
     const Span rows = find_span(patch.rows / 2.0 + down, search.inner * search.height, patch.rows),

@@ -8,14 +8,14 @@
 
 namespace tricue {
 
-/// What a target looks like.
+/// The appearance of a target.
 struct TargetLook {
-    FilterStack filters;  ///< of its place: the one that is asked first, and others
-    FloatsRef table;      ///< P(target | color) as color_posterior takes it, or without numbers
-    VectorRef roots;      ///< square roots of the joint histogram that the colors found are compared with
+    FilterStack filters;  ///< of its place: the first one localizes it, then others
+    FloatsRef table;      ///< P(target | color) as color_posterior takes it, or empty
+    VectorRef roots;      ///< square roots of the joint histogram with which colors are compared
 };
 
-/// What is sought in a patch.
+/// How a target is searched for in a patch.
 struct TargetSearch {
     double width, height;                   ///< of the target's box, patch pixels, finite, above 0
     double outer, around;                   ///< as box_contrast has them
@@ -23,30 +23,31 @@ struct TargetSearch {
     double inner;                           ///< share of the box's sides whose colors are compared, above 0
 };
 
-/// Where in a patch most evidence for a target is, and what is there.
+/// The place in a patch with most evidence for a target, and the measurements there.
 struct LocalizedTarget {
     Vector
         found;  ///< float64 (7 + F,): evidence_peak, the first filter's peak sharpness, and the colors' similarity
     Floats responses;  ///< float32 (F, R, C) of the filters; in C++ one below the other
 };
 
-/// Finds a target in a patch around its last place: one stage of the frame, in one call. It is what hog_color_cells,
-/// correlation_response, color_posterior, combine_posteriors, box_contrast, evidence_peak and joint_histogram do one after the other.
+/// Finds a target in a patch around its last place: one stage of the frame, in one call. It is hog_color_cells,
+/// correlation_response, color_posterior, combine_posteriors, box_contrast, evidence_peak and joint_histogram, one after the
+/// other.
 ///
-/// The peak's sharpness is by how many standard deviations of the first response its greatest number near the place stands above its
-/// mean (of Bolme et al. 2010 the peak-to-sidelobe ratio, with all cells). Colors are those of the pixels under the inner part of the
-/// target's box there: rounded to whole pixels, halves to even, and cut at the patch's border, at least one each way. Their
-/// similarity is the Bhattacharyya coefficient. Sums of both are in float64.
+/// The peak's sharpness is the number of standard deviations of the first response by which its greatest number near the place is
+/// above its mean (the peak-to-sidelobe ratio of Bolme et al. 2010, with all cells). Colors are those of the pixels under the
+/// inner part of the target's box there: rounded to whole pixels, halves to even, and clipped to the patch, at least one pixel
+/// each way. Their similarity is the Bhattacharyya coefficient. Sums of both are in float64.
 ///
 /// @param patch uint8 (2R, 2C, 3) BGR
 /// @param taper float32 (R, C)
 /// @param filters complex64 (F, 19, R, C // 2 + 1), F at least 1
-/// @param table float32 (B, B, B), or (0, 0, 0) where colors tell nothing
+/// @param table float32 (B, B, B), or (0, 0, 0) to ignore colors
 /// @param other float32 (2R, 2C), P(target) of the pixels by another cue, or (0, 0) where there is none
 /// @param roots float64 (B³,), B a power of two up to 64
 /// @param width, height of the box, patch pixels, finite, above 0
-/// @param outer, around as box_contrast has them
-/// @param filter_weight, contrast_weight as evidence_peak has them; without any posterior there is no contrast
+/// @param outer, around as box_contrast takes them
+/// @param filter_weight, contrast_weight as evidence_peak takes them; without any posterior there is no contrast
 /// @param inner finite, above 0
 /// @throws std::invalid_argument on other shapes, or numbers out of range
 /// Source: Danelljan et al. 2014 (DSST); Bertinetto et al. 2016 (Staple); Bolme et al. 2010 (MOSSE).

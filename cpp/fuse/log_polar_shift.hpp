@@ -8,7 +8,7 @@
 
 namespace tricue {
 
-/// How far from the middle a peak is looked for, and how much less one counts that is farther off.
+/// How far from the middle a peak is searched for, and the penalty on peaks that are farther off.
 struct ShiftRange {
     int most_right;  ///< columns either way, at least 0
     int most_down;   ///< rows either way, at least 0
@@ -20,20 +20,20 @@ struct Shift {
     double right, response;
 };
 
-/// By how many cells a patch has shifted to the right in other coordinates: in log-polar ones by the logarithm of a change of size, or
-/// by a turn. One stage of the frame, in one call: pick_pixels, hog_color_cells, and correlation_response, of which the peak near the
-/// middle counts.
+/// The shift of a patch to the right in other coordinates, in cells: in log-polar ones the logarithm of a change of size, or a
+/// turn. One stage of the frame, in one call: pick_pixels, hog_color_cells, and correlation_response, whose peak near the middle
+/// gives the shift.
 ///
-/// The peak is the greatest response less `penalty` times the squared columns to the middle, in float32, the first of equal ones. The
-/// place between the columns is that of the parabola through the logarithms of the response and its neighbors, at most half a cell
-/// off (a Gaussian's peak exactly). Neighbors count as a twentieth of the peak at least. At the ends of the range, and where the
-/// response isn't above 0, it is the column's own.
+/// The peak is where the response minus `penalty` times the squared columns to the middle is greatest, in float32, the first of
+/// equal ones. Its place between columns is the top of the parabola through the logarithms of the response there and of its
+/// neighbors, at most half a cell off (exact for a Gaussian). Neighbors count as at least a twentieth of the peak. At the ends of
+/// the range, and where the response isn't above 0, it is the column itself.
 ///
 /// @param patch uint8 (H, W, 3) BGR, without padding between its rows
-/// @param places int64 (2R, 2C): as pick_pixels has them
+/// @param places int64 (2R, 2C): as pick_pixels takes them
 /// @param taper float32 (R, C)
 /// @param filter complex64 (1, 19, R, C // 2 + 1)
-/// @param most_right, most_down cells from column C // 2 and row R // 2, where all of them have to be cells
+/// @param most_right, most_down cells to either side of column C // 2 and row R // 2, all of which have to exist
 /// @param penalty finite
 /// @returns right columns to the right
 /// @returns response of the filter, in the cell of the peak

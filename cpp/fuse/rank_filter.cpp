@@ -21,7 +21,7 @@ void require_valid(const WeightedEllipses& last) {
     require_size(last.weights, last.particles.rows(), "weights");
 }
 
-/// The particles that the filter goes on from.
+/// The particles from which the filter proceeds.
 States chosen(const WeightedEllipses& last) {
     if (!last.offset) {
         require_weights(last.weights);

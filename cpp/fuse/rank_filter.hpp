@@ -14,18 +14,18 @@ namespace tricue {
 struct WeightedEllipses {
     StatesRef particles;  ///< float64 (N, 4): ellipses, as in rank_likelihood, N at least 1
     VectorRef weights;    ///< float64 (N,), finite, none negative, not all 0; need not sum to 1
-    /// where resample puts its comb, in [0, 1); None: they aren't resampled, and their weights count
+    /// offset of resample's comb, in [0, 1); None: particles aren't resampled, and their weights count
     std::optional<double> offset;
 };
 
-/// What particles are moved by.
+/// The noise that moves particles.
 struct EllipseNoise {
     StatesRef noise;  ///< float64 (N, 4): independent standard normal numbers
     double
-        correlation;  ///< of the noise of both semi-axes, which that of the major one then gets, in [-1, 1]
+        correlation;  ///< of both semi-axes' noise, made by mixing the minor one's into the major one's, in [-1, 1]
 };
 
-/// Particles after a frame, and what they say of the target.
+/// Particles after a frame, and their estimate of the target.
 struct FilteredEllipses {
     States particles;       ///< float64 (N, 4)
     Vector weights;         ///< float64 (N,): of sum 1
@@ -36,15 +36,15 @@ struct FilteredEllipses {
     Vector correlations;  ///< float64 (M,): of that ellipse, as rank_window has them
 };
 
-/// One step of the color particle tracker's filter: particles are drawn, weighed by what the image shows under them, and summed up.
+/// One step of the color particle tracker's filter: particles are drawn, weighted by the image under them, and summarized.
 ///
-/// It joins resample; propose; rank_likelihood, to which the logarithms of the weights are added where nothing was resampled, a
-/// weight counting as at least 1e-300; reweight; summarize; and rank_likelihood and rank_window of the expected value. So particles
-/// stay in the cache.
+/// It combines resample; propose; rank_likelihood, to which the logarithms of the weights are added where nothing was resampled,
+/// a weight counting as at least 1e-300; reweight; summarize; and rank_likelihood and rank_window of the expected value. So
+/// particles stay in the cache between these steps.
 ///
 /// @param image uint8 (H, W, 3) BGR, at least one pixel
 /// @param flat as in rank_window
-/// @throws std::invalid_argument as the kernels that it joins, and on a correlation outside [-1, 1]
+/// @throws std::invalid_argument as the kernels that it combines, and on a correlation outside [-1, 1]
 /// Source: Sabeti, Parvizi, Wu 2008, section III, equations (2), (30), (31).
 FilteredEllipses rank_filter(const ImageView& image, const WeightedEllipses& last, const EllipseNoise& noise,
                              const Dynamics& dynamics, const Bounds& bounds, const Detection& detection,

@@ -15,12 +15,12 @@ struct MeanSize {
 /// A measured state, which may be wrong.
 struct MeasuredState {
     VectorRef state;  ///< float64 (D,): measured state, finite
-    /// float64 (D,): its standard deviations, above 0, infinite for what was not measured
+    /// float64 (D,): its standard deviations, above 0, infinite for numbers that were not measured
     VectorRef deviation;
-    double max_cost;  ///< most that a state far from it loses, nats, at least 0: it may be wrong
+    double max_cost;  ///< most that a state far from it loses, nats, at least 0
 };
 
-/// Log-likelihood of rectangles before they are looked at, by the running mean of their size and by a measured state:
+/// Log-likelihood of rectangles before their depths are read, by the running mean of their size and by a measured state:
 ///     -1/2 Σ (log(s_i / size_i) / spread_i)² - min(1/2 Σ ((x_i - state_i) / deviation_i)², max_cost)
 ///
 /// s_1, s_2 are the width and height, the last two of a state's D numbers x.

@@ -11,8 +11,8 @@
 #include "fuse/detail/masked_fourier.hpp"
 #include "fuse/detail/plane_fourier.hpp"
 
-// A's closed form, written so that rounding doesn't grow. R is what A would be without cells and label, and what the response of R
-// lacks corrects it:
+// A's closed form, written so that rounding doesn't grow. R is what A would be without cells and label; C corrects it by the
+// difference of its response from the label:
 //     R = (μ P + γ (G − H)) / (γ + μ)
 //     C = (Y − Σ_k X_k R_k) / (Σ_k |X_k|² + γ + μ)
 //     A = R + conj(X) C
@@ -89,7 +89,7 @@ void correct(Spectrum x, Spectrum correction, std::size_t n, Spectrum filter) {
     }
 }
 
-/// Between the iterations: from A and G, with H = A − G, R + H in the place of A; adds X times R.
+/// Between the iterations: computes, from A and G, with H = A − G, R + H in place of A; adds X times R.
 TRICUE_MULTIVERSION
 void begin_again(Spectrum x, const float* previous, Spectrum masked, Weights weights, std::size_t n,
                  Spectrum filter, Spectrum sum) {

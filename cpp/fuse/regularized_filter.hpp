@@ -6,23 +6,23 @@
 
 namespace tricue {
 
-/// Learns a correlation filter with K channels from one frame, near the filter before it, and 0 outside of a mask:
+/// Learns a correlation filter with K channels from one frame, kept near the previous filter, and 0 outside of a mask:
 ///     A = argmin |Σ_k A_k X_k − Y|² + μ Σ_k |A_k − P_k|²
 ///
-/// X_k is the spectrum of channel k; A_k stands for the conjugate of the papers' filter, as in correlation_response, which takes the
-/// result. Nothing outside of the mask adds to the response of what is in the window's center; but from the response to the rest
-/// the filter learns, too.
+/// X_k is the spectrum of channel k; A_k is the conjugate of the papers' filter, as in correlation_response, which takes the
+/// result. Cells outside of the mask don't add to the response at the window's center, but the filter also learns from its
+/// responses elsewhere, to which they add.
 ///
-/// Two iterations of the alternating direction method of multipliers, from G = H = 0: A minimizes the sum above plus
-/// γ Σ_k |A_k − G_k + H_k|², which has a closed form (Sherman and Morrison); G is A + H times the mask; H grows by A − G, γ to its
-/// tenfold. The result is G. With T = R C, μ is temporal_weight T, and γ begins with penalty T.
+/// Two iterations of the alternating direction method of multipliers, from G = H = 0: A minimizes the sum above plus γ Σ_k |A_k −
+/// G_k + H_k|², which has a closed form (Sherman and Morrison); G is A + H times the mask; H grows by A − G, and γ tenfold. The
+/// result is G. With T = R C, μ is temporal_weight T, and γ begins with penalty T.
 ///
 /// @param cells float32 (K, R, C), already tapered; at least one channel and cell
-/// @param mask float32 (R, C), in [0, 1]: of the window's cells those that may add to its response, usually around its center
+/// @param mask float32 (R, C), in [0, 1]: the window's cells that may add to the response at its center, usually those around it
 /// @param label complex64 (R, C // 2 + 1), Y: the spectrum of the desired response, its peak at (0, 0), as of numpy.fft.rfft2
 /// @param previous complex64 (K, R, C // 2 + 1), P: the filter so far, finite
-/// @param temporal_weight how much the filter keeps to the one before, finite, at least 0; 0 starts a filter
-/// @param penalty how much A keeps to G in the first iteration, finite, above 0
+/// @param temporal_weight how strongly the filter is kept near the previous one, finite, at least 0; 0 starts a filter
+/// @param penalty how strongly A is kept near G in the first iteration, finite, above 0
 /// @returns complex64 (K, R, C // 2 + 1), A; in C++ the planes one below the other
 /// @throws std::invalid_argument on other shapes, or numbers out of range
 /// Source: Li, Tian, Zuo, Zhang, Yang 2018 (STRCF); the mask is that of Galoogahi, Fagg, Lucey 2017 (BACF).

@@ -15,7 +15,7 @@ struct Summary {
 ///
 /// @param particles float64 (N, D), finite
 /// @param weights float64 (N,), finite, none negative, not all 0; need not sum to 1
-/// @throws std::invalid_argument on unlike sizes or other numbers
+/// @throws std::invalid_argument on different sizes or other numbers
 /// Source: Sabeti, Parvizi, Wu 2008, section III.C (expected value); Kong, Liu, Wong 1994 (effective sample size).
 Summary summarize(StatesRef particles, VectorRef weights);
 

@@ -13,7 +13,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr double kRelativeTolerance = 1e-9;  // of the peak: what differs less is the same height
+constexpr double kRelativeTolerance = 1e-9;  // of the peak: values that differ by less are equal
 constexpr Index kNone = -1;
 
 struct Peak {

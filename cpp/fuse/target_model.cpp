@@ -21,7 +21,7 @@ using Index = Eigen::Index;
 
 constexpr std::size_t kTables = 4;  // as of weighted_histogram: neighbors mostly share a bin
 using Lanes = Pack<double, kTables>;
-constexpr float kMaxReading = 1e6F;   // of what counts in the sum of all weights, beyond any image
+constexpr float kMaxReading = 1e6F;   // of readings in the sum of all weights; beyond any image
 constexpr double kLeastSum = 1e-300;  // keeps a density of zeros from a division by 0
 constexpr float kMaxFloat = std::numeric_limits<float>::max();
 
@@ -98,14 +98,14 @@ struct HistogramRow {
     const std::uint8_t *target, *counted;
 };
 
-/// Where a weight is added: `slot` in the tables of the target, or those of its surround behind them, and the weights that count
-/// in all of the surround.
+/// The destination of each weight: `slot` in the tables of the target, or those of its surround behind them; and the weights that
+/// count in all of the surround.
 struct WeightRow {
     std::int32_t* slot;
     float *kept, *around;
 };
 
-/// Where the weights of a row count for the target: begin <= x < end.
+/// The columns where the weights of a row count for the target: begin <= x < end.
 struct CountedColumns {
     int begin, end;
 };
@@ -162,7 +162,7 @@ TRICUE_INLINE void place_few(const HistogramRow& row, int n, const CountedColumn
     place_four({readings, weights, bins, target, counts}, 0, counted, size, to);
 }
 
-/// n pixels; the last four begin sooner. The results have room for a number of fours.
+/// n pixels; the last four may begin earlier. The results have room for a multiple of four.
 TRICUE_MULTIVERSION
 void place_weights(const HistogramRow& row, int n, const CountedColumns& counted, std::int32_t size,
                    const WeightRow& to) {
@@ -175,7 +175,7 @@ void place_weights(const HistogramRow& row, int n, const CountedColumns& counted
     for (int x = 0; x < n; x += kFour) place_four(from, std::min(x, n - kFour), columns, size, out);
 }
 
-/// Adds a row to totals, column by column of four; n is a number of fours.
+/// Adds a row to totals, four columns at a time; n is a multiple of four.
 TRICUE_MULTIVERSION
 void add_row(const float* numbers, std::size_t n, Lanes& totals) {
     Lanes sums = totals;

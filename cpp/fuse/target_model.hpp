@@ -16,12 +16,12 @@ struct CueMap {
     PlaneView readings, weights;
 };
 
-/// Where the peak of a histogram is expected.
+/// The expected peak of a histogram.
 struct ExpectedPeak {
     double value, deviation, half_range;
 };
 
-/// The blocks whose pixels are the target's, those that are its own and are trusted.
+/// The blocks whose pixels are the target's: those in its state that are trusted.
 struct TargetBlocks {
     BlockGrid grid;
     BlockNumbers states, trusted;
@@ -32,7 +32,7 @@ struct DepthLimit {
     double disparity, tolerance;
 };
 
-/// A model of the frame before.
+/// The model of the frame before.
 struct FormerModel {
     StatesRef densities;
     std::vector<double> lows, peaks;
@@ -49,32 +49,32 @@ struct TargetModel {
     Vector peaks;         ///< float64 (K,): representative velocity and disparity
 };
 
-/// The target's densities of each observation u, v, d, those of what is around it, and its velocity and disparity: what is known of
-/// the target in a frame before its pixels are.
+/// The densities of each observation u, v, d for the target and for its surround, and the target's velocity and disparity: its
+/// model in a frame before its pixels are known.
 ///
-/// Of each observation there is a weighted_histogram of `bins` from value - half_range to value + half_range of the pixels of the
-/// target's blocks in the window. Its target_distribution, with a ripple and the peak expected in the middle, is the density, and its
-/// peak the representative value; without readings the expected one. In histograms of flow, all but the last observation, count only
-/// pixels that have no disparity or one near the target's.
+/// For each observation there is a weighted_histogram of the pixels of the target's blocks in the window, with `bins` that span
+/// value ± half_range. Its target_distribution, with a ripple and the peak expected in the middle, is the density, and its peak
+/// the representative value; without readings that is the expected one. Histograms of flow, those of all but the last
+/// observation, only count pixels that have no disparity or one near the target's.
 ///
-/// The density is mixed with the one before, moved to the new peak: memory before + (1 - memory) density, divided by the sum. Between
-/// bins it is linear, 0 beyond them.
+/// The density is mixed with the one before, moved to the new peak: memory before + (1 - memory) density, divided by the sum. The
+/// one before is linear between bins, and 0 beyond them.
 ///
 /// The alternative is surround S + (1 - surround) / bins, with S the histogram of all pixels that aren't in the target's blocks over
 /// the sum of their weights (of readings in [-1e6, 1e6)), smoothed by a Gaussian of sum 1, cut off at ceil(3 smoothing) bins; without
 /// such pixels it is 1 / bins.
 ///
-/// @param maps (values, weights) of each observation, one to three, as of weighted_histogram: float32 (H, W) each
+/// @param maps (values, weights) of each observation, one to three, as in weighted_histogram: float32 (H, W) each
 /// @param expected (value, deviation, half_range) of each: its peak, the standard deviation from there, and half of the
 ///     histogram's range; finite, the latter two above 0, the deviation infinite for no expectation
 /// @param window (x0, y0, x1, y1), pixels, finite: where the target's histograms are taken
-/// @param blocks (corners, place, states, trusted) as of observe_target; the target's are those of state 1 that are trusted for a frame
-///     or more. None for all pixels
-/// @param depth (disparity, tolerance), pixels, that flow needs; None for any
+/// @param blocks (corners, place, states, trusted) as in observe_target; the target's are those of state 1 that are trusted for a
+///     frame or more. None for all pixels
+/// @param depth (disparity, tolerance), pixels: flow counts only near this disparity; None for any
 /// @param before (densities, lows, peaks) of the frame before, with the lowest value of each histogram; None for none
-/// @param rules (bins, smoothing, ripple, memory, surround): 2 to 65536 bins, smoothing, above 0, and ripple as of
+/// @param rules (bins, smoothing, ripple, memory, surround): 2 to 65536 bins, smoothing, above 0, and ripple as in
 ///     target_distribution, the others in [0, 1)
-/// @throws std::invalid_argument on another number of observations, unlike shapes, or numbers out of range
+/// @throws std::invalid_argument on another number of observations, different shapes, or numbers out of range
 /// Source: Okada, Shirai, Miura 1996, section 4.2; blocks, memory and the surround are ours.
 TargetModel target_model(const std::vector<CueMap>& maps, const std::vector<ExpectedPeak>& expected,
                          const Rectangle& window, const std::optional<TargetBlocks>& blocks,

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kTrim = 0.02;  // of the pixels, that the box leaves out on each side
 
-/// Leaves set in `mine` what is a target pixel or near its disparity.
+/// Clears the pixels in `mine` that are neither target pixels nor near the target's disparity.
 TRICUE_MULTIVERSION
 void keep_near(const std::uint8_t* __restrict mask, const float* __restrict disparity, float target,
                float tolerance, int n, std::uint8_t* __restrict mine) {

@@ -6,7 +6,7 @@
 
 namespace tricue {
 
-/// The rectangle around what is the target's in its blocks: its target pixels, and those at its disparity.
+/// The rectangle around the target in its blocks: around its target pixels, and those at its disparity.
 ///
 /// The temporal_window, without clean-up, of the pixels in blocks of state 1 that are set in the mask or whose disparity differs by less
 /// than the tolerance from the target's.
@@ -14,13 +14,13 @@ namespace tricue {
 /// @param mask uint8 (H, W): target pixels, those that are not 0
 /// @param disparity float32 (H, W), pixels, NaN where there is none
 /// @param corners float64 (N, 4): x0, y0, x1, y1 of each block in its grid
-/// @param place (size, x, y, left, top) as of observe_target
+/// @param place (size, x, y, left, top) as in observe_target
 /// @param states int64 (N,)
 /// @param target the target's disparity, pixels
 /// @param tolerance pixels
 /// @returns box (x0, y0, x1, y1), pixels; all 0 without any such pixel
 /// @returns count of these pixels
-/// @throws std::invalid_argument on unlike shapes and sizes, and corners that are not finite
+/// @throws std::invalid_argument on different shapes and sizes, and corners that are not finite
 /// Source: ours.
 TemporalWindow target_outline(const ImageView& mask, const PlaneView& disparity, const BlockGrid& grid,
                               BlockNumbers states, float target, float tolerance);

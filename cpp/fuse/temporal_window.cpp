@@ -18,7 +18,7 @@ namespace {
 
 using Counts = std::vector<std::int64_t>;
 
-/// Calls body for n pixels in large blocks, or in small ones in a small image, whose rows have no large one.
+/// Calls body for n pixels in large blocks, or in small ones if a row is shorter than a large one.
 template <typename Body>
 TRICUE_INLINE void for_row(int n, Body body) {
     constexpr int kLarge = 64, kSmall = 16;

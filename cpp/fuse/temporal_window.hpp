@@ -15,11 +15,12 @@ struct TemporalWindow {
     Labels mask;         ///< uint8 (H, W): 1 for pixels kept, else 0
 };
 
-/// Cleans the target pixels of a frame, and boxes them: the temporal target window.
+/// Cleans the target pixels of a frame, and finds the box around them: the temporal target window.
 ///
-/// A set pixel is kept if at least `neighbors` of the 8 around it are set, none beyond the edge, and if its region of such pixels (8
-/// neighbors) has at least `share` times the pixels of the largest. Of the n pixels kept the box leaves out floor(trim n) at its
-/// left, and as many right, above and below: [x0, x1) is from the floor(trim n)-th column, in order, to that many from the last.
+/// A set pixel is kept if at least `neighbors` of the 8 around it are set (none beyond the edge is), and if its region of such
+/// pixels (8 neighbors) has at least `share` times the pixels of the largest. Of the n pixels kept, the box leaves out floor(trim
+/// n) at its left, and as many at its right, above and below: with these pixels in the order of their columns, [x0, x1) goes from
+/// the column of number floor(trim n), counted from 0, to that of the one with as many after it.
 ///
 /// @param mask uint8 (H, W): pixels that are not 0 are set
 /// @param neighbors 0 to 8

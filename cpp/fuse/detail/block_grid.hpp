@@ -11,7 +11,7 @@ namespace tricue {
 
 using BlockNumbers = Eigen::Ref<const Indices>;
 
-/// Where a grid of blocks is: its corners are `size` times those in the grid, plus (x, y), minus (left, top).
+/// The place of a grid of blocks: corners are `size` times those in the grid, plus (x, y), minus (left, top).
 struct GridPlace {
     double size, x, y, left, top;
 };

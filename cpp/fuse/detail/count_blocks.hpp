@@ -8,7 +8,7 @@
 
 namespace tricue {
 
-/// What is seen in regions of a mask and of the disparities, of one shape, as block_counts counts it.
+/// The counts of block_counts for regions of a mask and of the disparities, which have one shape.
 BlockCounts count_blocks(const ImageView& mask, const PlaneView& disparity, const std::vector<Region>& blocks,
                          float expected, float tolerance);
 

@@ -23,7 +23,7 @@ Floats mirrored(FloatsRef mask) {
     return to;
 }
 
-/// How many of n lines at the border are empty, and so are those that mirror them.
+/// How many of n lines at the border are empty, together with those that mirror them.
 template <typename IsEmpty>
 int count_empty(int n, const IsEmpty& is_empty) {
     int count = 0;

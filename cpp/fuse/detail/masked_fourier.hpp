@@ -11,14 +11,14 @@ struct Spectrum {
     float *re, *im;
 };
 
-/// Multiplies planes by a mask, from their spectra to their spectra. Where lines at the borders of the mask are 0, so are the planes',
-/// which saves some of the time. The planes are those of filters: the mask of the window is mirrored.
+/// Multiplies planes by a mask, from their spectra to their spectra. Where lines at the borders of the mask are 0, the planes'
+/// lines become 0, too, which saves time. The planes are those of filters: the mask of the window is mirrored.
 class MaskedFourier {
 public:
-    /// `planes`: of the mask's size, and lives as long.
+    /// `planes` has the mask's size, and must outlive this.
     MaskedFourier(FloatsRef mask, PlaneFourier& planes);
 
-    /// Two spectra; to multiply one alone give it as the second too, and leave out that result.
+    /// Multiplies two spectra; to multiply only one, give it as the second, too, and ignore that result.
     void multiply(const Spectrum& one, const Spectrum& two, const Spectrum& one_masked,
                   const Spectrum& two_masked);
 

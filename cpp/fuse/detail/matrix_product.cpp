@@ -50,8 +50,8 @@ TRICUE_INLINE void multiply_some(const Product& product, int y, int rows) {
     if constexpr (kRows > 1) multiply_some<kLanes, kRows - 1, kRegisters>(product, y, rows);
 }
 
-/// All rows, in blocks of equal heights, but for one row: few sums at a time would wait for each other. AVX-512 has twice as many
-/// registers as others.
+/// All rows, in blocks whose heights differ by at most one row: with few sums at a time, they would wait for each other. AVX-512
+/// has twice as many registers as others.
 template <int kBytes>
 TRICUE_INLINE void multiply_by(const Product& product) {
     constexpr int kLanes = kBytes / int{sizeof(float)}, kRows = 8;

@@ -15,8 +15,8 @@ struct Rows {
     int count;
 };
 
-/// left (m, k or more) times the first `cols` columns of right (k, n), into those of the rows of `product` from `first_row` on. Sums go
-/// along k in order on every machine.
+/// Writes left (m, k or more) times the first `cols` columns of right (k, n) to those of `product`, in the rows from `first_row`
+/// on. Sums go along k in the same order on every machine.
 ///
 /// For small matrices: Eigen's products use only the registers that every machine has. Whole registers are read and written: rows of
 /// `right` begin as those of an AlignedMatrix do.

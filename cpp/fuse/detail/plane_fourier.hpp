@@ -30,15 +30,17 @@ public:
     PlaneFourier(int rows, int cols);
 
     int half() const { return cols_ / 2 + 1; }
-    /// How many numbers a spectrum's real or imaginary part has.
+    /// The size of a spectrum's real or imaginary part, in numbers.
     std::size_t count() const { return static_cast<std::size_t>(rows_) * static_cast<std::size_t>(half()); }
 
-    /// Both planes, contiguous, with 0 in the margins. To transform one alone give it as the second too, and leave out that spectrum.
+    /// Transforms both planes, contiguous, with 0 in the margins. To transform only one, give it as the second, too, and ignore
+    /// that spectrum.
     void transform(const float* one, const float* two, float* one_re, float* one_im, float* two_re,
                    float* two_im, const Margins& margins = {});
 
-    /// The planes of two spectra, contiguous; what the margins then hold is unspecified. Like numpy.fft.irfft2 it ignores imaginary
-    /// parts that have to be 0 in the spectrum of a real plane. To invert one alone give it as the second too, and the same plane.
+    /// Computes the planes of two spectra, contiguous; the margins are then unspecified. Like numpy.fft.irfft2 it ignores
+    /// imaginary parts that have to be 0 in the spectrum of a real plane. To invert only one, give it as the second, too, and the
+    /// same plane.
     void invert(const float* one_re, const float* one_im, const float* two_re, const float* two_im,
                 float* one, float* two, const Margins& margins = {});
 

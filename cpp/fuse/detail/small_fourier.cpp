@@ -118,7 +118,7 @@ void fold_spectrum(const float* __restrict re, const float* __restrict im, std::
     }
 }
 
-/// A spectrum from what cosines and sines make of lines.
+/// A spectrum from the products of lines with cosines and sines.
 TRICUE_MULTIVERSION
 void combine(const float* __restrict cosine_part, const float* __restrict sine_part, std::ptrdiff_t pitch,
              int rows, int half, int pairs, float* __restrict re, float* __restrict im) {

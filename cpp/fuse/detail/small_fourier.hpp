@@ -5,8 +5,8 @@
 
 namespace tricue {
 
-/// Of a plane (R, C): the rows y with min(y, R - y) < `rows`, and the columns x with min(x, C - x) < `cols`. What is left lies around
-/// row R / 2 and column C / 2.
+/// The margins of a plane (R, C): the rows y with min(y, R - y) < `rows`, and the columns x with min(x, C - x) < `cols`. The rest
+/// lies around row R / 2 and column C / 2.
 struct Margins {
     int rows = 0, cols = 0;  ///< at most R / 2, C / 2
 };
@@ -19,7 +19,7 @@ class SmallFourier {
 public:
     SmallFourier(int rows, int cols);
 
-    /// Takes the margins for 0, whatever they hold.
+    /// Treats the margins as 0, whatever they hold.
     void transform(const float* plane, float* re, float* im, const Margins& margins = {});
 
     /// Like numpy.fft.irfft2 it ignores imaginary parts that have to be 0 in the spectrum of a real plane. Rows in the margins stay as
@@ -35,7 +35,7 @@ private:
     AlignedMatrix row_basis_;
     AlignedMatrix inverse_row_basis_;  ///< the transpose, times the frequencies' weights
     AlignedMatrix column_basis_;       ///< (R / 2 + 1, R), like row_basis_
-    /// Of a row along x the real parts, and behind them the imaginary ones that aren't 0.
+    /// For each row along x the real parts, followed by the imaginary parts that aren't 0.
     AlignedMatrix lines_;
     AlignedMatrix sums_, differences_;  ///< of lines that mirror each other
     AlignedMatrix cosine_part_, sine_part_;

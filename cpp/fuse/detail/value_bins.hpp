@@ -11,8 +11,8 @@ struct ValueRange {
     int bins;  ///< 1 to 65536
 };
 
-/// In which bin each value lies, `range.bins` for NaN and what isn't in [low, high), which is decided exactly; what
-/// weighted_histogram and target_pixels have in common.
+/// The bin of each value, `range.bins` for NaN and values outside [low, high), which is decided exactly; shared by
+/// weighted_histogram and target_pixels.
 ///
 /// bin = floor((value - low) (bins / (high - low))), at most bins - 1, in float32, to which low and the quotient are rounded.
 void find_value_bins(const float* values, int n, const ValueRange& range, std::int32_t* bin);
