@@ -18,7 +18,7 @@ struct CorrelationFilter {
 /// X_k is the spectrum of channel k.
 ///
 /// @param cells float32 (K, R, C), already tapered; at least one channel and cell
-/// @param label complex64 (R, C // 2 + 1), Y: the spectrum of the desired response, its peak at (0, 0), as of numpy.fft.rfft2
+/// @param label complex64 (R, C // 2 + 1), Y: the spectrum of the desired response, its peak at (0, 0), as by numpy.fft.rfft2
 /// @param numerator complex64 (K, R, C // 2 + 1), A so far
 /// @param denominator float32 (R, C // 2 + 1), B so far
 /// @param rate learning rate, in [0, 1]; 1 starts the filter

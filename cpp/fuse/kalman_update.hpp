@@ -23,8 +23,8 @@ struct Correction {
 /// A measurement that is farther off than max_distance, in standard deviations sqrt(y S⁻¹ yᵀ), shows that the motion model
 /// failed: then P is first multiplied by y S⁻¹ yᵀ / max_distance², and S is computed from this larger P.
 ///
-/// P' is in Joseph's form, a sum of two squares: an error of K enters it to second order only. With noises over about 1e12 times
-/// smaller than P, no form is safe in double precision.
+/// P' is in Joseph's form, a sum of two squares: an error of K enters it to second order only. With noises more than about 1e12
+/// times smaller than P, no form is safe in double precision.
 ///
 /// @param mean float64 (D,), x, D at least 1
 /// @param covariance float64 (D, D), P

@@ -19,7 +19,7 @@ namespace tricue {
 ///
 /// @param cells float32 (K, R, C), already tapered; at least one channel and cell
 /// @param mask float32 (R, C), in [0, 1]: the window's cells that may add to the response at its center, usually those around it
-/// @param label complex64 (R, C // 2 + 1), Y: the spectrum of the desired response, its peak at (0, 0), as of numpy.fft.rfft2
+/// @param label complex64 (R, C // 2 + 1), Y: the spectrum of the desired response, its peak at (0, 0), as by numpy.fft.rfft2
 /// @param previous complex64 (K, R, C // 2 + 1), P: the filter so far, finite
 /// @param temporal_weight how strongly the filter is kept near the previous one, finite, at least 0; 0 starts a filter
 /// @param penalty how strongly A is kept near G in the first iteration, finite, above 0

@@ -29,7 +29,7 @@ struct LearnedPixels {
 /// @param width, height of the box, pixels, finite, not negative
 /// @param outer finite, at least 1
 /// @param least_own, most_other in [0, 1]
-/// @param target, surround, rate, rare as learn_contrast has them
+/// @param target, surround, rate, rare as learn_contrast takes them
 /// @throws std::invalid_argument on other shapes, or numbers out of range
 /// Source: ours; as learn_contrast.
 ColorContrast learn_patch_colors(const ImageView& patch, const PlaneView& other, const LearnedPixels& pixels,

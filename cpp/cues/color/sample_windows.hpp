@@ -19,7 +19,7 @@ using WindowBytes = Eigen::Array<std::uint8_t, Eigen::Dynamic, 1>;
 /// 0) being the center of the first pixel, in float64, clamped to the image, and rounded half up to 1/64 pixel. Means are rounded
 /// half up; the order of summation doesn't change a bit.
 ///
-/// Cost grows with rows times the windows' widths in pixels, over which whole rows are read.
+/// Cost grows with rows times the windows' widths in pixels, which are read whole.
 ///
 /// @param image uint8 (H, W, 3) BGR or (H, W) gray, at least one pixel
 /// @param windows float64 (N, 4): left, top, width, height, pixels, whose edges are at whole numbers; finite, sizes above 0

@@ -35,7 +35,7 @@ struct Places {
 /// @returns float64 (N, 4): distance from the model in [0, 1], 1 where nothing counts; share of the places inside that count; share
 ///     inside with a depth below Z - nearer; share of the places around that count
 /// @throws std::invalid_argument on other shapes or values
-/// Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to Z, what is nearer, and the ring are ours.
+/// Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to Z, the nearer share and the ring are ours.
 States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states, const DepthModel& model,
                       const Places& places, double nearer);
 

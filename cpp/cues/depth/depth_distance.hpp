@@ -28,7 +28,7 @@ struct DepthModel {
 /// @returns float64 (N, 3): the distance, in [0, 1], 1 where nothing counts; the share of the places that count; the share of the
 ///     places whose depth is below z - nearer
 /// @throws std::invalid_argument on other shapes or values
-/// Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to z, and what is nearer, are ours.
+/// Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to z and the nearer share are ours.
 States depth_distance(const DepthView& depth, StatesRef rectangles, const DepthModel& model,
                       StatesRef pattern, double nearer);
 

@@ -7,7 +7,7 @@
 namespace tricue {
 
 /// A gray picture of a depth image, in which a target at depth z looks the same at any distance.
-///     128 + 127 (depth - z) / reach,  the depth within z - reach and z + reach, rounded down, in float32
+///     128 + 127 (depth - z) / reach,  the depth clamped to z - reach and z + reach, rounded down, in float32
 ///
 /// Black, 0 or 1, where it is nearer than z by reach or more; white, 254 or 255, where it is farther by as much, or not a number.
 ///

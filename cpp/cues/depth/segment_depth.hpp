@@ -42,7 +42,7 @@ struct DepthObjects {
 /// far, depth_components, cut_sides, and measure_objects, one after the other. An object is also cut at a side less than `border`
 /// pixels from the edge of the measured rectangle.
 ///
-/// @param depth float32 (H, W), meters, NaN in the background; in the range
+/// @param depth float32 (H, W), meters, NaN in the background; else in the range of `levels`
 /// @param before float32 (H, W), meters: no object is looked for where changed_depth gives 0; (0, 0) for none
 /// @param noise (noise, slope), as in changed_depth
 /// @param region (x0, y0, x1, y1), pixels: objects are looked for in [x0, x1) x [y0, y1), which may extend beyond the image

@@ -22,9 +22,9 @@ struct SupportedTarget {
 /// n). Then square (i, j) is on the plane where
 ///     |(nx X + ny Y + nz) z_ij + d| < t,  X = (x0 + j step - cx) / fx,  Y = (y0 + i step - cy) / fy
 ///
-/// in float64. No square is if fewer than 60 squares vote, if the plane has less than 0.15 of them, or if it has more than half
-/// of the measured ones in the inner 0.8 of the box: such a target is as flat as the plane. A scaled box holds the squares whose
-/// centers are nearer to the middle than half its width and height, which count as at least 1.
+/// in float64. There is no such square if fewer than 60 squares vote, if the plane has less than 0.15 of them, or if it has more
+/// than half of the measured ones in the inner 0.8 of the box: such a target is as flat as the plane. A scaled box holds the
+/// squares whose centers are nearer to the middle than half its width and half its height, each half at least 1.
 ///
 /// @param depth float32 (H, W), meters; may be empty
 /// @param x0, y0 top left corner of the grid, pixels, finite

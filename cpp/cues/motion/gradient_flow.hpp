@@ -16,7 +16,7 @@ namespace tricue {
 ///
 /// Spatial gradients are those of the mean of both frames, temporal ones the difference current - previous: so the flow is that
 /// of the point that is at the pixel halfway between the frames. It is best for motions up to sigma / 2; on a wave of angular
-/// frequency w it gives 2 tan(w u / 2) / w, which overestimates long motions more. For longer motions see pyramid_flow.
+/// frequency w it gives 2 tan(w u / 2) / w, which is too large, more so for longer motions. For longer motions see pyramid_flow.
 ///
 /// u and v are NaN where angle is 0, angle or contrast is below its minimum, or the flow is longer than pi / sqrt(2) sigma = 2.2
 /// sigma: half of the wavelength that the filters' gradients pass best, beyond which the direction is ambiguous. Filters are cut

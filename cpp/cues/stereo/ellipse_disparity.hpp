@@ -10,7 +10,7 @@ namespace tricue {
 /// How the disparity of an ellipse is computed from those of its pixels.
 struct DisparityStatistic {
     bool
-        subpixel;  ///< whether disparities keep their fractions; else each becomes the nearest whole number, the smaller of equally near ones
+        subpixel;  ///< whether disparities keep their fractions; else each becomes the nearest whole number, of halves the smaller
     bool median;   ///< their median, else their mean
     float tolerance;  ///< pixels, by which a pixel near that disparity may differ from it, 0 or more
 };

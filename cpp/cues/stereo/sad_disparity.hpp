@@ -21,7 +21,7 @@ struct DisparityRange {
 struct StereoMatching {
     int window;  ///< side, pixels, odd: 1 to 31 with the prefilter, 1 to 15 without, so that sums fit 16 bits
     int uniqueness;  ///< percent, 0 to 100; 0 rejects nothing
-    /// whether x-Sobel responses clipped at ±31 are compared, which lighting changes less, instead of gray levels
+    /// whether x-Sobel responses clipped at ±31, which lighting changes less, are compared instead of gray levels
     bool prefilter;
     int tolerance;  ///< of the left-right check, pixels; negative for no check
 };
