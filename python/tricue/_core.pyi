@@ -52,8 +52,8 @@ def back_project(
     order:
         z = fx b / d,  x = (u - cx) z / fx,  y = (v - cy) z / fy,  C = J S Jᵀ
 
-    J is the Jacobian of (x, y, z) by (u, v, d), S the covariance of a measurement. A measurement that
-    is not finite, or whose d is not above 0, gives NaN.
+    J is the Jacobian of (x, y, z) with respect to (u, v, d), S the covariance of a measurement. A
+    measurement that is not finite, or whose d is not above 0, gives NaN.
 
     Args:
         measurements: float64 (N, 3): u, v and d = u - u_right, pixels; (0, 0) is the center of the left
@@ -86,14 +86,14 @@ def best_ellipse(
     min_marked: int,
 ) -> tuple[int, int, float, float, float, numpy.typing.NDArray[numpy.float64]]:
     """
-    The place of a grid where an ellipse is most like a model, and its colors there.
+    The place of a grid where an ellipse matches a model best, and the ellipse's colors there.
 
     With i and a the intersections (1) of ellipse and ring, m and n their marked shares, as
     ellipse_search gives them, a place scores
         i - ring a + depth (m - depth_ring n)
 
-    Of equal scores the first counts, row by row. The colors are those of the ellipse's marked pixels,
-    or, where these are fewer than min_marked, of all its pixels.
+    Of equal scores the first wins, row by row. The colors are those of the ellipse's marked pixels, or,
+    where these are fewer than min_marked, of all its pixels.
 
     Args:
         bins: uint16 (H, W), as color_bins gives them, each below L, or 65535 for none; may be empty
@@ -101,7 +101,7 @@ def best_ellipse(
             finite, axes above 0
         grid: (rows, cols, step), as ellipse_search takes it
         model: float64 (L,), finite, none negative, a sum above 0
-        margin: scale of the ring's outline, 1 (no ring) to 16; times the semi-axes at most 4096 pixels
+        margin: scale of the ring's outline, 1 (no ring) to 16; scaled semi-axes are at most 4096 pixels
         mask: uint8 (H, W), not 0 where a pixel is at the target's depth
         weights: (ring, depth, depth_ring), finite
         min_marked: pixels; 0: the colors are those of all pixels of the ellipse
@@ -114,7 +114,7 @@ def best_ellipse(
         histogram: float64 (L,) of sum 1, its colors; 0 where it has no pixel
 
     Raises:
-        ValueError: on other shapes or values, or a grid that reaches over more than 16384 pixels
+        ValueError: on other shapes or values, or a grid that spans more than 16384 pixels
 
     Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.1: M and C of equation (1); ring
     and mask are ours.
@@ -130,7 +130,7 @@ def bhattacharyya(
     Args:
         histograms: float32 (N, K), none negative
         model: float32 (K,), none negative
-        groups: G, how many histograms stand side by side in a row, e.g. 3 for three channels; divides K
+        groups: G, the number of histograms side by side in a row, e.g. 3 for three channels; divides K
 
     Returns:
         float64 (N,) in [0, 1]; sums that rounding puts above 1 count as 1
@@ -155,7 +155,7 @@ def block_counts(
     numpy.typing.NDArray[numpy.int64],
 ]:
     """
-    What is seen in the blocks of the target window, by which their states change.
+    The contents of the target window's blocks in a frame, by which their states change.
 
     Args:
         mask: uint8 (H, W): target pixels, those that are not 0
@@ -163,14 +163,14 @@ def block_counts(
         blocks: float64 (N, 4): x0, y0, x1, y1, pixels, finite; a block has the pixels whose centers lie
             in it, the first pixel being [0, 1) x [0, 1)
         expected: a disparity, pixels; NaN for none
-        tolerance: by which a similar one differs less from it, pixels
+        tolerance: a similar disparity differs by less than this from it, pixels
 
     Returns:
         pixels: int64 (N,): pixels of each block that are in the image
         targets: int64 (N,): those set in the mask
         readings: int64 (N,): those with a finite disparity
         mean: float64 (N,): mean of these disparities, pixels; NaN without any
-        similar: int64 (N,): those nearer than the tolerance to the expected one
+        similar: int64 (N,): those that differ by less than the tolerance from the expected one
 
     Raises:
         ValueError: on a mask of another shape, blocks of another shape, or corners that are not finite
@@ -182,11 +182,11 @@ def block_mask(
     blocks: numpy.typing.NDArray[numpy.float64], height: int, width: int
 ) -> numpy.typing.NDArray[numpy.uint8]:
     """
-    Rasterizes the blocks of the target: where its histograms are taken.
+    Rasterizes the blocks of the target, in which its histograms are taken.
 
     Args:
         blocks: float64 (N, 4): x0, y0, x1, y1, pixels, finite, as in block_counts; they may overlap,
-            and reach over the edge
+            and extend beyond the mask
         height, width: of the mask, pixels, 0 to 16384
 
     Returns:
@@ -224,13 +224,13 @@ def block_votes(
     """
     The blocks of the target window after the votes of a frame.
 
-    A block with target pixels, or a core block at the target's disparity, has a vote; after as many as
-    are needed it is the target's. A core block is kept by the disparity alone for a limited time, as
-    the floor around the feet has it, too. One at another disparity without target pixels has a vote
+    A block with target pixels, or a core block at the target's disparity, gets a vote; with enough
+    votes it becomes the target's. Disparity alone keeps a block for a limited time, as the floor around
+    the feet has it, too. A block of the target at another disparity, without target pixels, gets a vote
     against it, but not if hardly any disparities are measured: cloth and cardboard without texture have
-    none. A block whose mean disparity is an occluder's, without target pixels, is occluded; it is the
-    target's again at a similar disparity, and released where it shows what is behind the target for
-    long.
+    none. A block of the target whose mean disparity is an occluder's, without target pixels, is
+    occluded; it is the target's again at a similar disparity, and released if it shows the background
+    for long.
 
     Args:
         states: int64 (N,): 0, 1 or 2
@@ -244,17 +244,18 @@ def block_votes(
         measured: int64 (N,): those with a disparity; the mean counts from a fifth of the pixels on
         mean: float64 (N,): their mean disparity
         similar: int64 (N,): those at the target's disparity
-        disparities: (target, tolerance, occluder): a mean is similar within the tolerance of the
-            target's disparity, and an occluder's above the third
+        disparities: (target, tolerance, occluder): a mean is similar if it differs by at most the
+            tolerance from the target's disparity, and an occluder's if it is above the third
         min_share: of a block's pixels, for a vote
-        frames: (to add, to remove, to release, unproven): votes that make a block the target's, that
-            end this, and that release an occluded block; frames for which disparity alone keeps a block
+        frames: (to add, to remove, to release, unproven): votes that make a block the target's, votes
+            against it that end this, and those that release an occluded block; frames for which
+            disparity alone keeps a block
 
     Returns:
         states: int64 (N,): 0 not the target's, 1 the target's, 2 occluded
         votes: int64 (N,): frames for a block to become the target's
         against: int64 (N,): frames for it to leave its state
-        core: bool (N,): blocks that the target's disparity alone keeps
+        core: bool (N,): blocks for which the target's disparity alone is a vote
         trusted: int64 (N,): frames for which a block counts in the model after it had target pixels
         unproven: int64 (N,): frames with the target's disparity since it had target pixels
 
@@ -273,8 +274,8 @@ def box_contrast(
     around the box.
 
     Output (i, j) is for the box centered at x = C + 2 (j - C // 2), y = R + 2 (i - R // 2), so the
-    middle output is for the middle of the map. A pixel counts by the part of it that is covered;
-    outside the map the values are 0. Sums are float64.
+    middle output is for the middle of the map. A pixel counts by its covered fraction; outside the map
+    the values are 0. Sums are float64.
 
     Args:
         plane: float32 (2R, 2C), finite, at least 2 x 2
@@ -298,10 +299,10 @@ def changed_depth(
     slope: float,
 ) -> numpy.typing.NDArray[numpy.uint8]:
     """
-    Where a depth image differs from one before by more than noise: 0 where |z - z'| <= noise + slope (z
-    z), otherwise 1, also where either isn't measured.
+    Where a depth image differs from an earlier one by more than noise: 0 where |z - z'| <= noise +
+    (slope z) z, otherwise 1, also where either isn't measured.
 
-    In float32, to which noise and slope are rounded, in this order; slope z first.
+    Computed in float32, to which noise and slope are rounded, in this order.
 
     Args:
         depth: float32 (H, W): z, meters, NaN where nothing was measured
@@ -329,19 +330,19 @@ def color_bins(
     """
     The bin of each pixel of a region in the color space (B - G, G - R, B + G + R).
 
-    Bin (i, j, k) has the index (i n_1 + j) n_2 + k. An axis of n bins over L whole levels has level v
-    in bin floor(v n / L). With step s only pixel (x0 + s j + s // 2, y0 + s i + s // 2) is read for
-    output (i, j): place x of the image is (x - x0) / s there.
+    Bin (i, j, k) has the index (i n_1 + j) n_2 + k. An axis of n bins over L whole levels puts level v
+    into bin floor(v n / L). With step s, output (i, j) reads only pixel (x0 + s j + s // 2, y0 + s i +
+    s // 2), so coordinate x of the image is (x - x0) / s in the output.
 
     Args:
         image: uint8 (H, W, 3) BGR, may be empty
-        region: (x0, y0, x1, y1), pixels; may reach over the image's edge; sides of at most 32768
+        region: (x0, y0, x1, y1), pixels; may extend beyond the image; sides of at most 32768
         bins: (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
-        chroma: the first two axes span [-chroma, chroma), color levels, 1 to 255; values beyond are in
+        chroma: the first two axes span [-chroma, chroma), color levels, 1 to 255; values beyond go to
             the end bins
         step: pixels from one sample to the next, 1 to 1024
         gains: factors (3,) of blue, green and red that turn the colors into those of another light (von
-            Kries), finite, 0 or more; products are rounded half to even and end at 255; None for 1
+            Kries), finite, 0 or more; products are rounded half to even and clamped to 255; None for 1
 
     Returns:
         uint16 (ceil(height / step), ceil(width / step)); 65535 outside the image; empty for an empty
@@ -351,7 +352,7 @@ def color_bins(
         ValueError: on values out of range
 
     Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.1, after Birchfield 1998; neither
-    says where the axes end.
+    gives the ranges of the axes.
     """
 
 def color_histogram(
@@ -377,7 +378,7 @@ def color_lookup(
     samples: numpy.typing.NDArray[numpy.uint8], table: numpy.typing.NDArray[numpy.float32]
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
-    Looks the color of each sample up in a table: table[b B // 256, g B // 256, r B // 256].
+    Looks up the color of each sample in a table: table[b B // 256, g B // 256, r B // 256].
 
     Args:
         samples: uint8 (N, 3, n): N ellipses, channels B, G, R
@@ -397,7 +398,7 @@ def color_posterior(
     image: numpy.typing.NDArray[numpy.uint8], table: numpy.typing.NDArray[numpy.float32]
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
-    Looks the color of each pixel of an image up in a table, as color_lookup does for samples:
+    Looks up the color of each pixel of an image in a table, as color_lookup does for samples:
     P(target | color).
 
     Args:
@@ -420,7 +421,7 @@ def color_ranks(samples: numpy.typing.NDArray[numpy.uint8]) -> numpy.typing.NDAr
 
     Equation (17) as printed counts all samples of the same level, so that a large flat area ranks
     higher than a small one; the mid-rank has no such bias, and a mean of 1/2. Any strictly increasing
-    change of a channel leaves the ranks as they are.
+    change of a channel leaves the ranks unchanged.
 
     Args:
         samples: uint8 (N, 3, n): N ellipses, channels B, G, R, n at least 1
@@ -438,8 +439,8 @@ def combine_posteriors(
     first: numpy.typing.NDArray[numpy.float32], second: numpy.typing.NDArray[numpy.float32]
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
-    P(target | two cues) of every pixel, by the posteriors p and q of each, which are independent and
-    have equal priors:
+    P(target | two cues) of every pixel, from the posteriors p and q of two independent cues, with equal
+    priors:
         p q / max(p q + (1 - p) (1 - q), 1e-9)
 
     The odds p / (1 - p) and q / (1 - q) multiply, so that 1/2 changes nothing. In float32, and to the
@@ -477,15 +478,16 @@ def complete_body(
     completed where it is cut.
 
     A piece, such as an arm or a leg, lies for the most part in the region around the expected
-    rectangle, and near the object's depth. One after the other is joined where the body, then, is more
-    nearly of the mean size, by the sum of the squared logarithms of the ratios, and hardly larger. The
-    joined box is that around all pieces as the camera sees them, at the object's depth; it is cut where
-    one of them is. What is cut is extended to the mean size beyond the sides that are cut; between two
-    of these it is as near to the expected center as its visible part allows.
+    rectangle, and near the object's depth. Candidates are tried one after the other; each is joined if
+    it brings the body closer to the mean size, by the sum of the squared logarithms of the ratios, and
+    the joined body is hardly larger. The joined box is that around all pieces as the camera sees them,
+    at the object's depth; it is cut where one of them is. It is extended to the mean size beyond the
+    sides that are cut; between two opposite ones it is as near to the expected center as its visible
+    part allows.
 
     Args:
         measured: float64 (C, 8), as measure_objects gives it, finite, depths, sizes and areas above 0
-        cut: bool (C, 4): whether it may go on at the left, right, top, bottom
+        cut: bool (C, 4): whether each may continue at the left, right, top, bottom
         columns: float32 (C, bins), as depth_components gives them
         rows: as columns
         index: of the object, in [0, C)
@@ -493,9 +495,10 @@ def complete_body(
         mean_size: (size, known): float64 (2,), running means of the body's width and height, meters,
             finite, above 0; bool (2,): whether each was ever visible as a whole; else it is a lower
             bound
-        pieces: (region, inside, joined, depth): times the expected rectangle, around it; share of a
-            piece's area that is more than inside; times the mean size, of a body with its pieces;
-            meters, from the object's depth to that of a piece; none NaN
+        pieces: (region, inside, joined, depth): the region's size over that of the expected rectangle,
+            around which it lies; a piece has more than this share of its area inside; a joined body is
+            at most this many times the mean size, or the size before if that is larger; a piece's depth
+            differs by less than this from the object's, meters; none NaN
 
     Returns:
         state: float64 (5,): X, Y, Z, W, H, completed where it is cut
@@ -517,8 +520,8 @@ def correlation_response(
     Responses of F correlation filters with K channels to the same cells: the inverse Fourier transform
     of Σ_k A_k Z_k.
 
-    Z_k is the spectrum of channel k, computed once for all filters; A_k, channel k of a filter, stands
-    for the conjugate of the paper's, and for the quotient where that has one, equation (6).
+    Z_k is the spectrum of channel k, computed once for all filters; A_k, channel k of a filter, is the
+    conjugate of the paper's filter, after its division if it has one, equation (6).
 
     Args:
         cells: float32 (K, R, C), already tapered; at least one channel and cell
@@ -526,7 +529,7 @@ def correlation_response(
             numpy.fft.rfft2; F at least 1
 
     Returns:
-        float32 (F, R, C): what is shifted by (x, y) cells has its peak at row R // 2 + y, column C //
+        float32 (F, R, C): a target shifted by (x, y) cells has its peak at row R // 2 + y, column C //
             2 + x; in C++ the responses one below the other
 
     Raises:
@@ -552,7 +555,7 @@ def correlation_train(
     Args:
         cells: float32 (K, R, C), already tapered; at least one channel and cell
         label: complex64 (R, C // 2 + 1), Y: the spectrum of the desired response, its peak at (0, 0),
-            as of numpy.fft.rfft2
+            as by numpy.fft.rfft2
         numerator: complex64 (K, R, C // 2 + 1), A so far
         denominator: float32 (R, C // 2 + 1), B so far
         rate: learning rate, in [0, 1]; 1 starts the filter
@@ -577,23 +580,23 @@ def cut_sides(
     share: float,
 ) -> numpy.typing.NDArray[numpy.bool]:
     """
-    At which sides of its box a segmented object may go on: at the image's border, or behind something
-    nearer.
+    The sides of its box at which a segmented object may continue: at the image's border, or behind
+    something nearer.
 
-    12 pixels are read beside a side, `beside` meters away at the object's depth, in the middles of 12
-    equal parts of the side of the box enlarged by `beside` all around. Pixels outside the image, or not
-    measured, are not nearer.
+    Beside each side 12 pixels are read: those at the middles of 12 equal parts of that side of the box
+    enlarged by `beside` meters, at the object's depth, all around. Pixels outside the image, or not
+    measured, don't count as nearer.
 
     Args:
         depth: float32 (H, W), meters
         table: float64 (C, 7), as depth_components gives it: x, y, width, height, area, depth z, label;
             sizes and z above 0
         camera: float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
-        border: pixels from the image's edge within which an object may go on outside, at least 0
+        border: pixels from the image's edge within which an object may continue outside, at least 0
         beside: distance from the side at which something nearer is looked for, meters, finite, at least
             0
         nearer: how much nearer than the object that must be, meters, finite, at least 0
-        share: share of the side on more than which it must be, in [0, 1]
+        share: share of the side on more than which it must be nearer, in [0, 1]
 
     Returns:
         bool (C, 4): left, right, top, bottom
@@ -649,18 +652,19 @@ def depth_components(
     Connected regions (8 neighbors) of one label other than 0 in a divided depth image, the largest
     first, with their signatures.
 
-    Of equally large regions the one whose first pixel in reading order comes first is first. Pixels
-    without a measurement belong to a region, but count neither for its mean, NaN without any, nor for
-    its histogram, all 0 without any. Depth z has level floor((z - near) (levels / (far - near))) in
-    float64, clamped to [0, levels - 1]. Pixel x of a box from x0 is in bin floor((2 (x - x0) + 1)
-    bins / (2 width)); rows likewise. Shares are float64 quotients of whole numbers, rounded to float32.
+    Equally large regions are in the reading order of their first pixels. Pixels without a measurement
+    belong to a region, but count neither in its mean nor in its histogram; in a region without
+    measurements the mean is NaN, and the histogram all 0. Depth z has level floor((z - near) (levels /
+    (far - near))) in float64, clamped to [0, levels - 1]. Pixel x of a box from x0 is in bin floor((2
+    (x - x0) + 1) bins / (2 width)); rows likewise. Shares are float64 quotients of whole numbers,
+    rounded to float32.
 
     Args:
         labels: uint8 (H, W), 0 where there is no object
         depth: float32 (H, W), meters
         near, far: range of the histograms, meters, 0 <= near < far, finite
-        levels: levels of a histogram, 0, which is none, to 4096
-        bins: equal parts of a box, across and down, in which pixels are counted, 1 to 4096
+        levels: levels of a histogram, 0 (none) to 4096
+        bins: equal parts of a box, across and down, whose pixels are counted, 1 to 4096
         min_area: smallest area, pixels, at least 1; smaller regions are 0 in the image
         image: whether the image of regions is wanted: it takes a fifth of the time
 
@@ -670,7 +674,7 @@ def depth_components(
         histograms: float32 (C, levels): shares of the measured pixels at each level
         columns: float32 (C, bins): shares of the area, left to right
         rows: float32 (C, bins): shares of the area, top to bottom
-        image: int32 (H, W): which region has a pixel, from 1, or 0; (0, 0) where not wanted
+        image: int32 (H, W): the region of each pixel, from 1; 0 if none; (0, 0) if not wanted
 
     Raises:
         ValueError: on labels of another shape, or parameters out of range
@@ -689,14 +693,14 @@ def depth_contrast(
     nearer: float,
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
-    What depth_distance measures of upright rectangles in meters, and how much around each of them is at
-    its depth too.
+    The measurements of depth_distance for upright rectangles in meters, and the share around each of
+    them that is at its depth, too.
 
     A state (X, Y, Z, W, H) is a rectangle of W x H around the point (X, Y, Z). In the image its center
     is (X (fx / Z) + (cx + 1/2), Y (fy / Z) + (cy + 1/2)) and its size W (fx / Z) by H (fy / Z), where
-    pixel (0, 0) covers [0, 1) x [0, 1); one so near that this overflows is outside the image. The place
-    at the share u of the half width is in column floor(x + (w / 2) u), rows likewise, in float64. Which
-    depths count, and the distance, are those of depth_distance.
+    pixel (0, 0) covers [0, 1) x [0, 1); a rectangle so near that this overflows is outside the image.
+    The place at u half widths from the center is in column floor(x + (w / 2) u), rows likewise, in
+    float64. Which depths count, and the distance, are those of depth_distance.
 
     Args:
         depth: float32 (H, W), meters; may be empty
@@ -719,7 +723,7 @@ def depth_contrast(
     Raises:
         ValueError: on other shapes or values
 
-    Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to Z, what is nearer,
+    Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to Z, the nearer share
     and the ring are ours.
     """
 
@@ -730,7 +734,8 @@ def depth_density(
     Density p(z) of depth levels: a histogram divided by its sum, smoothed by a Gaussian.
 
     The kernel exp(-(j / bandwidth)² / 2) is cut at |j| = ceil(4 bandwidth) and normalized. What it
-    carries over an end is mirrored at the edge of the outermost level, so the density's sum is 1 too.
+    spreads beyond an end is mirrored at the edge of the outermost level, so the density's sum is 1,
+    too.
 
     Args:
         histogram: float64 (L,), L at least 1, finite, none negative: pixels of each level
@@ -754,14 +759,15 @@ def depth_distance(
     nearer: float,
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
-    Distance of the depths in each rectangle from a model, and the shares of it at and before the
-    rectangle's depth.
+    Distance of the depths in each rectangle from a model, and the shares of the rectangle at its depth
+    and in front of it.
 
-    Of every rectangle the same n places are read: pixel (floor(y + height / 2 v), floor(x + width / 2
+    Every rectangle is read at the same n places: pixel (floor(y + height / 2 v), floor(x + width / 2
     u)) for each (u, v) of the pattern, in float64; pixel (0, 0) covers [0, 1) x [0, 1). A depth counts
     where its level floor(((depth - z) + reach) (L / (2 reach))), in float64, is in [0, L); a place
-    outside the image or without a measurement does not. The histogram h of what counts, divided by its
-    number, has the distance sqrt(Σ (h - m)²) / sqrt 2 from the model m: equation (38) over its maximum.
+    outside the image or without a measurement does not. The histogram h of the depths that count,
+    divided by their number, has the distance sqrt(Σ (h - m)²) / sqrt 2 from the model m: equation (38)
+    over its maximum.
 
     Args:
         depth: float32 (H, W), meters; may be empty
@@ -778,8 +784,8 @@ def depth_distance(
     Raises:
         ValueError: on other shapes or values
 
-    Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to z, and what is
-    nearer, are ours.
+    Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to z and the nearer
+    share are ours.
     """
 
 def depth_edges(
@@ -789,11 +795,11 @@ def depth_edges(
     Where depth jumps: 1 at the farther of two neighbors (8) whose depths differ by more than noise and
     a slanted surface explain.
 
-    So a nearer object keeps its outline, and is cut from what is behind it. An edge is where z - z' >
-    gap + slope (z' z') for a measured neighbor z', in float32 in this order.
+    So a nearer object keeps its outline, and is cut from the surface behind it. An edge is where z -
+    z' > gap + slope (z' z') for a measured neighbor z', in float32 in this order.
 
     Args:
-        depth: float32 (H, W), meters; what is not measured is no edge, and makes none
+        depth: float32 (H, W), meters; a pixel that is not measured is no edge, and makes none
         gap: meters, finite, at least 0
         slope: 1 / meter, finite, at least 0: noise of stereo and of structured light grows with z²
 
@@ -820,7 +826,7 @@ def depth_histogram(
     near and the quotient are rounded; whether z is in [near, far) is decided exactly.
 
     Args:
-        depth: float32 (H, W), meters; what is not measured is not counted
+        depth: float32 (H, W), meters; pixels that are not measured are not counted
         mask: uint8 (H, W): pixels where it is 0 are not counted
         near, far: depths in [near, far) are counted, meters, finite, near < far
         levels: 1 to 65536
@@ -839,7 +845,7 @@ def depth_picture(
 ) -> numpy.typing.NDArray[numpy.uint8]:
     """
     A gray picture of a depth image, in which a target at depth z looks the same at any distance.
-        128 + 127 (depth - z) / reach,  the depth within z - reach and z + reach, rounded down, in float32
+        128 + 127 (depth - z) / reach,  the depth clamped to z - reach and z + reach, rounded down, in float32
 
     Black, 0 or 1, where it is nearer than z by reach or more; white, 254 or 255, where it is farther by
     as much, or not a number.
@@ -870,7 +876,8 @@ def depth_posterior(
     near_margin: float,
 ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.uint8]]:
     """
-    P(target | depth) on a grid of places, and what is before the target: Bayes' rule with equal priors
+    P(target | depth) on a grid of places, and which of them are in front of the target: Bayes' rule
+    with equal priors
         p / (p + c),  p = exp(-((z - expected) / sigma)² / 2),  c = 0.1
 
     p is the target's likelihood, 1 at the expected depth, c that of everything else at any depth. z is
@@ -885,7 +892,7 @@ def depth_posterior(
         columns: columns of the grid, 1 to 4096
         expected: the target's expected depth, meters, finite, above 0
         sigma: its standard deviation, meters, finite, above 0
-        near_margin: how much nearer something before the target is, meters, finite, at least 0
+        near_margin: how much nearer a depth in front of the target is, meters, finite, at least 0
 
     Returns:
         posterior: float32 (rows, columns): P(target | z), within 1e-6 of the exact one; 1/2 without a
@@ -910,7 +917,7 @@ def divide_depth(
     Depths are compared exactly. Where two dividers are equal their division is empty.
 
     Args:
-        depth: float32 (H, W), meters; what is not measured gets 0
+        depth: float32 (H, W), meters; pixels that are not measured get 0
         mask: uint8 (H, W): pixels where it is 0 get 0
         dividers: float64 (M + 1,): range dividers S(1) ... S(M + 1), meters, finite, ascending; M is 1
             to 255
@@ -938,33 +945,33 @@ def ellipse_disparity(
     tolerance: float,
 ) -> tuple[float, int, int]:
     """
-    The disparity of the ellipse inscribed in a rectangle, by the median or the mean (5) of those of its
-    pixels.
+    The disparity of the ellipse inscribed in a rectangle: the median or the mean (5) of its pixels'
+    disparities.
 
-    Pixels are matched by sad_disparity, in the images turned gray. Of an even number of disparities the
-    median is the mean of the middle two.
+    Pixels are matched by sad_disparity in the images, which are first turned gray. Of an even number of
+    disparities the median is the mean of the middle two.
 
     Args:
         left: uint8 (H, W, 3) BGR, rectified, at least one pixel
         right: uint8 (H, W, 3) BGR, or gray (H, W), of the same size
-        region: (x0, y0, x1, y1), pixels, sides of 1 to 16384; may reach over the image's edge
+        region: (x0, y0, x1, y1), pixels, sides of 1 to 16384; may extend beyond the image
         first, last: range of disparities, both included, at most 4096 of them; first may be negative
         window: side, pixels, odd: 1 to 31 with the prefilter, 1 to 15 without, so that sums fit 16 bits
         uniqueness: percent, 0 to 100; 0 rejects nothing
-        prefilter: compare x-Sobel responses clipped at ±31, which lighting changes less, not gray
-            levels
+        prefilter: whether x-Sobel responses clipped at ±31, which lighting changes less, are compared
+            instead of gray levels
         subpixel: whether disparities keep their fractions; else each becomes the nearest whole number,
             of halves the smaller
         median: their median, else their mean
-        tolerance: pixels, by which a pixel near that disparity may differ from it, 0 or more
+        tolerance: a pixel is near that disparity if it differs by at most this, pixels, 0 or more
 
     Returns:
-        disparity: pixels; NaN without any
-        matched: pixels that have one
+        disparity: pixels; NaN if no pixel has one
+        matched: pixels that have a disparity
         near: of these, pixels that differ from it by at most the tolerance
 
     Raises:
-        ValueError: on images of unlike sizes, or values out of range
+        ValueError: on images of different sizes, or values out of range
 
     Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.2, equations (3) to (5); the median
     is ours.
@@ -982,12 +989,12 @@ def ellipse_search(
     Histogram intersection of a model with the ellipse at each place of a grid, and with the ring around
     it.
 
-    Equation (1) as Σ min(C_i, n M_i) / n, n = Σ C_i, where C_i counts the pixels of bin i, with M of
-    sum 1; 0 where there are none. A pixel is inside where its center (column + 0.5, row + 0.5) is. The
-    ring is the ellipse scaled by `margin`, without the ellipse. Pixels outside the image, and those
-    without a bin, count neither for nor against a place, so a head at the edge has its maximum where it
-    is. n M_i is rounded to 2^-k pixels, k the largest with which n pixels fit into 31 bits, so (1) is
-    off by at most 2^-(k+1) per bin.
+    Equation (1) is Σ min(C_i, n M_i) / n, n = Σ C_i, where C_i counts the pixels of bin i and M is
+    scaled to sum 1; it is 0 where n is 0. A pixel is inside if its center (column + 0.5, row + 0.5) is.
+    The ring is the ellipse scaled by `margin`, without the ellipse. Pixels outside the image, and those
+    without a bin, count neither for nor against a place, so a head at the image's edge has its maximum
+    at its true place. n M_i is rounded to 2^-k pixels, k the largest with which n pixels fit into 31
+    bits, so (1) is off by at most 2^-(k+1) per bin.
 
     Args:
         bins: uint16 (H, W), as color_bins gives them, each below L, or 65535 for none; may be empty
@@ -996,7 +1003,7 @@ def ellipse_search(
         grid: (rows, cols, step), 1 to 1024 each: place (i, j) is (j - cols // 2) step to the right of
             the ellipse and (i - rows // 2) step below it, pixels
         model: float64 (L,), finite, none negative, a sum above 0
-        margin: scale of the ring's outline, 1 (no ring) to 16; times the semi-axes at most 4096 pixels
+        margin: scale of the ring's outline, 1 (no ring) to 16; scaled semi-axes are at most 4096 pixels
         mask: uint8 (H, W), not 0 where a pixel is at the target's depth; None for none
 
     Returns:
@@ -1004,7 +1011,7 @@ def ellipse_search(
             the ellipse and of the ring that the mask marks, 0 without a mask; in C++ one row per place
 
     Raises:
-        ValueError: on other shapes or values, or a grid that reaches over more than 16384 pixels
+        ValueError: on other shapes or values, or a grid that spans more than 16384 pixels
 
     Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, equation (1) and section 3.1; the ring and
     the mask are ours.
@@ -1018,8 +1025,8 @@ def evidence_peak(
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     The place with most evidence, filter_weight × the first filter's response + contrast_weight ×
-    contrast, to a part of a cell: by the parabola through the greatest and its neighbors along each
-    axis, at most half a cell off; 0 at the border. In float32, parabolas in float64.
+    contrast. Along each axis a parabola through the greatest evidence and its neighbors moves the place
+    by a fraction of a cell, at most a half; by 0 at the border. In float32, parabolas in float64.
 
     Args:
         responses: float32 (F, R, C) of F correlation filters, F at least 1, as correlation_response
@@ -1028,9 +1035,9 @@ def evidence_peak(
         filter_weight, contrast_weight: finite
 
     Returns:
-        float64 (5 + F,): cells to the right of column C // 2 and below row R // 2; there the evidence,
-            the first filter's response, and the contrast, 0 where there is none; and of each filter the
-            greatest response among the 3 x 3 cells there
+        float64 (5 + F,): cells to the right of column C // 2 and below row R // 2; in the cell of the
+            greatest evidence, the evidence, the first filter's response, and the contrast, 0 where
+            there is none; and for each filter the greatest response among the 3 x 3 cells there
 
     Raises:
         ValueError: on other shapes, weights or evidence that isn't finite
@@ -1046,11 +1053,11 @@ def fill_gaps(
     leaves any other as it is.
 
     Small gaps are one to three unmeasured pixels between two measured ones of a row. An image is ragged
-    where they are more than the share `ragged` of the measured pixels. Then, until it is at most half
-    as ragged, and at most `passes` times, each unmeasured pixel with at least two neighbors (of 8) on
-    the nearest surface becomes their mean. On it are the neighbors z' with z' <= z + gap + slope (z z),
-    z the nearest. Nearer things win, because a sensor loses their outlines first; so a pass also widens
-    what ends at a large gap by a pixel.
+    if they are more than the share `ragged` of the measured pixels. Then, until they are at most half
+    that share, and at most `passes` times, each unmeasured pixel with at least two neighbors (of 8) on
+    the nearest surface becomes their mean. On it are the neighbors z' with z' <= z + (gap + slope (z
+    z)), z the nearest. Nearer surfaces win, because a sensor loses their outlines first; so a pass also
+    widens a surface that ends at a large gap by a pixel.
 
     All in float32, in this order; sums over the neighbors are in reading order. A pass reads the result
     of the one before.
@@ -1063,7 +1070,7 @@ def fill_gaps(
         passes: 0 to 1000
 
     Returns:
-        float32 (H, W), meters; NaN where nothing was measured and nothing filled
+        float32 (H, W), meters; NaN where nothing was measured or filled
 
     Raises:
         ValueError: on parameters out of range
@@ -1100,8 +1107,8 @@ def filter_rectangles(
     numpy.typing.NDArray[numpy.float64],
 ]:
     """
-    One step of a particle filter on upright rectangles in meters (X, Y, Z, W, H) before a depth camera,
-    by resample, propose, depth_contrast, rectangle_prior, reweight and summarize.
+    One step of a particle filter on upright rectangles in meters (X, Y, Z, W, H) in front of a depth
+    camera, by resample, propose, depth_contrast, rectangle_prior, reweight and summarize.
 
     A second sampling is drawn around the mean of the first: x = mean + scale * noise, Z at least its
     lower bound, W and H at least `least`; its weights are the likelihoods. The log-likelihood is l(d) +
@@ -1135,7 +1142,7 @@ def filter_rectangles(
         weights: float64 (N,) of sum 1
         mean: float64 (5,): of the weighted particles
         covariance: float64 (5, 5)
-        observed: float64 (4,): what depth_contrast measures of the mean
+        observed: float64 (4,): the result of depth_contrast for the mean
         histogram: float64 (L,): of the depths in the mean, of sum 1; all 0 where nothing counts
 
     Raises:
@@ -1158,11 +1165,12 @@ def find_foreground(
     numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float64], tuple[int, int, int, int]
 ]:
     """
-    The part of a frame in which a target can be: every step-th pixel of every step-th row, with its
-    gaps filled, above the floor and in range, by fill_gaps, plane_support and above_floor.
+    The part of a frame in which a target can be: every step-th pixel of every step-th row, with gaps
+    filled (fill_gaps), above the floor and in range (above_floor). plane_support tells whether the
+    floor is still there.
 
-    What was measured, its gaps filled, ends before the image does where at most the share `margin` of
-    the columns (or rows) at a side have no depth, as those of registered depth.
+    The measured rectangle leaves out the columns (or rows) at a side that have no depth even with gaps
+    filled, as in registered depth, if they are at most the share `margin` of all.
 
     Args:
         depth: float32 (H, W), meters
@@ -1252,14 +1260,14 @@ def gradient_disparity(
     pixel is the least-squares solution in its window. f is the x-derivative of the Gaussian, which
     lighting changes less than brightness; f_x its central difference. Between columns f is linear.
 
-    d0 is the prediction at the coarsest level of a pyramid, then the d of the coarser level; each level
-    may move by 1.5 of its own pixels. Three levels reach 9 pixels at most, and are accurate up to 6;
-    one level 1 to 2. Little contrast in the window leaves d0 as it is. levels = 1 with radius = 0 is
-    the paper's method.
+    At the coarsest level of a pyramid d0 is the prediction, at the others the d of the coarser level;
+    each level may change it by 1.5 of its own pixels. Three levels reach 9 pixels at most, and are
+    accurate up to 6; one level 1 to 2. With little contrast in the window, d0 stays. levels = 1 with
+    radius = 0 is the paper's method.
 
     A pixel is NaN outside the left image, where x - d0 is not in the right one, and where it is
-    rejected: by its last step, by the differences that d leaves in its window (occlusion, noise, what
-    the levels do not reach), or by its reliability
+    rejected: by its last step, by the differences that remain with d in its window (occlusion, noise,
+    disparities that the levels do not reach), or by its reliability
         R_d = (f_x^R)² + (f_x^L)²                                                                  (9)
 
     Args:
@@ -1271,19 +1279,20 @@ def gradient_disparity(
         radius: of the square window that an equation is solved over, pixels, 0 to 7
         min_reliability: smallest reliability (9) of a valid disparity, (gray levels / pixel²)², at
             least 0
-        max_residual: largest difference that d may leave in a window, as a share of both images' power
-            in it, at least 0; not used with radius 0
+        max_residual: largest difference that may remain in a window with its d, as a share of both
+            images' power in it, at least 0; not used with radius 0
         max_step: how far from its start the finest level may find the disparity, pixels, at least 0
         region: (x0, y0, x1, y1), pixels of the left image, sides of 1 to 16384; None for all of it. It
-            may reach over the edge, where reliability is 0. The result is, to the last bit, that part
-            of the result for the whole image
+            may extend beyond the image, where reliability is 0. The result is, to the last bit, that
+            part of the result for the whole image
 
     Returns:
         disparity: float32 (h, w), pixels
-        reliability: float32 (h, w): (9), the mean over the window, also where the disparity is rejected
+        reliability: float32 (h, w): the mean of (9) over the window, also where the disparity is
+            rejected
 
     Raises:
-        ValueError: on images without pixels or of unlike sizes, or numbers out of range
+        ValueError: on images without pixels or of different sizes, or numbers out of range
 
     Source: Okada, Shirai, Miura 1996, section 3; levels, windows and the residual are ours.
     """
@@ -1309,14 +1318,14 @@ def gradient_flow(
         (g*f)_x u + (g*f)_y v = -(g*f)_t,   (h*f)_x u + (h*f)_y v = -(h*f)_t
 
     Spatial gradients are those of the mean of both frames, temporal ones the difference current -
-    previous: so the flow is that of what is at the pixel halfway between the frames. It is best for
-    motions up to sigma / 2; on a wave of angular frequency w it reads 2 tan(w u / 2) / w, too much the
-    longer the motion is. For longer motions see pyramid_flow.
+    previous: so the flow is that of the point that is at the pixel halfway between the frames. It is
+    best for motions up to sigma / 2; on a wave of angular frequency w it gives 2 tan(w u / 2) / w,
+    which is too large, more so for longer motions. For longer motions see pyramid_flow.
 
     u and v are NaN where angle is 0, angle or contrast is below its minimum, or the flow is longer than
-    pi / sqrt(2) sigma = 2.2 sigma: half of the wave that the filters' gradients pass best, beyond which
-    the direction is ambiguous. Filters are cut off at 3.5 sigma; frames are extended by their edge
-    pixels, so flow near the edge is less exact.
+    pi / sqrt(2) sigma = 2.2 sigma: half of the wavelength that the filters' gradients pass best, beyond
+    which the direction is ambiguous. Filters are cut off at 3.5 sigma; frames are extended by their
+    edge pixels, so flow near the edge is less exact.
 
     Args:
         previous: uint8 (H, W), gray, at least one pixel
@@ -1324,7 +1333,8 @@ def gradient_flow(
         sigma: of the Gaussian, pixels, 0.5 to 16
         min_angle: smallest angle of valid flow, in [0, 1]
         min_contrast: smallest contrast of valid flow, finite, at least 0
-        region: (x0, y0, x1, y1), pixels, inside the frame: what is computed; None for everything
+        region: (x0, y0, x1, y1), pixels, inside the frame: the part that is computed; None for
+            everything
 
     Returns:
         u: float32 (h, w): flow along x, pixels per frame; NaN where not reliable
@@ -1334,7 +1344,7 @@ def gradient_flow(
         contrast: float32 (h, w): equation (6), (gray levels / pixel²)²
 
     Raises:
-        ValueError: on frames without pixels or of unlike sizes, or numbers out of range
+        ValueError: on frames without pixels or of different sizes, or numbers out of range
 
     Source: Okada, Shirai, Miura 1996, section 2.
     """
@@ -1347,11 +1357,11 @@ def ground_distance(
     far: float,
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
-    Distances along the ground, in the direction in which the camera looks. What stands upright before a
-    tilted camera has one of them, but many depths.
+    Distances along the ground, in the direction in which the camera looks. An object that stands
+    upright in front of a tilted camera has one such distance, but many depths.
         distance = z (a_x (u - cx) / fx + a_y (v - cy) / fy + a_z),  a = (e - (e · up) up) / |e - (e · up) up|,  e = (0, 0, 1)
 
-    within near and the largest float32 below far; NaN where the depth is NaN. The factor of z is
+    clamped to near and the largest float32 below far; NaN where the depth is NaN. The factor of z is
     computed in float64 and rounded to float32.
 
     Args:
@@ -1390,38 +1400,38 @@ def head_cells(
     The cells of a rectangle: the color bin of each, and whether it is at a head's depth.
 
     A cell is step x step pixels, and has the color of its middle one (color_bins). Its disparity is
-    found by sad_disparity between the means of gray cells (reduce_gray). It is at the head's depth
-    where that differs from the expected one by at most the tolerance. A cell without a disparity, as in
-    hair of one color, gets the majority of the cells around it that have one; a tie counts against it.
-    No cell outside the image is at the head's depth.
+    found by sad_disparity between the means of gray cells (reduce_gray). It is at the head's depth if
+    that disparity differs from the expected one by at most the tolerance. A cell without a disparity,
+    as in hair of one color, gets the majority of the cells around it that have one; a tie counts
+    against it. No cell outside the image is at the head's depth.
 
     Args:
         left: uint8 (H, W, 3) BGR, rectified, at least one pixel
         right: uint8 (H, W, 3) BGR, or gray (H, W), of the same size
-        region: (x0, y0, x1, y1), cells, sides of 1 to 16384, and of at most 32768 pixels; may reach
-            over the image's edge
+        region: (x0, y0, x1, y1), cells, sides of 1 to 16384, and of at most 32768 pixels; may extend
+            beyond the image
         step: side of a cell, pixels, 1 to 1024 and to the smaller side of the image
         bins: (n_0, n_1, n_2), as color_bins takes them
         chroma: as color_bins takes it
         gains: as color_bins takes them, or None
         expected: the head's disparity, cells, finite
-        tolerance: by which a cell's disparity may differ from the head's, cells, 0 or more
+        tolerance: largest difference of a cell's disparity from the head's, cells, 0 or more
         fill: side of the square by whose majority gaps are filled, cells, odd, 1 to 127
         first, last: range of disparities, cells, both included, at most 4096 of them
         window: side of the matching window, cells, as sad_disparity takes it
         uniqueness: percent, 0 to 100; 0 rejects nothing
-        prefilter: compare x-Sobel responses clipped at ±31, which lighting changes less, not gray
-            levels
+        prefilter: whether x-Sobel responses clipped at ±31, which lighting changes less, are compared
+            instead of gray levels
 
     Returns:
         bins: uint16 (h, w), as color_bins gives them
         coherent: uint8 (h, w): 1 at the head's depth, else 0
 
     Raises:
-        ValueError: on images of unlike sizes, or values out of range
+        ValueError: on images of different sizes, or values out of range
 
-    Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, sections 3.1 and 3.2, whose pixels of
-    coherent depth are not defined: their definition is ours.
+    Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, sections 3.1 and 3.2, which don't define
+    their pixels of coherent depth: the definition is ours.
     """
 
 def histogram_mean(
@@ -1455,27 +1465,28 @@ def hog_color_cells(
     Histograms of oriented gradients (HOG), texture and colors of a patch in cells of 2 x 2 pixels: the
     features of a correlation filter.
 
-    A pixel's gradient g is a central difference with the edge repeated, of the channel where it is
-    longest, the first of equals. Of eight bins, bin k stands for gradients towards 45 k degrees, x to
-    the right and y down. With a the longer side of g and b the shorter, b / a |g| goes to the nearest
-    diagonal bin and the rest to the nearest straight one. A pixel belongs to the cells around it by
-    bilinear weights: s_k is the sum of bin k over the 4 x 4 pixels around a cell, with the weights (1,
-    3, 3, 1) / 4 along each axis, and pixels outside of the patch count nothing. Of these come
+    A pixel's gradient g is the longest of its channels' central differences, the first of equals; the
+    patch's edge pixels are repeated. Bin k of eight stands for gradients toward 45 k degrees, x to the
+    right and y down. With a the longer side of g and b the shorter, (b / a) |g| goes to the nearest
+    diagonal bin and the rest to the nearest straight one. Pixels are shared among the cells around them
+    by bilinear weights: s_k is the sum of bin k over the 4 x 4 pixels around a cell, with the weights
+    (1, 3, 3, 1) / 4 along each axis; pixels outside the patch count as 0. From these follow
         u_k = s_k + s_{k+4}, k = 0..3, for gradients of either sign,
         E = Σ u_k², the cell's energy,
-        n_j = 1 / sqrt(Σ E + 102²) over the 2 x 2 cells of block j, which has the cell in it.
+        n_j = 1 / sqrt(Σ E + 102²) over the 2 x 2 cells of block j, which contains the cell.
 
-    j = 0..3 is the block to the upper left, upper right, lower left and lower right; where it reaches
-    out of the patch, the outermost cells are repeated. 102 gray levels keep noise from full contrast.
-    The planes:
+    j = 0..3 is the block to the upper left, upper right, lower left and lower right; where it extends
+    beyond the patch, the outermost cells are repeated. The 102 gray levels keep noise from being raised
+    to full contrast. The planes:
         0 to 7      Σ_j min(s_k n_j, 0.2) / 2
         8 to 11     Σ_j min(u_k n_j, 0.2) / 2
         12 to 15    0.2357 Σ_k min(s_k n_j, 0.2), for each j: texture
         16 to 18    B, G, R in [0, 1], means of a cell's four pixels, minus their means over the patch
 
-    All planes are multiplied by the taper, last. All but the means is float32: b / a first; sums over 4
-    x 4 pixels as ((first + fourth) + 3 (second + third)), of columns first, then of rows, times 1 / 16;
-    sums over blocks of columns first, then of rows; over k and j upwards.
+    Last, all planes are multiplied by the taper. All but the means is computed in float32, in this
+    order: b / a before its product with |g|; sums over 4 x 4 pixels as ((first + fourth) + 3 (second +
+    third)), of columns first, then of rows, times 1 / 16; sums over blocks of columns first, then of
+    rows; sums over k and j upward.
 
     Args:
         patch: uint8 (2R, 2C, 3) BGR
@@ -1575,11 +1586,11 @@ def kalman_update(
         x' = x + K y,  P' = (I - K H) P (I - K H)ᵀ + K R Kᵀ
 
     A measurement that is farther off than max_distance, in standard deviations sqrt(y S⁻¹ yᵀ), shows
-    that the model of the motion failed: first P is multiplied by y S⁻¹ yᵀ / max_distance², which gives
-    S, too.
+    that the motion model failed: then P is first multiplied by y S⁻¹ yᵀ / max_distance², and S is
+    computed from this larger P.
 
-    P' is in Joseph's form, a sum of two squares: an error of K enters it to second order only. Below
-    noises about 1e12 times smaller than P no form in double precision is safe.
+    P' is in Joseph's form, a sum of two squares: an error of K enters it to second order only. With
+    noises more than about 1e12 times smaller than P, no form is safe in double precision.
 
     Args:
         mean: float64 (D,), x, D at least 1
@@ -1601,7 +1612,7 @@ def kalman_update(
             not positive definite
 
     Source: Kalman 1960; Bucy, Joseph 1968; Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, steps 3 to 5,
-    where H = I. A larger P where the innovation is large: ours, as fading memory has it.
+    where H = I. A larger P where the innovation is large: ours, as in fading memory.
     """
 
 def learn_contrast(
@@ -1619,12 +1630,12 @@ def learn_contrast(
     numpy.typing.NDArray[numpy.float32],
 ]:
     """
-    Samples an ellipse and its surround, and updates the color histograms of both, and the table
-    P(target | color) that follows by Bayes' rule with equal priors:
+    Samples an ellipse and its surround, updates the color histograms of both, and computes the table
+    P(target | color) by Bayes' rule with equal priors:
         new = old + rate (seen - old),   table = target / (target + surround + rare)
 
-    All in float32; in C++ a cube is B² rows (blue, green) of B reds. What is seen is the
-    joint_histogram of the samples.
+    All in float32; in C++ a cube is B² rows (blue, green) of B reds. `seen` is the joint_histogram of
+    the samples.
 
     Args:
         image: uint8 (H, W, 3) BGR, at least one pixel
@@ -1643,7 +1654,7 @@ def learn_contrast(
         table: float32 (B, B, B): P(target | color)
 
     Raises:
-        ValueError: on other or unlike shapes, or a rate or rare out of range
+        ValueError: on other or mismatched shapes, or a rate or rare out of range
 
     Source: ours; the histograms are those of Vezhnevets, Sazonov, Andreeva 2003, section 3.1.
     """
@@ -1707,11 +1718,12 @@ def learn_patch_colors(
     """
     learn_contrast of a patch with the target in its middle: one stage of the frame, in one call.
 
-    The target's pixels are those with their centers in the ellipse that fits into its box; half a box's
-    sides count as a pixel at least. The surround's are those with their centers outside of the box
-    times `outer`; where there are none, those outside of the ellipse. Where another cue tells that more
-    than half of the ellipse's pixels are the target's, by more than `least_own`, only these are, and
-    those with less than `most_other` are the surround's. A color that neither has tells nothing:
+    The target's pixels are those with their centers in the ellipse that fits into its box; half of a
+    side counts as at least one pixel. The surround's are those with their centers outside of the box
+    times `outer`; if there are none, those outside of the ellipse. If another cue gives more than half
+    of the ellipse's pixels a P(target) above `least_own`, only these pixels are the target's, and the
+    ellipse's pixels with less than `most_other` are the surround's, too. A color that neither has gets
+    1/2:
         table = (target + rare / 2) / (target + surround + rare)
 
     Args:
@@ -1720,7 +1732,7 @@ def learn_patch_colors(
         width, height: of the box, pixels, finite, not negative
         outer: finite, at least 1
         least_own, most_other: in [0, 1]
-        target, surround, rate, rare: as learn_contrast has them
+        target, surround, rate, rare: as learn_contrast takes them
 
     Returns:
         target: float32 (B, B, B): the target's histogram, of sum 1 once learned
@@ -1746,16 +1758,16 @@ def learn_place_filter(
 ) -> tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.complex64]]:
     """
     Learns the filter of a target's place from a patch: one stage of the frame, in one call. It is
-    hog_color_cells, then regularized_filter, of which the result is also blended with the first frame's
+    hog_color_cells, then regularized_filter, whose result is also blended with the first frame's
     filter, against forgetting:
         applied = learned + first_weight (first - learned)
 
     Args:
         patch: uint8 (2R, 2C, 3) BGR, the target in its middle
         taper: float32 (R, C)
-        mask, label, previous: as regularized_filter has them; K is 19
+        mask, label, previous: as regularized_filter takes them; K is 19
         first: complex64 (K, R, C // 2 + 1), of the first frame
-        temporal_weight, penalty: as regularized_filter has them
+        temporal_weight, penalty: as regularized_filter takes them
         first_weight: in [0, 1]
 
     Returns:
@@ -1773,12 +1785,12 @@ def learn_ranks(
     models: numpy.typing.NDArray[numpy.float32], ranks: numpy.typing.NDArray[numpy.float32], rate: float
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
-    Moves the first of some rank maps towards the ranks that are seen: new = old + rate (seen - old), in
+    Moves the first of M rank maps toward the ranks that are seen: new = old + rate (seen - old), in
     float32. The others stay.
 
     Args:
         models: float32 (M, 3, n): rank maps, M at least 1; in C++ M rows of 3 n
-        ranks: float32 (3, n): as rank_window has them; in C++ one row of 3 n
+        ranks: float32 (3, n): as rank_window gives them; in C++ one row of 3 n
         rate: learning rate, in [0, 1]
 
     Returns:
@@ -1813,16 +1825,16 @@ def learn_size_filter(
     first frame, against forgetting, and divided:
         A = learned + first_weight (first - learned), B alike;   applied = A / (B + ridge mean(B))
 
-    mean(B) counts as 1e-12 at least.
+    mean(B) counts as at least 1e-12.
 
     Args:
         patch: uint8 (H, W, 3) BGR, without padding between its rows
-        places: int64 (2R, 2C): as pick_pixels has them
+        places: int64 (2R, 2C): as pick_pixels takes them
         taper: float32 (R, C)
-        label, numerator, denominator: as correlation_train has them; K is 19
+        label, numerator, denominator: as correlation_train takes them; K is 19
         first_numerator: complex64 (K, R, C // 2 + 1), of the first frame
         first_denominator: float32 (R, C // 2 + 1), of the first frame
-        rate: as correlation_train has it
+        rate: as correlation_train takes it
         first_weight: in [0, 1]
         ridge: finite, above 0
 
@@ -1853,26 +1865,26 @@ def localize_target(
     inner: float,
 ) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float32]]:
     """
-    Finds a target in a patch around its last place: one stage of the frame, in one call. It is what
+    Finds a target in a patch around its last place: one stage of the frame, in one call. It is
     hog_color_cells, correlation_response, color_posterior, combine_posteriors, box_contrast,
-    evidence_peak and joint_histogram do one after the other.
+    evidence_peak and joint_histogram, one after the other.
 
-    The peak's sharpness is by how many standard deviations of the first response its greatest number
-    near the place stands above its mean (of Bolme et al. 2010 the peak-to-sidelobe ratio, with all
-    cells). Colors are those of the pixels under the inner part of the target's box there: rounded to
-    whole pixels, halves to even, and cut at the patch's border, at least one each way. Their similarity
-    is the Bhattacharyya coefficient. Sums of both are in float64.
+    The peak's sharpness is the number of standard deviations of the first response by which its
+    greatest number near the place is above its mean (the peak-to-sidelobe ratio of Bolme et al. 2010,
+    with all cells). Colors are those of the pixels under the inner part of the target's box there:
+    rounded to whole pixels, halves to even, and clipped to the patch, at least one pixel each way.
+    Their similarity is the Bhattacharyya coefficient. Sums of both are in float64.
 
     Args:
         patch: uint8 (2R, 2C, 3) BGR
         taper: float32 (R, C)
         filters: complex64 (F, 19, R, C // 2 + 1), F at least 1
-        table: float32 (B, B, B), or (0, 0, 0) where colors tell nothing
+        table: float32 (B, B, B), or (0, 0, 0) to ignore colors
         other: float32 (2R, 2C), P(target) of the pixels by another cue, or (0, 0) where there is none
         roots: float64 (B³,), B a power of two up to 64
         width, height: of the box, patch pixels, finite, above 0
-        outer, around: as box_contrast has them
-        filter_weight, contrast_weight: as evidence_peak has them; without any posterior there is no
+        outer, around: as box_contrast takes them
+        filter_weight, contrast_weight: as evidence_peak takes them; without any posterior there is no
             contrast
         inner: finite, above 0
 
@@ -1897,23 +1909,23 @@ def log_polar_shift(
     penalty: float,
 ) -> tuple[float, float]:
     """
-    By how many cells a patch has shifted to the right in other coordinates: in log-polar ones by the
-    logarithm of a change of size, or by a turn. One stage of the frame, in one call: pick_pixels,
-    hog_color_cells, and correlation_response, of which the peak near the middle counts.
+    The shift of a patch to the right in other coordinates, in cells: in log-polar ones the logarithm of
+    a change of size, or a turn. One stage of the frame, in one call: pick_pixels, hog_color_cells, and
+    correlation_response, whose peak near the middle gives the shift.
 
-    The peak is the greatest response less `penalty` times the squared columns to the middle, in
-    float32, the first of equal ones. The place between the columns is that of the parabola through the
-    logarithms of the response and its neighbors, at most half a cell off (a Gaussian's peak exactly).
-    Neighbors count as a twentieth of the peak at least. At the ends of the range, and where the
-    response isn't above 0, it is the column's own.
+    The peak is where the response minus `penalty` times the squared columns to the middle is greatest,
+    in float32, the first of equal ones. Its place between columns is the top of the parabola through
+    the logarithms of the response there and of its neighbors, at most half a cell off (exact for a
+    Gaussian). Neighbors count as at least a twentieth of the peak. At the ends of the range, and where
+    the response isn't above 0, it is the column itself.
 
     Args:
         patch: uint8 (H, W, 3) BGR, without padding between its rows
-        places: int64 (2R, 2C): as pick_pixels has them
+        places: int64 (2R, 2C): as pick_pixels takes them
         taper: float32 (R, C)
         filter: complex64 (1, 19, R, C // 2 + 1)
-        most_right, most_down: cells from column C // 2 and row R // 2, where all of them have to be
-            cells
+        most_right, most_down: cells to either side of column C // 2 and row R // 2, all of which have
+            to exist
         penalty: finite
 
     Returns:
@@ -1942,22 +1954,21 @@ def match_object(
     complete: bool,
 ) -> int:
     """
-    Which of C objects is the target: that of the least cost against the expected state, by position,
-    size and shape.
+    Which of C objects is the target: the one of least cost, by position, size and shape.
 
     The cost is half the squared Mahalanobis distance of (X, Y, Z, W, H) from the expected state, plus,
-    for an object that nothing cuts, signature_cost times the total variation distance of its
-    distributions from the target's. A size that was never visible as a whole is a lower bound: what
-    exceeds it, and the center along its axis, count less. With `complete`, an object that is cut is
-    extended to the mean size beyond the sides that are cut; between two of these it is as near to the
-    expected center as its visible part allows.
+    for an object without cut sides, signature_cost times the total variation distance of its
+    distributions from the target's. A size that was never visible as a whole is a lower bound: a larger
+    size, and the center along its axis, are weighted by `unknown`. With `complete`, an object that is
+    cut is extended to the mean size beyond the sides that are cut; between two opposite ones it is as
+    near to the expected center as its visible part allows.
 
     Args:
         measured: float64 (C, 8), as measure_objects gives it, finite
-        cut: bool (C, 4): whether it may go on at the left, right, top, bottom
+        cut: bool (C, 4): whether each may continue at the left, right, top, bottom
         columns: float32 (C, bins), as depth_components gives them
         rows: as columns
-        others: float64 (C,): nats on top of each object's cost; (0,) for none
+        others: float64 (C,): nats that are added to each object's cost; (0,) for none
         expected: float64 (5,): X, Y, Z, W, H, meters, finite
         mean_size: (size, known): float64 (2,), running means of the target's width and height, meters,
             finite, above 0; bool (2,): whether each was ever visible as a whole
@@ -1968,8 +1979,8 @@ def match_object(
         unknown: (center, larger): weights along an axis on which the size isn't known, finite: of the
             position, and of a size that exceeds the mean
         signature_cost: nats, finite
-        gate: (max_cost, min_area): nats, below which the target's cost is; m², of the visible part, at
-            least
+        gate: (max_cost, min_area): the target's cost is below this, nats; its visible part has at least
+            this area, m²
         complete: whether objects count as completed where they are cut
 
     Returns:
@@ -1978,8 +1989,8 @@ def match_object(
     Raises:
         ValueError: on other shapes or values
 
-    Source: Sabeti, Parvizi, Wu 2008, section IV.A, says by what objects are told apart; the cost is
-    ours.
+    Source: Sabeti, Parvizi, Wu 2008, section IV.A, for the features that tell objects apart; the cost
+    is ours.
     """
 
 def measure_objects(
@@ -1993,30 +2004,31 @@ def measure_objects(
     legs: float,
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
-    Segmented objects in meters: boxes at the depth of their objects, with the feet that were taken out
+    Segmented objects in meters: boxes at the depth of their objects, with the feet that were removed
     with the floor.
 
-    Pixel (u, v) at depth z is ((u - cx) z / fx, (v - cy) z / fy, z). What stands upright before a
-    tilted camera has one distance along the ground, f · X with f = e_z - nz n, rather than one depth:
-    the middle of a box's lower edge is where its ray has the distance of the box's center, X'. An
-    object that ends uncut, at a height n · X' + d less than `feet` above the floor, stands on it, in
-    X' - (n · X' + d) n: a strip down to where that is seen is added at its lower edge, and its centroid
-    comes down by the strip's share, legs x strip / height, of the area.
+    Pixel (u, v) at depth z is ((u - cx) z / fx, (v - cy) z / fy, z). An object that stands upright in
+    front of a tilted camera has one distance along the ground, f · X with f = e_z - nz n, rather than
+    one depth. So the middle of a box's lower edge is at X', where its ray has the distance of the box's
+    center. If an object isn't cut there, and the height n · X' + d is above 0 and less than `feet`, it
+    stands on the floor, at X' - (n · X' + d) n: a strip down to the image of that point is added at its
+    lower edge, and its centroid moves down by the strip's share, legs x strip / height, of the area.
 
     Args:
         table: float64 (C, 7), as depth_components gives it: x, y, width, height, area, pixels; depth,
             meters; label; all finite, sizes and depth above 0
         columns, rows: float32 (C, bins): how an object's pixels are spread over its box, of sum 1
-        cut: bool (C, 4): whether it may go on at the left, right, top, bottom
+        cut: bool (C, 4): whether each may continue at the left, right, top, bottom
         camera: float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0; (0, 0) is the center of the
             first pixel
         plane: float64 (4,): nx, ny, nz, d of the floor, meters; zeros where none is known
-        feet: greatest height of the lower edge of what stands on the floor, meters, finite, at least 0
+        feet: the lower edge of an object that stands on the floor is less than this above it, meters,
+            finite, at least 0
         legs: share of the width of its box that a body's legs fill, finite, at least 0
 
     Returns:
         float64 (C, 8): X, Y, Z of the box's center, Z being the object's mean depth, width, height;
-            centroid less that center, x and y, all meters in the camera frame; area, m²
+            centroid minus that center, x and y, all meters in the camera frame; area, m²
 
     Raises:
         ValueError: on other shapes or values
@@ -2033,17 +2045,17 @@ def median_depths(
     min_share: float,
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
-    The depths of targets in boxes: the median z of what is near the expected depth, its spread, and its
-    share of the samples.
+    The depths of targets in boxes: the median z of the depths near the expected one, their spread, and
+    their share of the samples.
 
-    The square of a box's center and longer side has samples² squares; a sample is the depth of the
-    pixel under a square's center, computed in float64. Samples outside the image or not within 1 mm and
-    1 km are not measured. With an expected depth the samples are those in the box's ellipse, and the
-    expected depth that is given holds. Without one they are all that are measured, and their median is
-    the expected depth. Those within max_offset of it, in float32, are the target's.
+    A square around a box's center, with its longer side, is divided into samples² squares; a sample is
+    the depth of the pixel under such a square's center, computed in float64. Samples outside the image
+    or not between 1 mm and 1 km are not measured. With an expected depth, the samples are those in the
+    box's ellipse. Without one, they are all measured ones, whose median is taken as the expected depth.
+    The target's are those less than max_offset from it, in float32.
         spread = 1.4826 median |z_i - z|
 
-    A box with none of them, or with less than min_share of the samples, has NaN for all three.
+    Without any of these, or with less than min_share of the samples, all three are NaN.
 
     Args:
         depth: float32 (H, W), meters; may be empty
@@ -2091,40 +2103,40 @@ def observe_target(
     float,
 ]:
     """
-    What a frame shows of the target, by its model: its pixels, and what is in its blocks.
+    The target in a frame, by its model: its pixels, and the contents of its blocks.
 
-    The target_pixels of the observations, cleaned as by temporal_window, and the block_counts of what
-    is kept. A block is occluded if the mean of its disparities is above the occluder's, and a fifth of
-    its pixels or more have one. Blocks that aren't in the image don't count.
+    The target_pixels of the observations, cleaned as by temporal_window, and the block_counts of the
+    kept pixels. A block is occluded if the mean of its disparities is above the occluder's, and a fifth
+    of its pixels or more have one. Blocks that aren't in the image don't count.
 
     Args:
         planes: float32 (H, W), one to three: observations u, v or d, NaN where there is none
         densities: float64 (K, bins), one for each: P(reading | target), of sum 1 or 0
-        ranges: (low, high) for each plane: what its bins span, finite, low < high
+        ranges: (low, high) for each plane: range of its bins, finite, low < high
         alternatives: float64 (K, bins): P(reading | not the target), above 0, of a sum of at most 1
-        window: (x0, y0, x1, y1), where the target surely may be, pixels, finite
-        candidate: (x0, y0, x1, y1), where the target may be at all, pixels, finite
+        window: (x0, y0, x1, y1), where the prior of target_pixels is 1, pixels, finite
+        candidate: (x0, y0, x1, y1), outside of which this prior is 0, pixels, finite
         threshold: smallest posterior of a target pixel, in (0, 1]
-        clean: (neighbors, share, trim) as of temporal_window
-        disparity: float32 (H, W), pixels, NaN where there is none; None without: then all pixels of a
-            block count as measured, and no block is occluded
+        clean: (neighbors, share, trim) as in temporal_window
+        disparity: float32 (H, W), pixels, NaN where there is none; None if not measured: then all
+            pixels of a block count as measured, and no block is occluded
         corners: float64 (N, 4): x0, y0, x1, y1 of each block in its grid
         place: (size, x, y, left, top), finite: a corner is in the pixel size corner + (x, y) - (left,
             top)
         states: int64 (N,): 0 where a block isn't the target's
         limits: (target, tolerance, occluder), disparities, pixels: similar ones differ by less than the
-            tolerance from the target's; above the third something hides it
+            tolerance from the target's; those above the third are an occluder's
 
     Returns:
         box: (x0, y0, x1, y1), pixels, of the temporal window
         count: number of target pixels
         mask: uint8 (H, W): 1 at the target's pixels, else 0
-        counts: (pixels, targets, readings, mean, similar), (N,) each: what is in the blocks, as of
+        counts: (pixels, targets, readings, mean, similar), (N,) each: the contents of the blocks, as in
             block_counts
         occluded: share of the target's blocks in the image that something nearer hides, in [0, 1]
 
     Raises:
-        ValueError: as these kernels, on unlike sizes and on a place that is not finite
+        ValueError: as these kernels, on different sizes, and on a place that is not finite
 
     Source: Okada, Shirai, Miura 1996, sections 4.1 to 4.4.
     """
@@ -2146,7 +2158,7 @@ def pick_pixels(
     Raises:
         ValueError: on a place outside of the image, or padded rows
 
-    Source: the log-polar coordinates that it serves for, Reddy and Chatterji 1996.
+    Source: Reddy and Chatterji 1996, for the log-polar coordinates.
     """
 
 def plane_support(
@@ -2157,7 +2169,7 @@ def plane_support(
     step: int,
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
-    How much of a depth image lies on a known plane: is it still the floor?
+    How much of a depth image lies on a known plane: this tells whether that is still the floor.
 
     Every step-th pixel of every step-th row counts, where measured. Heights h = n · X + d are in
     float32, to which the tolerance t and -3 t are rounded.
@@ -2200,14 +2212,14 @@ def propose(
     falls. All are clamped to the bounds.
 
     Args:
-        particles: float64 (N, D), finite, the numbers that a detection is about first
+        particles: float64 (N, D), finite, the K numbers of a detection first
         drift: float64 (D,): displacement in a frame, in the units of the state, finite
-        scale: float64 (D,): standard deviations, none negative; those that a detection is about above 0
-            where a density is needed
+        scale: float64 (D,): standard deviations, none negative; those of a detection's K numbers above
+            0 where a density is needed
         noise: float64 (N, D): independent standard normal numbers
         mean: float64 (K,): mean of the detection, K at least 1, at most D
-        root: float64 (K, K): Cholesky factor of its covariance, lower triangle, diagonal above 0; what
-            is above the diagonal is not read
+        root: float64 (K, K): Cholesky factor of its covariance, lower triangle, diagonal above 0;
+            numbers above the diagonal are not read
         share: share of the particles that is drawn from it, in [0, 1); at 0 mean and root are not read
         lower: float64 (D,): lower bounds of a state, may be infinite
         upper: float64 (D,): upper bounds, not below the lower ones, may be infinite
@@ -2216,8 +2228,8 @@ def propose(
         float64 (N, D)
 
     Raises:
-        ValueError: on unlike sizes, numbers that are not finite, a negative scale, a share outside [0,
-            1), a root without a positive diagonal, or bounds that cross
+        ValueError: on different sizes, numbers that are not finite, a negative scale, a share outside
+            [0, 1), a root without a positive diagonal, or bounds that cross
 
     Source: Sabeti, Parvizi, Wu 2008, section III.A and equation (30).
     """
@@ -2243,14 +2255,14 @@ def pyramid_flow(
     image pyramid with warping.
 
     At each level `previous` is warped towards `current` by the flow so far, and the constraints in a
-    window give a step by least squares, damped by what rounding to gray levels adds to them. Between
-    levels steps are cut to 2 pixels along x and y, the median of 3 x 3 pixels is taken, and the flow is
-    doubled. So the flow is that of what is at the pixel in `current`: it was at (x - u, y - v) in
-    `previous`. It finds motions up to about sigma 2^(levels - 1) pixels.
+    window give a step by least squares, damped by the contrast that rounding to gray levels adds to
+    them. Between levels steps are clamped to 2 pixels along x and y, the median of 3 x 3 pixels is
+    taken, and the flow is doubled. So the flow is that of the point at the pixel in `current`, which
+    was at (x - u, y - v) in `previous`. It finds motions up to about sigma 2^(levels - 1) pixels.
 
     u and v are NaN where angle or contrast is below its minimum, contrast is below 1e-6, or the step of
     the last level is longer than max_step: there the coarser levels were wrong. At every level only the
-    region is computed; beyond it the flow of its edge goes on.
+    region is computed; beyond it the flow at its edge is repeated.
 
     Args:
         previous: uint8 (H, W), gray, at least one pixel
@@ -2259,7 +2271,8 @@ def pyramid_flow(
         levels: levels of the pyramid, 2 to 8, each half as large as the one before
         min_angle: smallest angle of valid flow, in [0, 1]
         min_contrast: smallest contrast of valid flow, finite, at least 0
-        region: (x0, y0, x1, y1), pixels, inside the frame: what is computed; None for everything
+        region: (x0, y0, x1, y1), pixels, inside the frame: the part that is computed; None for
+            everything
         pool: radius of the window, pixels of each level, 0 to 16
         max_step: longest step of the last level, pixels, above 0
 
@@ -2271,10 +2284,10 @@ def pyramid_flow(
         contrast: float32 (h, w): mean of (6) over the window, (gray levels / pixel²)²
 
     Raises:
-        ValueError: on frames without pixels or of unlike sizes, or numbers out of range
+        ValueError: on frames without pixels or of different sizes, or numbers out of range
 
-    Source: Okada, Shirai, Miura 1996, section 2; pooling and warping as Lucas, Kanade 1981 and Bouguet
-    2000.
+    Source: Okada, Shirai, Miura 1996, section 2; pooling and warping as in Lucas, Kanade 1981 and
+    Bouguet 2000.
     """
 
 def rank_distance(
@@ -2285,8 +2298,8 @@ def rank_distance(
     mid-ranks of an ellipse's samples (color_ranks) and those that a model expects at the same places.
 
     0 is the same order, 2/3 unrelated orders, 1 the opposite order. Any strictly increasing change of a
-    channel of the image leaves it as it is. A model's ranks are rounded to the nearest multiple of
-    1/(2n), as those of samples are, so the distance is exact to its last rounding.
+    channel of the image leaves the distance unchanged. A model's ranks are rounded to the nearest
+    multiple of 1/(2n), as those of samples are, so the distance is exact to its last rounding.
 
     Args:
         samples: uint8 (N, 3, n): N ellipses, channels B, G, R, n at least 1
@@ -2335,36 +2348,38 @@ def rank_filter(
     numpy.typing.NDArray[numpy.float64],
 ]:
     """
-    One step of the color particle tracker's filter: particles are drawn, weighed by what the image
-    shows under them, and summed up.
+    One step of the color particle tracker's filter: particles are drawn, weighted by the image under
+    them, and summarized.
 
-    It joins resample; propose; rank_likelihood, to which the logarithms of the weights are added where
-    nothing was resampled, a weight counting as at least 1e-300; reweight; summarize; and
-    rank_likelihood and rank_window of the expected value. So particles stay in the cache.
+    It combines resample; propose; rank_likelihood, to which the logarithms of the weights are added
+    where nothing was resampled, a weight counting as at least 1e-300; reweight; summarize; and
+    rank_likelihood and rank_window of the expected value. So particles stay in the cache between these
+    steps.
 
     Args:
         image: uint8 (H, W, 3) BGR, at least one pixel
         particles: float64 (N, 4): ellipses, as in rank_likelihood, N at least 1
         weights: float64 (N,), finite, none negative, not all 0; need not sum to 1
-        offset: where resample puts its comb, in [0, 1); None: they aren't resampled, and their weights
-            count
+        offset: offset of resample's comb, in [0, 1); None: particles aren't resampled, and their
+            weights count
         noise: float64 (N, 4): independent standard normal numbers
-        correlation: of the noise of both semi-axes, which that of the major one then gets, in [-1, 1]
+        correlation: of both semi-axes' noise, made by mixing the minor one's into the major one's, in
+            [-1, 1]
         drift: float64 (D,): displacement in a frame, in the units of the state, finite
-        scale: float64 (D,): standard deviations, none negative; those that a detection is about above 0
-            where a density is needed
+        scale: float64 (D,): standard deviations, none negative; those of a detection's K numbers above
+            0 where a density is needed
         lower: float64 (D,): lower bounds of a state, may be infinite
         upper: float64 (D,): upper bounds, not below the lower ones, may be infinite
         mean: float64 (K,): mean of the detection, K at least 1, at most D
-        root: float64 (K, K): Cholesky factor of its covariance, lower triangle, diagonal above 0; what
-            is above the diagonal is not read
+        root: float64 (K, K): Cholesky factor of its covariance, lower triangle, diagonal above 0;
+            numbers above the diagonal are not read
         share: share of the particles that is drawn from it, in [0, 1); at 0 mean and root are not read
         inside: float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in sample_ellipses
         around: float64 (m, 2): places (u, v) around it
         models: float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1; in
             C++ M rows of 3 n
-        shares: float64 (M,): of each map in the mean distance, finite
-        nearest: whether to take the least distance instead: shares only have to be valid
+        shares: float64 (M,): weight of each map in the mean distance, finite
+        nearest: whether to take the least distance; shares then only have to be valid
         table: float32 (B, B, B): P(target | color), as color_lookup takes it
         sharpness: nats, finite
         contrast_weight: nats, finite
@@ -2380,7 +2395,7 @@ def rank_filter(
         correlations: float64 (M,): of that ellipse, as rank_window has them
 
     Raises:
-        ValueError: as the kernels that it joins, and on a correlation outside [-1, 1]
+        ValueError: as the kernels that it combines, and on a correlation outside [-1, 1]
 
     Source: Sabeti, Parvizi, Wu 2008, section III, equations (2), (30), (31).
     """
@@ -2401,10 +2416,10 @@ def rank_likelihood(
     The measurement of the color particle tracker in one pass: log p(y | x) = −sharpness d² +
     contrast_weight c, nats.
 
-    d is the mean of the distances between the samples inside the ellipse and each rank map, as
-    rank_distance has them, by the maps' shares; or the least of them. c is the mean of the table over
-    the samples inside less that over those around it. The samples are those of sample_ellipses; one
-    pass keeps them in the cache.
+    d is the mean, weighted by the maps' shares, of the distances (rank_distance) between the samples
+    inside the ellipse and each rank map; or the least of these distances. c is the mean of the table
+    over the samples inside minus that over those around the ellipse. The samples are those of
+    sample_ellipses; one pass keeps them in the cache.
 
     Args:
         image: uint8 (H, W, 3) BGR, at least one pixel
@@ -2413,8 +2428,8 @@ def rank_likelihood(
         around: float64 (m, 2): places (u, v) around it
         models: float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1; in
             C++ M rows of 3 n
-        shares: float64 (M,): of each map in the mean distance, finite
-        nearest: whether to take the least distance instead: shares only have to be valid
+        shares: float64 (M,): weight of each map in the mean distance, finite
+        nearest: whether to take the least distance; shares then only have to be valid
         table: float32 (B, B, B): P(target | color), as color_lookup takes it
         sharpness: nats, finite
         contrast_weight: nats, finite
@@ -2423,7 +2438,7 @@ def rank_likelihood(
         float64 (N,)
 
     Raises:
-        ValueError: as the kernels that it joins, on a pattern without places, or without maps
+        ValueError: as the kernels that it combines, on a pattern without places, or without maps
 
     Source: orders of corresponding pixels, Sabeti, Parvizi, Wu 2008, section III.B; the contrast is
     ours.
@@ -2464,12 +2479,12 @@ def rank_window(
     flat: float,
 ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float64]]:
     """
-    The order of the pixels in one ellipse, and how much it is like that of each rank map: what a color
-    tracker learns, and its score.
+    The order of the pixels in one ellipse, and its correlation with each rank map: what a color tracker
+    learns, and its score.
 
-    Spearman's correlation of all 3 n ranks, at least 0. As the mean of a map is 1/2, it is (Σab −
-    N/4) / √((Σa² − N/4) (Σb² − N/4)), N = 3 n. A window or a map that is nearly flat has no order: the
-    correlation is 0.
+    The correlation is Spearman's, of all 3 n ranks; negative ones become 0. As the mean of a map is
+    1/2, it is (Σab − N/4) / √((Σa² − N/4) (Σb² − N/4)), N = 3 n. A window or a map that is nearly flat
+    has no order: the correlation is 0.
 
     Args:
         image: uint8 (H, W, 3) BGR, at least one pixel
@@ -2497,8 +2512,8 @@ def rectangle_histogram(
     reach: float,
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
-    Histogram of the depths in one rectangle relative to its own depth, counted as by depth_distance:
-    what its model learns.
+    Histogram of the depths in one rectangle relative to its own depth, counted as by depth_distance,
+    whose model learns it.
 
     Args:
         depth: float32 (H, W), meters; may be empty
@@ -2525,8 +2540,8 @@ def rectangle_prior(
     max_cost: float,
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
-    Log-likelihood of rectangles before they are looked at, by the running mean of their size and by a
-    measured state:
+    Log-likelihood of rectangles before their depths are read, by the running mean of their size and by
+    a measured state:
         -1/2 Σ (log(s_i / size_i) / spread_i)² - min(1/2 Σ ((x_i - state_i) / deviation_i)², max_cost)
 
     s_1, s_2 are the width and height, the last two of a state's D numbers x.
@@ -2537,8 +2552,9 @@ def rectangle_prior(
         spread: float64 (2,): standard deviations of the logarithms of their ratios to it, finite, above
             0
         state: float64 (D,): measured state, finite
-        deviation: float64 (D,): its standard deviations, above 0, infinite for what was not measured
-        max_cost: most that a state far from it loses, nats, at least 0: it may be wrong
+        deviation: float64 (D,): its standard deviations, above 0, infinite for numbers that were not
+            measured
+        max_cost: most that a state far from it loses, nats, at least 0
 
     Returns:
         float64 (N,), nats
@@ -2559,7 +2575,8 @@ def rectify_verged(
     rows_only: bool = False,
 ) -> numpy.typing.NDArray[numpy.uint8]:
     """
-    Rectifies the right image of a verged pair: as a camera parallel to the left one would see it.
+    Rectifies the right image of a verged stereo pair: as a camera parallel to the left one would see
+    it.
 
     A ray (x, y, f) of the parallel camera, in pixels from the principal point, maps to this pixel of
     the camera turned by a:
@@ -2568,12 +2585,12 @@ def rectify_verged(
 
     (8) is printed without its parentheses; y is y_L, as parallel cameras see a point in one row. With
     both equations the disparity is f b / z - shift everywhere. With (8) alone (rows_only) epipolar
-    lines are horizontal, but the disparity of one depth varies across the image: beside f tan a by up
-    to 0.085 f at 10 degrees and a field of view of 60.
+    lines are horizontal, but the disparity of one depth varies across the image: by up to 0.085 f,
+    besides the constant f tan a, with a of 10 degrees and a field of view of 60.
 
-    What only the verged camera sees lies left of column 0; a shift to the right keeps it. A shift of f
-    tan a puts the axis of the turned camera at the principal point. Sampling is bilinear, places
-    rounded to 1/2048 pixel, values half up.
+    Pixels that only the verged camera sees lie left of column 0; a shift to the right keeps them. A
+    shift of f tan a puts the axis of the turned camera at the principal point. Sampling is bilinear,
+    places rounded to 1/2048 pixel, values half up.
 
     Args:
         right: uint8 (H, W) gray or (H, W, 3) BGR, at least one pixel
@@ -2581,7 +2598,7 @@ def rectify_verged(
             -pi/2 and pi/2
         focal: f = fx, pixels, finite, above 0; fy cancels out
         center: (cx, cy), the principal point, finite, pixels; (0, 0) is the center of the first pixel;
-            None for the middle of the image
+            None for the center of the image
         shift: pixels by which the image moves to the right, finite
         rows_only: whether only the rows are rectified, by (8)
 
@@ -2598,18 +2615,17 @@ def reduce_gray(
     image: numpy.typing.NDArray[numpy.uint8], step: int, region: tuple[int, int, int, int] | None = None
 ) -> numpy.typing.NDArray[numpy.uint8]:
     """
-    The gray levels of an image in cells of step x step pixels: their mean, for which a color image is
-    first turned gray.
+    The mean gray levels of an image in cells of step x step pixels; a color image is first turned gray.
 
         gray = (3735 B + 19235 G + 9798 R + 2^14) >> 15
 
-    Rows and columns that fill no cell are left out. Means are rounded half to even, those of 2 x 2
+    Rows and columns that don't fill a cell are left out. Means are rounded half to even, those of 2 x 2
     pixels half up, as by OpenCV.
 
     Args:
         image: uint8 (H, W, 3) BGR, or gray (H, W)
         step: side of a cell, pixels, 1 to the smaller side of the image
-        region: (x0, y0, x1, y1), cells, inside the result: those that are wanted, for all others are 0;
+        region: (x0, y0, x1, y1), cells, inside the result: those that are computed; all others are 0;
             None for all
 
     Returns:
@@ -2630,29 +2646,29 @@ def regularized_filter(
     penalty: float,
 ) -> numpy.typing.NDArray[numpy.complex64]:
     """
-    Learns a correlation filter with K channels from one frame, near the filter before it, and 0 outside
-    of a mask:
+    Learns a correlation filter with K channels from one frame, kept near the previous filter, and 0
+    outside of a mask:
         A = argmin |Σ_k A_k X_k − Y|² + μ Σ_k |A_k − P_k|²
 
-    X_k is the spectrum of channel k; A_k stands for the conjugate of the papers' filter, as in
-    correlation_response, which takes the result. Nothing outside of the mask adds to the response of
-    what is in the window's center; but from the response to the rest the filter learns, too.
+    X_k is the spectrum of channel k; A_k is the conjugate of the papers' filter, as in
+    correlation_response, which takes the result. Cells outside of the mask don't add to the response at
+    the window's center, but the filter also learns from its responses elsewhere, to which they add.
 
     Two iterations of the alternating direction method of multipliers, from G = H = 0: A minimizes the
     sum above plus γ Σ_k |A_k − G_k + H_k|², which has a closed form (Sherman and Morrison); G is A + H
-    times the mask; H grows by A − G, γ to its tenfold. The result is G. With T = R C, μ is
-    temporal_weight T, and γ begins with penalty T.
+    times the mask; H grows by A − G, and γ tenfold. The result is G. With T = R C, μ is temporal_weight
+    T, and γ begins with penalty T.
 
     Args:
         cells: float32 (K, R, C), already tapered; at least one channel and cell
-        mask: float32 (R, C), in [0, 1]: of the window's cells those that may add to its response,
-            usually around its center
+        mask: float32 (R, C), in [0, 1]: the window's cells that may add to the response at its center,
+            usually those around it
         label: complex64 (R, C // 2 + 1), Y: the spectrum of the desired response, its peak at (0, 0),
-            as of numpy.fft.rfft2
+            as by numpy.fft.rfft2
         previous: complex64 (K, R, C // 2 + 1), P: the filter so far, finite
-        temporal_weight: how much the filter keeps to the one before, finite, at least 0; 0 starts a
-            filter
-        penalty: how much A keeps to G in the first iteration, finite, above 0
+        temporal_weight: how strongly the filter is kept near the previous one, finite, at least 0; 0
+            starts a filter
+        penalty: how strongly A is kept near G in the first iteration, finite, above 0
 
     Returns:
         complex64 (K, R, C // 2 + 1), A; in C++ the planes one below the other
@@ -2672,20 +2688,19 @@ def remember_depth(
     reach: float,
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
-    What was last seen in each pixel beside a target: the depth image, but where it shows the target
-    what was there before.
+    The last depth seen in each pixel beside a target: the depth image, but the remembered depth where
+    it shows the target.
 
-    The target's own are the pixels in its region with |depth - z| < reach, in float32, to which z and
+    The target's pixels are those in its region with |depth - z| < reach, in float32, to which z and
     reach are rounded.
 
     Args:
         depth: float32 (H, W), meters
-        before: float32 (H, W), meters: what was remembered until now; (0, 0) for nothing, which gives
-            NaN
+        before: float32 (H, W), meters: the depth remembered so far; (0, 0) for none, which gives NaN
         region: (x0, y0, x1, y1), pixels: the target is in [x0, x1) x [y0, y1), which may extend beyond
             the image
         z: the target's depth, meters, finite
-        reach: how far from that a depth is its own, meters, finite, at least 0
+        reach: depths less than this from z are the target's, meters, finite, at least 0
 
     Returns:
         float32 (H, W), meters
@@ -2734,23 +2749,23 @@ def reweight(
     log domain:
         w = L p / (share N(x; mean, root rootᵀ) + (1 - share) p),   p = N(x; previous + drift, diag(scale²))
 
-    over the K numbers that the detection is about, as the others come from the dynamics and cancel. So
-    w <= L / (1 - share), and w = L where share is 0. Previous weights are equal (particles were
-    resampled). Where every likelihood is 0 the weights are uniform.
+    over the K numbers of the detection; the others come from the dynamics alone and cancel. So w <= L /
+    (1 - share), and w = L where share is 0. Previous weights are equal (particles were resampled).
+    Where every likelihood is 0 the weights are uniform.
 
-    The share that `propose` draws is floor(share N) / N: unbiased where share N is a whole number. What
-    clamping heaps on the bounds counts as if it had not been clamped.
+    The share that `propose` draws is floor(share N) / N: unbiased where share N is a whole number.
+    Clamping to the bounds is ignored: densities are those without it.
 
     Args:
         log_likelihood: float64 (N,): log L, natural logarithms, -infinity for the impossible
         proposed: float64 (N, D): what `propose` returned
         previous: float64 (N, D): the particles that it was given
         drift: float64 (D,): displacement in a frame, in the units of the state, finite
-        scale: float64 (D,): standard deviations, none negative; those that a detection is about above 0
-            where a density is needed
+        scale: float64 (D,): standard deviations, none negative; those of a detection's K numbers above
+            0 where a density is needed
         mean: float64 (K,): mean of the detection, K at least 1, at most D
-        root: float64 (K, K): Cholesky factor of its covariance, lower triangle, diagonal above 0; what
-            is above the diagonal is not read
+        root: float64 (K, K): Cholesky factor of its covariance, lower triangle, diagonal above 0;
+            numbers above the diagonal are not read
         share: share of the particles that is drawn from it, in [0, 1); at 0 mean and root are not read
 
     Returns:
@@ -2759,9 +2774,9 @@ def reweight(
             fits; -infinity where every likelihood is 0
 
     Raises:
-        ValueError: on no particles, unlike sizes, a log-likelihood of NaN or +infinity, other numbers
-            that are not finite, a share outside [0, 1), or (share above 0) one of the first K scales
-            that is not above 0
+        ValueError: on no particles, different sizes, a log-likelihood of NaN or +infinity, other
+            numbers that are not finite, a share outside [0, 1), or (share above 0) one of the first K
+            scales that is not above 0
 
     Source: Sabeti, Parvizi, Wu 2008, equations (2), (30), (31).
     """
@@ -2783,36 +2798,37 @@ def sad_disparity(
     x_left - d, equations (3), (4).
 
     The cost of d is the sum of |F_left(x + i, y + j) - F_right(x + i - d, y + j)| over the window
-    around (x, y), with F the gray levels, or the x-Sobel filter, with which each difference counts as
+    around (x, y), with F the gray levels, or the x-Sobel responses, of which each difference counts as
     at most 31. Images are extended by their edge pixels. A d whose x - d lies outside the right image
-    is no candidate; of equal costs the smallest d wins. The fraction of a pixel is where two lines of
-    opposite slope through the costs of d - 1, d, d + 1 meet, in float32; there is none where d is the
-    first or last candidate.
+    is no candidate; of equal costs the smallest d wins. The subpixel fraction is where two lines of
+    opposite slope through the costs of d - 1, d, d + 1 meet, in float32; it is 0 where d is the first
+    or last candidate.
 
     A pixel is NaN outside the ellipse or the left image, without a candidate, or where it is rejected:
     - by uniqueness, if any d' not next to d costs at most (1 + uniqueness / 100) times as much (as in
       cv2.StereoBM);
-    - by the left-right check, if the best pixel of the region that claims the same x - d in its row (of
+    - by the left-right check, if the best of the region's pixels in its row with the same x - d (of
       least cost, of equals the leftmost) has a disparity that differs by more than the tolerance (as in
       cv2.validateDisparity).
 
     Args:
         left: uint8 (H, W), gray, rectified, at least one pixel
         right: uint8 (H, W), gray, rectified, of the same size
-        region: (x0, y0, x1, y1), pixels of the left image, sides of 1 to 16384; may reach over the edge
+        region: (x0, y0, x1, y1), pixels of the left image, sides of 1 to 16384; may extend beyond the
+            image
         ellipse: whether only pixels whose centers lie in the ellipse inscribed in the region count
         first, last: range of disparities, both included, at most 4096 of them; first may be negative
         window: side, pixels, odd: 1 to 31 with the prefilter, 1 to 15 without, so that sums fit 16 bits
         uniqueness: percent, 0 to 100; 0 rejects nothing
-        prefilter: compare x-Sobel responses clipped at ±31, which lighting changes less, not gray
-            levels
+        prefilter: whether x-Sobel responses clipped at ±31, which lighting changes less, are compared
+            instead of gray levels
         tolerance: of the left-right check, pixels; negative for no check
 
     Returns:
         float32 (h, w) of the region, pixels
 
     Raises:
-        ValueError: on images without pixels or of unlike sizes, or numbers out of range
+        ValueError: on images without pixels or of different sizes, or numbers out of range
 
     Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.2; prefilter and uniqueness are
     those of Konolige's block matcher in OpenCV.
@@ -2852,22 +2868,22 @@ def sample_turned_windows(
     columns: int,
 ) -> numpy.typing.NDArray[numpy.uint8]:
     """
-    Resamples windows of an image that are turned, or sheared, on one grid, smoothed where they have
-    more detail than the grid can hold.
+    Resamples turned or sheared windows of an image on one grid, smoothed where they have more detail
+    than the grid can hold.
 
-    A sample is the mean of the image over a square of whole pixels' size, upright, around its place.
-    Its side is the step from a sample to the next, in pixels, rounded half up, at least 1 and at most
-    4: windows sampled more coarsely than every fourth pixel alias. It is that of the axis with the
-    shorter one, and less than the image's sides. The square's left upper corner, in float64, is moved
-    so that the square is in the image, and rounded half up to 1/16 pixel. Means are rounded half up; no
-    order of summation changes a bit. Of an image with one row or column this is repeated.
+    A sample is the mean of the image over an upright square around its place. The square's side is the
+    step between samples in pixels, that of the axis with the shorter step, rounded half up, at least 1,
+    at most 4, and less than the image's sides. So windows sampled more coarsely than every fourth pixel
+    alias. The square's upper left corner, in float64, is moved so that the square is in the image, and
+    rounded half up to 1/16 pixel. Means are rounded half up; the order of summation doesn't change a
+    bit. If the image has one row or column, it is repeated.
 
     Cost grows with the number of samples, whatever the windows' size.
 
     Args:
         image: uint8 (H, W, 3) BGR, at least one pixel
-        windows: float64 (N, 6): x, y of the middle, and the vectors of the upper side, to the right,
-            and of the left side, down; pixels, a pixel's edges being at whole numbers; finite, vectors
+        windows: float64 (N, 6): x, y of the center, the vector along the upper side, to the right, and
+            that along the left side, down; pixels, whose edges are at whole numbers; finite, vectors
             not 0
         rows: of the grid, 1 to 16384
         columns: of the grid, 1 to 16384
@@ -2894,15 +2910,15 @@ def sample_windows(
     Along an axis a sample that covers `step` pixels is the mean of t = ceil(step) evenly spaced
     bilinear readings, at least 1 and at most 4: windows sampled more coarsely than every fourth pixel
     alias. Reading j is at start + (j + 1/2) step / t - 1/2, (0, 0) being the center of the first pixel,
-    in float64, clamped to the image, and rounded half up to 1/64 pixel. Means are rounded half up; no
-    order of summation changes a bit.
+    in float64, clamped to the image, and rounded half up to 1/64 pixel. Means are rounded half up; the
+    order of summation doesn't change a bit.
 
-    Cost grows with rows times the pixels of the windows' widths, which are read whole.
+    Cost grows with rows times the windows' widths in pixels, which are read whole.
 
     Args:
         image: uint8 (H, W, 3) BGR or (H, W) gray, at least one pixel
-        windows: float64 (N, 4): left, top, width, height, pixels, a pixel's edges being at whole
-            numbers; finite, sizes above 0
+        windows: float64 (N, 4): left, top, width, height, pixels, whose edges are at whole numbers;
+            finite, sizes above 0
         rows: of the grid, 1 to 16384
         columns: of the grid, 1 to 16384
 
@@ -2913,7 +2929,7 @@ def sample_windows(
     Raises:
         ValueError: on other shapes, an image without pixels, or numbers out of range
 
-    Source: ours; bilinear readings that cover the sample, as mipmaps and OpenCV's INTER_AREA have.
+    Source: ours; bilinear readings that cover the sample, as in mipmaps and OpenCV's INTER_AREA.
     """
 
 def section_distance(
@@ -2933,7 +2949,7 @@ def section_distance(
         float64 (N,)
 
     Raises:
-        ValueError: on unlike numbers of sections
+        ValueError: on different numbers of sections
 
     Source: Sabeti, Parvizi, Wu 2008, equation (29).
     """
@@ -2962,14 +2978,14 @@ def segment_depth(
     The objects of a depth image: connected components of the divisions of its range at the minima of
     its density.
 
-    One after the other ground_distance (where there is a floor, else distances are depths),
-    depth_edges, whose pixels belong to nothing, changed_depth, depth_histogram, depth_density,
-    density_extrema, divide_depth at near, the middles of the minima's levels (the first 254) and far,
-    depth_components, cut_sides, and measure_objects; those say what each does. An object is also cut at
-    a side less than `border` pixels from the edge of what was measured.
+    It is ground_distance (with a floor; else distances are depths), depth_edges, whose pixels belong to
+    no object, changed_depth, depth_histogram, depth_density, density_extrema, divide_depth at near, the
+    middles of the minima's levels (the first 254) and far, depth_components, cut_sides, and
+    measure_objects, one after the other. An object is also cut at a side less than `border` pixels from
+    the edge of the measured rectangle.
 
     Args:
-        depth: float32 (H, W), meters, NaN in the background; in the range
+        depth: float32 (H, W), meters, NaN in the background; else in the range of `levels`
         before: float32 (H, W), meters: no object is looked for where changed_depth gives 0; (0, 0) for
             none
         noise: (noise, slope), as in changed_depth
@@ -2988,7 +3004,7 @@ def segment_depth(
 
     Returns:
         measured: float64 (C, 8), as measure_objects gives it
-        cut: bool (C, 4): left, right, top, bottom: whether it may go on there
+        cut: bool (C, 4): left, right, top, bottom: whether each may continue there
         columns, rows: float32 (C, 16), as depth_components gives them
 
     Raises:
@@ -3006,9 +3022,9 @@ def shift_histogram(
     """
     Moves a color histogram as a whole, so that its mean becomes a given one.
 
-    Along each axis the mass of a bin is split between the two bins that it comes to lie between, in
-    proportion: between eight in all. What would leave an axis stays in its end bin, so the sum never
-    changes, and the mean is met unless something was clamped.
+    Along each axis the mass of a bin is split in proportion between the two bins around its new place,
+    so among eight in all. Mass that would leave an axis stays in its end bin: the sum never changes,
+    and the mean is met unless mass was clamped.
 
     Args:
         histogram: float64 (L,), L = n_0 n_1 n_2, in the order of color_bins; finite, none negative, a
@@ -3024,7 +3040,7 @@ def shift_histogram(
         ValueError: on other sizes or values
 
     Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 4: the filter's μ goes back to the
-    histogram; how, is ours.
+    histogram; how is ours.
     """
 
 def skin_blobs(
@@ -3176,7 +3192,7 @@ def summarize(
         effective: effective sample size (Σw)² / Σw², from 1 (one has it all) to N (all are equal)
 
     Raises:
-        ValueError: on unlike sizes or other numbers
+        ValueError: on different sizes or other numbers
 
     Source: Sabeti, Parvizi, Wu 2008, section III.C (expected value); Kong, Liu, Wong 1994 (effective
     sample size).
@@ -3196,20 +3212,20 @@ def support_pixels(
     tolerance: float,
 ) -> numpy.typing.NDArray[numpy.uint8]:
     """
-    The pixels of a target's surround, and of its box, that lie on one plane: what it stands on, lies on
-    or leans against.
+    The pixels of a target's surround, and of its box, that lie on one plane: the one it stands on, lies
+    on or leans against.
 
-    Read are the depths under the centers of a grid's squares, as by depth_posterior; those of 2 z and
-    more count as not measured. The squares of every second row and column outside of the box, taken
-    1.05 times as wide and high, vote: floor_plane, with any plane for level, takes triples of those
-    that are measured, in their order from top left; a draw u of n is number floor(u n). Then square (i,
-    j) is on the plane where
+    The depths under the centers of a grid's squares are read as by depth_posterior; those of 2 z and
+    more count as not measured. The measured squares of every second row and column vote, outside of the
+    box taken 1.05 times as wide and high: floor_plane, with every plane counted as level, takes triples
+    of these n squares; in their order from top left, a draw u is number floor(u n). Then square (i, j)
+    is on the plane where
         |(nx X + ny Y + nz) z_ij + d| < t,  X = (x0 + j step - cx) / fx,  Y = (y0 + i step - cy) / fy
 
-    in float64. Nothing is, if fewer than 60 squares vote, if the plane has less than 0.15 of them, or
-    if it has more than half of those that are measured in the inner 0.8 of the box: such a target is as
-    flat as the plane. A part of the box has the squares whose centers are nearer to the middle than
-    half its width and height, and than 1 at least.
+    in float64. There is no such square if fewer than 60 squares vote, if the plane has less than 0.15
+    of them, or if it has more than half of the measured ones in the inner 0.8 of the box: such a target
+    is as flat as the plane. A scaled box holds the squares whose centers are nearer to the middle than
+    half its width and half its height, each half at least 1.
 
     Args:
         depth: float32 (H, W), meters; may be empty
@@ -3250,19 +3266,19 @@ def target_distribution(
     empty, against underflow: a higher peak far from the expected one is another object's. What follows
     uses the smoothed histogram as it is.
 
-    P_+ is the minimum on the peak's right: of the peak's bin and all before the first rise by more than
-    `ripple` times the peak's height above the lowest so far, the lowest, of equals the nearest to the
-    peak. Up to P_+ the density is the smoothed histogram; beyond, the line through P_obj and P_+ down
-    to 0, or 0 where P_+ is the peak's own bin. Where nothing rises the smoothed histogram goes on to
-    the end. The left side is alike. Values that differ by less than 1e-9 of the peak are equal. The
+    P_+ is the minimum to the right of the peak: the lowest bin, of equals the nearest to the peak, from
+    the peak's own up to the first rise by more than `ripple` times the peak's height above the lowest
+    so far. Up to P_+ the density is the smoothed histogram; beyond, it is the line through P_obj and
+    P_+ down to 0, or 0 if P_+ is the peak's own bin. Without such a rise it is the smoothed histogram
+    to the end. The left side is alike. Values that differ by less than 1e-9 of the peak are equal. The
     density is divided by its sum.
 
     Args:
         histogram: float64 (L,), L at least 1, finite, none negative
         smoothing: bins, in [0, L]
-        ripple: in [0, 1); 0 takes every minimum, as the paper
+        ripple: in [0, 1); 0 takes every minimum, as in the paper
         expected: bins, as the peak, in the range or off it; NaN for the highest peak, as in the paper
-        spread: bins, above 0; infinity is as no expectation
+        spread: bins, above 0; infinity means no expectation
 
     Returns:
         density: float64 (L,), of sum 1; zeros for a histogram of zeros
@@ -3300,36 +3316,36 @@ def target_model(
     numpy.typing.NDArray[numpy.float64],
 ]:
     """
-    The target's densities of each observation u, v, d, those of what is around it, and its velocity and
-    disparity: what is known of the target in a frame before its pixels are.
+    The densities of each observation u, v, d for the target and for its surround, and the target's
+    velocity and disparity: its model in a frame before its pixels are known.
 
-    Of each observation there is a weighted_histogram of `bins` from value - half_range to value +
-    half_range of the pixels of the target's blocks in the window. Its target_distribution, with a
-    ripple and the peak expected in the middle, is the density, and its peak the representative value;
-    without readings the expected one. In histograms of flow, all but the last observation, count only
+    For each observation there is a weighted_histogram of the pixels of the target's blocks in the
+    window, with `bins` that span value ± half_range. Its target_distribution, with a ripple and the
+    peak expected in the middle, is the density, and its peak the representative value; without readings
+    that is the expected one. Histograms of flow, those of all but the last observation, only count
     pixels that have no disparity or one near the target's.
 
     The density is mixed with the one before, moved to the new peak: memory before + (1 - memory)
-    density, divided by the sum. Between bins it is linear, 0 beyond them.
+    density, divided by the sum. The one before is linear between bins, and 0 beyond them.
 
     The alternative is surround S + (1 - surround) / bins, with S the histogram of all pixels that
     aren't in the target's blocks over the sum of their weights (of readings in [-1e6, 1e6)), smoothed
     by a Gaussian of sum 1, cut off at ceil(3 smoothing) bins; without such pixels it is 1 / bins.
 
     Args:
-        maps: (values, weights) of each observation, one to three, as of weighted_histogram: float32 (H,
+        maps: (values, weights) of each observation, one to three, as in weighted_histogram: float32 (H,
             W) each
         expected: (value, deviation, half_range) of each: its peak, the standard deviation from there,
             and half of the histogram's range; finite, the latter two above 0, the deviation infinite
             for no expectation
         window: (x0, y0, x1, y1), pixels, finite: where the target's histograms are taken
-        blocks: (corners, place, states, trusted) as of observe_target; the target's are those of state
+        blocks: (corners, place, states, trusted) as in observe_target; the target's are those of state
             1 that are trusted for a frame or more. None for all pixels
-        depth: (disparity, tolerance), pixels, that flow needs; None for any
+        depth: (disparity, tolerance), pixels: flow counts only near this disparity; None for any
         before: (densities, lows, peaks) of the frame before, with the lowest value of each histogram;
             None for none
         rules: (bins, smoothing, ripple, memory, surround): 2 to 65536 bins, smoothing, above 0, and
-            ripple as of target_distribution, the others in [0, 1)
+            ripple as in target_distribution, the others in [0, 1)
 
     Returns:
         densities: float64 (K, bins), of sum 1 or 0: P(reading | target)
@@ -3337,7 +3353,7 @@ def target_model(
         peaks: float64 (K,): representative velocity and disparity
 
     Raises:
-        ValueError: on another number of observations, unlike shapes, or numbers out of range
+        ValueError: on another number of observations, different shapes, or numbers out of range
 
     Source: Okada, Shirai, Miura 1996, section 4.2; blocks, memory and the surround are ours.
     """
@@ -3352,8 +3368,7 @@ def target_outline(
     tolerance: float,
 ) -> tuple[tuple[int, int, int, int], int]:
     """
-    The rectangle around what is the target's in its blocks: its target pixels, and those at its
-    disparity.
+    The rectangle around the target in its blocks: around its target pixels, and those at its disparity.
 
     The temporal_window, without clean-up, of the pixels in blocks of state 1 that are set in the mask
     or whose disparity differs by less than the tolerance from the target's.
@@ -3362,7 +3377,7 @@ def target_outline(
         mask: uint8 (H, W): target pixels, those that are not 0
         disparity: float32 (H, W), pixels, NaN where there is none
         corners: float64 (N, 4): x0, y0, x1, y1 of each block in its grid
-        place: (size, x, y, left, top) as of observe_target
+        place: (size, x, y, left, top) as in observe_target
         states: int64 (N,)
         target: the target's disparity, pixels
         tolerance: pixels
@@ -3372,7 +3387,7 @@ def target_outline(
         count: of these pixels
 
     Raises:
-        ValueError: on unlike shapes and sizes, and corners that are not finite
+        ValueError: on different shapes and sizes, and corners that are not finite
 
     Source: ours.
     """
@@ -3392,21 +3407,21 @@ def target_pixels(
 
     L / A is, in float32, the product of each cue's ratio at the bin of its reading: density times bins,
     or density / alternative, at most 1e12, rounded to float32. It is 0 without a reading or outside the
-    range: a target pixel has every cue. Bins are those of weighted_histogram.
+    range: a target pixel needs every cue. Bins are those of weighted_histogram.
 
     The prior P(obj) is 1 in the window and falls linearly to 0 at the edge of the candidate region:
-    min(a, b, 1), at least 0, with a by the column and b by the row the distance of the pixel's center
-    from that edge over the window's, on each side where the window does not reach the edge; in float64,
-    rounded to float32. Pixels whose centers are not in the candidate region are 0.
+    min(a, b, 1), at least 0, where a (by column) and b (by row) are the distance of the pixel's center
+    from that edge divided by the window's, on each side where the window does not reach the edge; in
+    float64, rounded to float32. Pixels whose centers are not in the candidate region are 0.
 
     Args:
         planes: float32 (H, W), one to three: readings u, v or d, the vector F of (10), NaN where there
             is none
         densities: float64 (bins,) for each plane: P(reading | obj), of sum 1, or all 0, as
             target_distribution gives it
-        ranges: (low, high) for each plane: what its bins span, finite, low < high
-        window: (x0, y0, x1, y1), where the target surely may be, pixels, finite
-        candidate: (x0, y0, x1, y1), where the target may be at all, pixels, finite
+        ranges: (low, high) for each plane: range of its bins, finite, low < high
+        window: (x0, y0, x1, y1), where the prior is 1, pixels, finite
+        candidate: (x0, y0, x1, y1), outside of which the prior is 0, pixels, finite
         threshold: smallest posterior of a target pixel, in (0, 1]
         alternatives: float64 (bins,) for each plane: P(reading | not obj), above 0, of a sum of at most
             1, as readings may lie outside the range; None for 1 / bins each
@@ -3416,23 +3431,24 @@ def target_pixels(
         posterior: float32 (H, W): P(obj | F)
 
     Raises:
-        ValueError: on another number of cues, unlike shapes, an invalid density, alternative, range or
-            threshold, or corners that are not finite
+        ValueError: on another number of cues, different shapes, an invalid density, alternative, range
+            or threshold, or corners that are not finite
 
     Source: Okada, Shirai, Miura 1996, sections 4.1 and 4.3, equations (10)-(12), figure 5. P(F) as
-    printed is constant; that every cue has to be there, and the alternatives, are ours.
+    printed is constant; that every cue is needed, and the alternatives, are ours.
     """
 
 def temporal_window(
     mask: numpy.typing.NDArray[numpy.uint8], neighbors: int, share: float, trim: float = 0.02
 ) -> tuple[tuple[int, int, int, int], int, numpy.typing.NDArray[numpy.uint8]]:
     """
-    Cleans the target pixels of a frame, and boxes them: the temporal target window.
+    Cleans the target pixels of a frame, and finds the box around them: the temporal target window.
 
-    A set pixel is kept if at least `neighbors` of the 8 around it are set, none beyond the edge, and if
-    its region of such pixels (8 neighbors) has at least `share` times the pixels of the largest. Of the
-    n pixels kept the box leaves out floor(trim n) at its left, and as many right, above and below: [x0,
-    x1) is from the floor(trim n)-th column, in order, to that many from the last.
+    A set pixel is kept if at least `neighbors` of the 8 around it are set (none beyond the edge is),
+    and if its region of such pixels (8 neighbors) has at least `share` times the pixels of the largest.
+    Of the n pixels kept, the box leaves out floor(trim n) at its left, and as many at its right, above
+    and below: with these pixels in the order of their columns, [x0, x1) goes from the column of number
+    floor(trim n), counted from 0, to that of the one with as many after it.
 
     Args:
         mask: uint8 (H, W): pixels that are not 0 are set
@@ -3469,7 +3485,7 @@ def weighted_histogram(
     quotient are rounded; whether a value is in [low, high) is decided exactly.
 
     Args:
-        values: float32 (H, W), pixels per frame or pixels; NaN, and what is not in [low, high), is not
+        values: float32 (H, W), pixels per frame or pixels; NaN, and values outside [low, high), are not
             counted
         weights: float32 (H, W): reliability, equation (5) or (9); one that is not finite and above 0
             does not count
@@ -3485,8 +3501,8 @@ def weighted_histogram(
         ValueError: on weights or a mask of another shape, corners that are not finite, or an invalid
             range
 
-    Source: Okada, Shirai, Miura 1996, section 4.2; the mask is ours: it keeps out what is nearer than
-    the target.
+    Source: Okada, Shirai, Miura 1996, section 4.2; the mask, ours, excludes pixels nearer than the
+    target.
     """
 
 @type_check_only

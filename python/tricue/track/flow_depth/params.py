@@ -458,7 +458,7 @@ class FlowDepthParams(Params):
             prior_center=0.5,
             density_memory=0.0,
             min_posterior=0.9,
-            min_posterior_one_cue=0.85,
+            min_posterior_one_cue=0.7,
             min_neighbors=0,
             min_region_share=0.0,
             outlier_share=0.0,
