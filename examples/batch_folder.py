@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""All videos of a folder, in processes: a CSV for each, and a summary. An error of one leaves the others.
+"""All videos of a folder, in processes: a CSV for each, and a summary. An error in one stops no other.
 
     python examples/batch_folder.py videos/ --boxes boxes.csv --output tracks/ --jobs 4
 
 boxes.csv has a line for each video, ``name.mp4,x,y,width,height``, pixels of its first frame. A video without
-one starts on the first box of the table beside it: of ``name.mp4`` that is ``name.csv``. A CSV is written
-once its video is through; Ctrl-C keeps those that are.
+a line starts on the first box of the table beside it, ``name.csv`` for ``name.mp4``. A CSV is written once
+its whole video is tracked; Ctrl-C keeps those already written.
 """
 
 import argparse
@@ -24,7 +24,7 @@ SUFFIXES = {".avi", ".mkv", ".mov", ".mp4", ".webm"}
 
 
 def track_video(video: Path, box: list[float] | None, target: Path) -> dict[str, int]:
-    """Track one video into a CSV file; its frames, and how many of them have which status."""
+    """Track one video into a CSV file; the number of frames, in total and by status."""
     source, tracker = tricue.open_source(video), tricue.FusedTracker()
     box = box or source.first_box
     if box is None:
@@ -42,7 +42,7 @@ def track_video(video: Path, box: list[float] | None, target: Path) -> dict[str,
 
 
 def plan(folder: Path, boxes: dict[str, list[float]], output: Path) -> dict[Path, Path]:
-    """The CSV of each video. ValueError where one would be written over another, or beside its video."""
+    """The CSV of each video. ValueError if one would overwrite another, or lie beside its video."""
     videos = sorted(path for path in folder.iterdir() if path.suffix.lower() in SUFFIXES)
     if not videos:
         raise ValueError(f"{folder}: no videos ({', '.join(sorted(SUFFIXES))})")
@@ -58,10 +58,10 @@ def plan(folder: Path, boxes: dict[str, list[float]], output: Path) -> dict[Path
 
 
 def read_boxes(path: Path | None) -> dict[str, list[float]]:
-    """The boxes by the videos' names. ValueError names a line that has no box."""
+    """The boxes by the videos' names. A ValueError names the line without a box."""
     if path is None:
         return {}
-    with path.open(newline="", encoding="utf-8-sig") as file:  # spreadsheets begin it with a mark
+    with path.open(newline="", encoding="utf-8-sig") as file:  # spreadsheets add a byte-order mark
         lines = csv.reader(file)
         return dict(_named_box(fields, f"{path}:{lines.line_num}") for fields in lines if fields)
 
@@ -76,7 +76,7 @@ def _named_box(fields: list[str], place: str) -> tuple[str, list[float]]:
 
 
 def report(name: str, job: Future[dict[str, int]]) -> bool:
-    """Print what came of a video; whether it was tracked. Whatever one does, the others go on."""
+    """Print a video's result or error; whether it was tracked. No error stops the others."""
     try:
         print(f"{name}: " + ", ".join(f"{count} {what}" for what, count in job.result().items()))
     except Exception as error:
@@ -86,7 +86,7 @@ def report(name: str, job: Future[dict[str, int]]) -> bool:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Track all, and print the summary; the exit code is 1 where a video failed."""
+    """Track all, and print the summary; the exit code is 1 if a video failed."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("folder", type=Path)
     parser.add_argument("--boxes", type=Path)
@@ -99,8 +99,8 @@ def main(arguments: list[str] | None = None) -> int:
         options.output.mkdir(parents=True, exist_ok=True)
     except (OSError, ValueError) as error:
         parser.error(one_line(error))
-    # By default Ctrl-C ends a process's video alone, and it would go on with the next one. What a shell runs
-    # in the background doesn't hear it.
+    # By default Ctrl-C would end only a process's current video, and the process would start the next one.
+    # Programs that a shell runs in the background ignore Ctrl-C.
     ignored = signal.getsignal(signal.SIGINT) is signal.SIG_IGN
     hearing = signal.SIGINT, signal.SIG_IGN if ignored else signal.SIG_DFL
     with ProcessPoolExecutor(options.jobs, None, signal.signal, hearing) as pool:

@@ -9,7 +9,7 @@
 Without a box it waits for a person who stands free. The robot drives while the person is seen, only turns
 while somebody hides them, and stops when they are lost, when the images end or can't be read, and on Ctrl-C.
 Put your motors into ``drive`` and ``turn_head``. Give them a watchdog that stops them when no command comes
-for half a second: while a camera hangs, or once the program is killed, nothing here can.
+for half a second: this program can't stop them while a camera hangs, or once it is killed.
 """
 
 import argparse
@@ -43,24 +43,24 @@ def standing(command: PanTiltCommand) -> PanTiltCommand:
 
 
 def follow(track: tricue.Track, distance: float) -> tuple[float, float]:
-    """Speed forward and turn to the right that bring the target ahead, so many meters away."""
+    """Forward speed, and turn to the right, that bring the target straight ahead, at the distance."""
     if track.status is tricue.Status.LOST or track.position is None:
         return 0.0, 0.0
     x, _, z = track.position
     turn = min(max(TURN_GAIN * math.atan2(x, z), -MAX_TURN), MAX_TURN)
-    if track.status is tricue.Status.OCCLUDED:  # the position is a prediction: don't drive into who hides it
+    if track.status is tricue.Status.OCCLUDED:  # the position is a prediction: don't drive into the occluder
         return 0.0, turn
     return min(max(GAIN * (z - distance), -MAX_SPEED), MAX_SPEED), turn
 
 
 def camera_of(source: Source, fov: float | None) -> tricue.Intrinsics:
-    """The depth camera: as the device or recording tells it, of a file beside the images, or by its angle."""
+    """The depth camera: from the device or recording, a file beside the images, or its field of view."""
     if isinstance(source.camera, tricue.Intrinsics):
         return source.camera
     if source.calibration is not None:
         return read_intrinsics(source.calibration, source.size, "depth")
     if fov is None:
-        raise ValueError("the camera isn't known; give its horizontal angle of view: --fov 57")
+        raise ValueError("the camera isn't known; give its horizontal field of view: --fov 57")
     return tricue.Intrinsics.from_fov(*source.size, fov)
 
 
@@ -95,7 +95,7 @@ def run(source: Source, options: argparse.Namespace) -> None:
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Follow, and print a line a frame."""
+    """Follow, and print a line per frame."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("source")
     parser.add_argument("--box", type=box, help="x,y,width,height in the first frame")

@@ -23,7 +23,7 @@ def alarm(seconds: float, text: str) -> None:
 
 
 def watch(source: Source, boxes: list[tricue.Box], region: tricue.Box) -> int:
-    """Follow all targets through the source; how many alarms there were."""
+    """Follow all targets through the source; the number of alarms."""
     alarms, now = 0, 0.0
 
     def raise_alarm(text: str) -> None:
@@ -44,7 +44,7 @@ def watch(source: Source, boxes: list[tricue.Box], region: tricue.Box) -> int:
                 continue
             for target, track in several.update(frame).items():
                 if track.status is not tricue.Status.TRACKED:
-                    continue  # where it is is a guess
+                    continue  # its box is a guess
                 here = region.contains(*track.box.center)
                 if inside[target] and not here:
                     raise_alarm(f"target {target} has left the region")
@@ -53,10 +53,12 @@ def watch(source: Source, boxes: list[tricue.Box], region: tricue.Box) -> int:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Watch; the exit code is 1 where there was an alarm."""
+    """Watch; the exit code is 1 if there was an alarm."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("source", help="a camera's number, a URL, or a file")
-    parser.add_argument("--box", type=box, action="append", required=True, help="of each target")
+    parser.add_argument(
+        "--box", type=box, action="append", required=True, help="x,y,width,height, for each target"
+    )
     parser.add_argument("--region", type=box, required=True)
     options = parser.parse_args(arguments)
     try:

@@ -5,11 +5,11 @@ r"""A ROS 2 node that follows a target: image (and depth, camera_info) in; pose,
     python examples/ros2_node.py --ros-args -r image:=/camera/color/image_raw -p use_depth:=true \
         -r depth:=/camera/aligned_depth_to_color/image_raw -r camera_info:=/camera/color/camera_info
 
-It starts on the parameter ``box``, and again on each sensor_msgs/RegionOfInterest on ``start``. Depth has to
-be registered to the image. After an image that can't be read the status is "lost"; a camera that changes its
-size or calibration ends the track until another ``start``. ``pose`` is in the frame of the image's header: x
-right, y down, z forward, meters; only its position is known. Needs rclpy, sensor_msgs, geometry_msgs,
-vision_msgs, std_msgs and message_filters.
+It starts on the parameter ``box``, and restarts on each sensor_msgs/RegionOfInterest on ``start``. Depth has
+to be registered to the image. After an image that can't be read the status is "lost"; a camera that changes
+its size or calibration ends the track until another ``start``. ``pose`` is in the frame of the image's
+header: x right, y down, z forward, meters; only its position is known. Needs rclpy, sensor_msgs,
+geometry_msgs, vision_msgs, std_msgs and message_filters.
 """
 
 import sys
@@ -58,7 +58,7 @@ class TargetNode(Node):
         (self.pairs if use_depth else self.images).registerCallback(self.follow)
 
     def calibrate(self, info: Any) -> None:
-        """Take the camera: P of rectified images. Another one than before ends the track: its box is gone."""
+        """Take the camera from P (rectified images). A changed camera ends the track: its box is invalid."""
         p = info.p
         if p[0] <= 0 or not info.width:
             return  # not calibrated
@@ -74,7 +74,7 @@ class TargetNode(Node):
         self.tracker = None
 
     def follow(self, image: Any, depth: Any = None) -> None:
-        """Track and publish a frame. What is wrong is logged, and the status lost; the next goes on."""
+        """Track a frame and publish the result. After an error, which is logged, it is lost."""
         if self.box[2] <= 0 or (depth is not None and self.camera is None):
             return  # nothing to start on, or no camera yet
         seconds = image.header.stamp.sec + 1e-9 * image.header.stamp.nanosec
@@ -93,7 +93,7 @@ class TargetNode(Node):
         self.publish(track, image.header)
 
     def publish(self, track: tricue.Track, header: Any) -> None:
-        """The status always; the detection unless the target is lost; the pose where depth was measured."""
+        """The status always; the detection unless the target is lost; the pose if depth was measured."""
         self.status.publish(String(data=str(track.status)))
         if track.status is tricue.Status.LOST:
             return

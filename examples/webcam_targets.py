@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Several targets before a webcam, or in a video file, each in a color of its own.
+"""Several targets in front of a webcam or in a video file, each in a color of its own.
 
-    python examples/webcam_targets.py            # the first camera: draw boxes, each with Enter; Esc starts
+    python examples/webcam_targets.py            # the first camera: draw boxes, Enter after each; Esc starts
     python examples/webcam_targets.py video.mp4 --box 128,79,64,78 --box 10,20,40,40 --output overlay.mp4
 
-Drawing boxes and the window need a cv2 with windows (opencv-python, not -headless); without them give --box.
+Drawing boxes and the window need a cv2 with windows (opencv-python, not -headless); without one give --box.
 Ctrl-C, or q in the window, ends it.
 """
 
@@ -41,7 +41,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument(
         "--box", type=box, action="append", default=[], help="x,y,width,height, for each target"
     )
-    parser.add_argument("--output", help="a video of it, .mp4 or .webm")
+    parser.add_argument("--output", help="overlay video, .mp4 or .webm")
     parser.add_argument("--no-window", action="store_true")
     options = parser.parse_args(arguments)
     try:
@@ -86,7 +86,7 @@ def track(source: Source, options: argparse.Namespace) -> None:
 
 
 def report(target: int, last: tricue.Track) -> None:
-    """Called when a target becomes LOST; it is searched for on."""
+    """Called when a target becomes LOST; the search for it goes on."""
     print(f"{target} is lost, last seen near {', '.join(f'{number:.0f}' for number in last.box.center)}")
 
 
