@@ -148,7 +148,7 @@ def test_project_that_cannot_be_written_is_begun_from(
     path = project_file.project_path(video)
     assert path.parent == data_home / "tricue"
     said = serve._begun(path, beside)
-    assert said.endswith(f", as it can't be written beside the recording; it begins with what {beside} has")
+    assert said.endswith(f", as it can't be written beside the recording; it starts from {beside}")
     assert path.read_text() == "the work"
     path.write_text("more work")
     assert serve._begun(path, beside).endswith(", as it can't be written beside the recording")

@@ -207,9 +207,9 @@ def test_overlay_video_is_a_download(client: TestClient) -> None:
         ({"do": "track", "frame": 0, "step": 2}, "step: expected 1 or -1"),
         ({"do": "track", "frame": 0, "targets": 1}, "targets: expected a list"),
         ({"do": "delete", "target": None}, "target: expected one of"),
-        ({"do": "select"}, "isn't asked for boxes alone"),
+        ({"do": "select"}, "wasn't opened to select boxes"),
         ([], "expected a command"),
-        ({"do": "rename", "target": "x" * 70000}, "expected a command, got too much"),
+        ({"do": "rename", "target": "x" * 70000}, "expected a command, got too many bytes"),
     ],
 )
 def test_bad_command_is_one_line(client: TestClient, command: Any, message: str) -> None:

@@ -53,7 +53,7 @@ def _video(serving: Serving, trail: Any = False) -> None:
 def _select(serving: Serving) -> None:
     """End the serving with the boxes that were drawn."""
     if not serving.selecting:
-        raise ValueError("do: this page isn't asked for boxes alone")
+        raise ValueError("do: this page wasn't opened to select boxes")
     targets = serving.session.project.targets
     serving.boxes = [(at, as_box(each.drawn[at])) for each in targets for at in sorted(each.drawn)]
     serving.finish()

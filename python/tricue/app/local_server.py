@@ -89,7 +89,7 @@ def listening(port: int | None) -> socket.socket:
     except OSError as error:
         if port is None:
             return socket.create_server((ADDRESS, 0))
-        why = {errno.EADDRINUSE: "the port is in use", errno.EACCES: "the port isn't open to you"}
+        why = {errno.EADDRINUSE: "the port is in use", errno.EACCES: "you have no permission for it"}
         reason = why.get(error.errno or 0, error.strerror)
         raise OSError(f"--port {port}: {reason}; give another, or leave it out") from None
 

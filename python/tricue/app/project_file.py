@@ -129,7 +129,7 @@ def load(path: Path, pose: Pose | None = None) -> tuple[Project, Footprint]:
         newer = content["tricue"]
     except (AttributeError, KeyError, TypeError, IndexError, OverflowError, ValueError) as error:
         raise ValueError(
-            f"{path}: expected a project of tricue open, can't read it; rename it to begin anew ({error!r})"
+            f"{path}: expected a project of tricue open, can't read it; rename it to start over ({error!r})"
         ) from None
     raise ValueError(f"{path}: written by a newer tricue ({newer}); update this one")
 

@@ -64,7 +64,7 @@ def _begun(path: Path, beside: Path) -> str:
     if path.exists() or not os.access(beside, os.R_OK):
         return kept
     shutil.copyfile(beside, path)
-    return f"{kept}; it begins with what {beside} has"
+    return f"{kept}; it starts from {beside}"
 
 
 @contextmanager
@@ -122,7 +122,7 @@ def _only_server(project: Path) -> Iterator[_Place]:
         except (ValueError, KeyError):
             url = ""
         if not url:
-            raise RuntimeError(f"{project}: another tricue open is starting on it; try again")
+            raise RuntimeError(f"{project}: another tricue open is opening it; try again")
         yield _Place(file, url)
 
 

@@ -270,7 +270,7 @@ class Session:
     def _check_video(self) -> None:
         """The video may have gone, or become another one, before or while the page was open."""
         if self.changed_video:
-            raise ValueError("the video has changed: first say what shall become of the project")
+            raise ValueError("the video has changed: first keep the boxes and tracks, or start over")
         if not self.place.exists():
             raise ValueError(f"{self.place}: there is no such file or folder any more")
         stat = self.place.stat()

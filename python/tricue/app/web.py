@@ -93,9 +93,9 @@ class OwnPagesOnly:
         except ValueError:  # neither is an address
             asked_as = asker = None
         if asked_as not in ("127.0.0.1", "localhost"):
-            return "expected to be asked as 127.0.0.1"
+            return "expected the host 127.0.0.1"
         if origin is not None and asker != host:
-            return "expected its own page, this is another site's"
+            return "expected a request of its own page, this is another site's"
         given = "/" + scope["path"].split("/")[1]
         if not hmac.compare_digest(given.encode(), self.base.encode()):
             return "the address lacks its token; open the whole address that tricue open printed last"
@@ -128,10 +128,10 @@ async def answer(request: Request, do: Callable[[dict[str, Any]], dict[str, Any]
     try:
         body = await request.body()
         if len(body) > MAX_COMMAND:
-            raise ValueError("expected a command, got too much")
+            raise ValueError("expected a command, got too many bytes")
         command = json.loads(body)
         if not isinstance(command, dict):
-            raise ValueError("expected a command, an object")
+            raise ValueError("expected a command as a JSON object")
         found = await run_in_threadpool(do, command)
     except (OSError, ValueError, TypeError, RuntimeError, ImportError) as error:
         return as_json({"error": one_line(error)}, 400)

@@ -40,7 +40,7 @@ def open_tab(chromium: Any) -> Iterator[Callable[..., Tab]]:
 def followed(server: Server, open_tab: Callable[..., Tab]) -> Tab:
     """A tab in which the square was drawn and tracked."""
     tab = open_tab(server.url)
-    assert tab.page.locator("#hint").inner_text() == "Drag a box around what to follow"
+    assert tab.page.locator("#hint").inner_text() == "Drag a box around the target"
     tab.draw(*START)
     tab.track()
     tab.shows(FRAMES - 1)

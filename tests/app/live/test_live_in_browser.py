@@ -113,7 +113,7 @@ def test_draw_record_and_save(chromium: Any, opened: Callable[..., Any], tmp_pat
     """From the picture to a CSV of what was followed: the square's box goes to and fro with it."""
     tab = Tab(chromium, opened().url).ready()
     page = tab.page
-    assert page.locator("#hint").inner_text() == "Drag a box around what to follow"
+    assert page.locator("#hint").inner_text() == "Drag a box around the target"
     tab.follow()
     page.keyboard.press("p")
     assert page.locator("#trail").is_checked()
@@ -187,10 +187,10 @@ def test_outage_and_end(chromium: Any, opened: Callable[..., Any], camera: Squar
     tab = Tab(chromium, server.url).ready()
     camera.stop()
     tab.page.locator("#trouble").wait_for()
-    assert "Connecting again" in tab.page.locator("#trouble").inner_text()
+    assert "Reconnecting" in tab.page.locator("#trouble").inner_text()
     camera.start()
     tab.page.locator("#trouble").wait_for(state="hidden")
-    tab.page.locator("#rate", has_text="connected again once").wait_for()
+    tab.page.locator("#rate", has_text="reconnected once").wait_for()
     code, errors = server.end(signal.SIGINT)
     assert code == 130
     assert "Traceback" not in errors

@@ -146,7 +146,7 @@ function playOrPause() {
 function nextTrouble() {
   const ids = model.target() ? [model.chosen] : model.state.targets.map((each) => each.id);
   const starts = ids.flatMap((id) => model.troubles(id).map(([first]) => first)).sort((a, b) => a - b);
-  if (!starts.length) return announce("nothing is lost");
+  if (!starts.length) return announce("no frame is lost or occluded");
   return go(starts.find((at) => at > model.frame) ?? starts[0]);
 }
 
@@ -198,7 +198,7 @@ function hearRun({ frame, speed, tracks }) {
 function runEnded({ frame, targets }) {
   get("speed").textContent = "";
   const lost = targets.filter((id) => model.status(id, frame) === LOST).map((id) => model.target(id)?.name);
-  announce(`Tracking ended in frame ${frame}${lost.length ? `; lost: ${lost.join(", ")}` : ""}`);
+  announce(`Tracking ended at frame ${frame}${lost.length ? `; lost: ${lost.join(", ")}` : ""}`);
   model.go(wanted ?? frame);
   wanted = null;
   load();
@@ -249,7 +249,7 @@ function hasKeyFocus(ids) {
 
 function workText(state) {
   if (state.file && state.unsaved) return `The last changes are not saved: ${state.unsaved}.`;
-  return state.file ? `The work is in ${state.file}.` : "";
+  return state.file ? `Your work is kept in ${state.file}.` : "";
 }
 
 function savedText(state) {
@@ -266,7 +266,7 @@ function updateHint() {
   let text = "";
   if (state.run) text = "";
   else if (stage.shown === model.frame && !stage.image) text = `Frame ${model.frame} can't be shown`;
-  else if (!state.targets.length) text = "Drag a box around what to follow";
+  else if (!state.targets.length) text = "Drag a box around the target";
   else if (!target) text = "Drag a box around the next target, or choose one";
   else if (!state.selecting && target.drawn.length === 1 && target.drawn[0] === model.frame && onlyDrawn(target)) {
     text = "Press Track, or drag the box to make it fit better";

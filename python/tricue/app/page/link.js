@@ -4,7 +4,7 @@
 /** Send a command; its answer, or an Error with the server's words. */
 export async function command(name, values = {}) {
   const response = await ask("do", { method: "POST", body: JSON.stringify({ do: name, ...values }) });
-  const answer = await response.json().catch(() => ({ error: `the server answers ${response.status}` }));
+  const answer = await response.json().catch(() => ({ error: `the server answered with status ${response.status}` }));
   if (answer.error) throw new Error(answer.error);
   return answer;
 }

@@ -95,7 +95,7 @@ listen({
 function hearHealth({ dropped, reopened, trouble, rate, recorded }) {
   const words = rate ? [`${rate.toFixed(rate < 10 ? 1 : 0)} frames/s`] : [];
   if (model.frame >= 0) words.push(`${dropped.toLocaleString("en")} dropped`);
-  if (reopened) words.push(`connected again ${reopened === 1 ? "once" : `${reopened} times`}`);
+  if (reopened) words.push(`reconnected ${reopened === 1 ? "once" : `${reopened} times`}`);
   get("rate").textContent = words.join(", ");
   get("trouble").hidden = !trouble;
   get("trouble-what").textContent = trouble ? `${model.state?.name ?? ""}: ${trouble}` : "";
@@ -114,7 +114,7 @@ function update() {
   get("problem").hidden = state.phase !== "ended";
   get("problem-what").textContent = state.problem;
   get("pause").disabled = get("record").disabled = !ready;
-  label("pause", paused ? "Go on" : "Pause", paused ? "#i-play" : "#i-pause");
+  label("pause", paused ? "Resume" : "Pause", paused ? "#i-play" : "#i-pause");
   label("record", state.recording ? "Stop" : "Record", state.recording ? "#i-stop" : "#i-record");
   get("recorded").hidden = state.recording || !state.recorded.length;
   get("recorded-where").textContent = `recorded in ${state.folder}: `;
@@ -159,7 +159,7 @@ function updateNow() {
   else if (state.phase === "ended") hint = "";
   else if (target?.stopped) hint = `${target.name}'s tracker has stopped: drag a box to start it again`;
   else if (target && model.status(target.id, at) === LOST) hint = `${target.name} is lost: drag a box to correct it`;
-  else if (!state.targets.length) hint = "Drag a box around what to follow";
+  else if (!state.targets.length) hint = "Drag a box around the target";
   else if (!target) hint = "Drag a box around the next target, or choose one";
   get("hint").textContent = hint;
   if (!focused) {
