@@ -124,9 +124,9 @@ a `TypeError`, or a `RuntimeError` for `update` before `init`. An error leaves t
 frame. `tests/track/*/test_bad_input.py` have many more cases.
 
 The tables show the status after the update, or the error, and any warnings. An answer that all three trackers give is shown once; cases
-with the same answer share a row. The first table has what all trackers check alike, such as most errors in boxes. When `flow-depth`
+with the same answer share a row. The first table has checks that all trackers share, such as most errors in boxes. When `flow-depth`
 misses its target, the score is 0; the status stays `tracked` for 0.4 s unless something nearer hides the target. `tracked` doesn't prove
-that there is a target: some trackers say so of black images, and `flow-depth` with flow alone may give noise a score of 1.
+that there is a target: some trackers report it for black images, and `flow-depth` with flow alone may give noise a score of 1.
 
 """
 

@@ -33,10 +33,10 @@ WALL = 6.0  # meters: as far as the room's own
 PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 HEADING = "## One target in larger frames"
 TEXT = """
-The same scene in the middle of larger and larger frames: the target's size in pixels stays. µs per update, from each frame's minimum
-over {rounds} rounds; the overlap is of the size where it is least. `python -m benchmarks.frame_size --write` writes this table.
+A scene in the middle of larger and larger frames; the target keeps its size in pixels. µs per update, from each frame's minimum
+over {rounds} rounds; the overlap is the lowest of all sizes. `python -m benchmarks.frame_size --write` writes this table.
 stereo-head and flow-depth reduce a frame to 160 and 320 columns, in which the smaller targets would be lost.
-The frames are in memory before the clock starts. One that is written just before its update has pushed all else out of the caches,
+The frames are in memory before the clock starts. A frame that is written just before its update evicts all else from the caches,
 which costs up to 0.4 ms at 1920x1080.
 
 | tracker | target | {sizes} | largest / smallest | overlap above 0.5 |

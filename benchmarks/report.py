@@ -39,35 +39,34 @@ OUT = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 HEAD = """\
 # Benchmarks
 
-Written by `make bench`; don't edit. One thread, frames decoded before the clock starts. Machines differ and are noisy: the ratios of
-one run are what counts.
+Written by `make bench`; don't edit. One thread, frames decoded before the clock starts. Machines differ and are noisy: compare only
+ratios within one run.
 
 {machine}"""
 KERNELS = """
 ## Kernels
 
-Every kernel that the extension exports; the minimum of many rounds, in µs. Where a name tells no size, the input is 100 ellipses of
+Every kernel that the extension exports; the minimum of many rounds, in µs. If a name has no size, the input is 100 ellipses of
 251 samples, or a frame of 320x240. The baseline is OpenCV's function for the same job, or the short cv2 and NumPy script that one
-would write. Every result is checked against the twin's. Where a native kernel is less than 20 times as fast as its twin, the twin is a
-few vectorized NumPy expressions, or a call's own cost of half a microsecond is most of the native time.
+would write. Every result is checked against the twin's. If a native kernel is less than 20 times as fast as its twin, the twin is a few
+vectorized NumPy expressions, or the overhead of a call, half a microsecond, is most of the native time.
 
-The limit is what this machine can do at most: the least time that it needs for the bytes or the operations that the inputs demand, by
-probes in the same run (`benchmarks/limits/machine.py` has the kinds of work). Where a kernel is below a tenth of it, the last column
-says what keeps it there.
+The limit is the least time that this machine needs for the bytes or the operations that the inputs demand, measured by probes in the
+same run (`benchmarks/limits/machine.py` has the kinds of work). Where the share is below a tenth, the last column says why.
 {run}
-| kernel | native | reference | baseline | reference / native | baseline / native | share of the limit | below a tenth, as |
+| kernel | native | reference | baseline | reference / native | baseline / native | share of the limit | why below a tenth |
 | --- | --- | --- | --- | --- | --- | --- | --- |
 """
-ALL = "All rows are of one run, by {clock}, on {machine}"
-LATER = "The rows of {names} are of a later run than the others, by {clock}, on {machine}"
+ALL = "All rows are from one run, timed by {clock}, on {machine}"
+LATER = "The rows of {names} are from a later run than the others, timed by {clock}, on {machine}"
 CLOCKS = {"perf_counter": "the wall clock", "process_time": "the process's own time"}
 """By pytest-benchmark's timers; the second is for a machine that is busy."""
 TRACKERS = """
 ## Trackers on figure 1's scene
 
-320x240, a face of 50x63, 90 frames, 100 particles; {rounds} rounds in turn. Frames/s from each frame's minimum
+320x240, a face of 50x63, 90 frames, 100 particles; {rounds} alternating rounds. Frames/s from each frame's minimum
 over the rounds, p50 and p99 over all updates. A tracker that has lost the target returns early, so it has a high rate and
-no overlap. This and all that follows was measured in one run, on {machine}
+no overlap. This and everything below was measured in one run, on {machine}
 
 | tracker | frames/s | p50 ms | p99 ms | time / ours | overlap above 0.5 |
 | --- | --- | --- | --- | --- | --- |
@@ -75,8 +74,8 @@ no overlap. This and all that follows was measured in one run, on {machine}
 DEPTH = """
 ## Trackers in depth
 
-A person who walks, crouches and turns, {frames} frames of a time-of-flight camera (176x144) and of an RGB-D camera (640x480); {rounds} rounds
-in turn. cv2's trackers see the depth as an 8-bit picture, made before the clock starts. The reference runs once, on {few} frames.
+A person who walks, crouches and turns, {frames} frames of a time-of-flight camera (176x144) and of an RGB-D camera (640x480); {rounds}
+alternating rounds. cv2's trackers see the depth as an 8-bit picture, made before the clock starts. The reference runs once, on {few} frames.
 
 | frames | tracker | frames/s | p50 ms | p99 ms | time / ours | overlap above 0.5 |
 | --- | --- | --- | --- | --- | --- | --- |
@@ -84,7 +83,7 @@ in turn. cv2's trackers see the depth as an 8-bit picture, made before the clock
 STEREO = """
 ## Trackers in stereo
 
-A head in light that swings by 30 %, {frames} pairs of a stereo camera; {rounds} rounds in turn. cv2's trackers see the left image alone, and
+A head in light that varies by 30 %, {frames} pairs of a stereo camera; {rounds} alternating rounds. cv2's trackers see only the left image, and
 give no position. The reference runs once, on {few} pairs.
 
 | frames | tracker | frames/s | p50 ms | p99 ms | time / ours | overlap above 0.5 | median error |
@@ -93,8 +92,8 @@ give no position. The reference runs once, on {few} pairs.
 WALKERS = """
 ## Following a walker
 
-Somebody who is overtaken, hidden and seen again, {frames} frames of a panning stereo pair; {rounds} rounds in turn. cv2's trackers see
-the left image alone, and give no position. Overlap and error count in all frames, a fifth of which hide the walker. The reference
+A walker who is overtaken, hidden and visible again, {frames} frames of a panning stereo pair; {rounds} alternating rounds. cv2's trackers see
+only the left image, and give no position. Overlap and error are over all frames; a fifth of them hide the walker. The reference
 runs once, on {few} pairs.
 
 | frames | tracker | frames/s | p50 ms | p99 ms | time / ours | overlap above 0.5 | median error |
@@ -103,7 +102,7 @@ runs once, on {few} pairs.
 SIZES = """
 ## Frame sizes and particles
 
-The same scene scaled; frames/s from each frame's minimum over {rounds} rounds.
+Figure 1's scene, scaled; frames/s from each frame's minimum over {rounds} rounds.
 
 | | 100 particles | 300 | 1000 |
 | --- | --- | --- | --- |
@@ -111,8 +110,8 @@ The same scene scaled; frames/s from each frame's minimum over {rounds} rounds.
 PAIRS = """
 ## Two trackers at once
 
-Updates/s of both together against one alone, best of {rounds} rounds in turn. Kernels release the GIL where they have enough work. The
-loop itself is Python and holds it; with few particles the loop is half of the time, and to hand the GIL over takes as long as a
+Updates/s of both together compared with one alone, best of {rounds} alternating rounds. Kernels with enough work release the GIL. The
+loop itself is Python and holds it; with few particles the loop takes half of the time, and handing over the GIL takes as long as a
 small kernel. Two processes have no such limit.
 
 | particles | one | two threads | ratio | two processes | ratio |
