@@ -433,22 +433,22 @@ class FlowDepthParams(Params):
           isn't printed; otherwise it is LOST after a while.
         - After a complete occlusion the disparity in the window is the target's.
         - All thresholds, sizes and numbers of votes: those that did best of some 2,000 settings on the scenes of
-          ``tricue reproduce okada-fig8``, the last 300 of them on seeds 20 to 35. The least reliability (9) is
-          0.3.
+          ``tricue reproduce okada-fig8``, seeds 0 to 5, whose histograms reach as far as the disparity jumps
+          (section 4.5). The least reliability (9) is 0.3.
         """
         return cls(
             resolution=160,
-            sigma=1.35,
+            sigma=1.2,
             flow_levels=1,
             min_contrast=10.0,
             disparity_levels=1,
             disparity_radius=0,
             max_disparity_step=100.0,
-            bins=64,
-            smoothing=1.5,
+            bins=96,
+            smoothing=1.0,
             histogram_region="window",
             min_prominence=0.0,
-            disparity_half_range=2.0,
+            disparity_half_range=10.0,
             flow_change=ANY_CHANGE,
             disparity_change=ANY_CHANGE,
             velocity_smoothing=False,
@@ -457,18 +457,18 @@ class FlowDepthParams(Params):
             margin=0.05,
             prior_center=0.5,
             density_memory=0.0,
-            min_posterior=0.9,
-            min_posterior_one_cue=0.7,
+            min_posterior=0.98,
+            min_posterior_one_cue=0.85,
             min_neighbors=0,
             min_region_share=0.0,
             outlier_share=0.0,
             block_rules="printed",
-            min_block_share=0.05,
+            min_block_share=0.1,
             votes_to_remove=8,
-            disparity_tolerance=1.2,
+            disparity_tolerance=0.6,
             thickness=0.0,
             target_window="pixels",
             complete_occlusion="disparity",
-            min_pixels=0.5,
+            min_pixels=0.2,
             lost_after=NEVER,
         )
