@@ -432,9 +432,9 @@ class FlowDepthParams(Params):
           last velocity as far as the image's edge. If something nearer hides it, it is never LOST, which
           isn't printed; otherwise it is LOST after a while.
         - After a complete occlusion the disparity in the window is the target's.
-        - All thresholds, sizes and numbers of votes: of some 2,000 settings on the scenes of ``tricue reproduce
-          okada-fig8``, seeds 0 to 5, the best whose histograms reach as far as the disparity jumps (section
-          4.5). The least reliability (9) is 0.3.
+        - All thresholds, sizes and numbers of votes: of some 2,000 settings on the scenes of
+          ``tricue reproduce okada-fig8``, seeds 0 to 5, the best with histograms that reach as far as
+          the disparity jumps (section 4.5). The least reliability (9) is 0.3.
         """
         return cls(
             resolution=160,
