@@ -48,8 +48,8 @@ class Device(Protocol):
 
 
 class Patience(NamedTuple):
-    """Times in seconds: how long to wait for the first image; the first and the longest wait before another
-    try, each twice as long as the one before; and the time without images after which the stream has ended.
+    """Times in seconds: how long to wait for the first image; the first and the longest wait between tries,
+    which doubles after each; and the time without images after which the stream has ended.
     """
 
     start: float = 10.0
@@ -145,7 +145,7 @@ class Live:
     def _newest_moments(self, channels: Sequence[str]) -> Iterator[Moment]:
         self._start_thread()
         with self._news:
-            self._dropped = 0  # those that came before are no loss
+            self._dropped = 0  # images that came before this are no loss
         try:
             while (newest := self._wait_for_news()) is not None:
                 yield {name: (newest.seconds, newest.images[name]) for name in channels}
@@ -159,7 +159,7 @@ class Live:
         if self._running.is_set():
             return
         if self._thread is not None:
-            self._thread.join()  # the device is still its own
+            self._thread.join()  # until then the device belongs to the thread
         _lives.add(self)
         with self._news:
             self._newest: _Newest | None = None
@@ -208,7 +208,9 @@ class Live:
                 raise OSError(f"{self.device.name}: no image for {silence:.0f} s; the stream has ended")
 
     def _run(self) -> None:
-        """The thread: an error that ends it, also one of closing the device, has to reach its reader."""
+        """The thread's body. An error that ends it must reach the reader, also one from closing the
+        device.
+        """
         try:
             self._read()
         except Exception as error:
@@ -239,7 +241,7 @@ class Live:
         now = time.monotonic()
         with self._news:
             if first:
-                self._trouble = ""  # with the start, which is over
+                self._trouble = ""  # trouble at the start is over
             elif stopped:
                 self._reopened += 1
                 self._silence += now - stopped
@@ -268,7 +270,7 @@ class Live:
 
 @atexit.register
 def _end_threads() -> None:
-    """Wait for the threads: one that returns from a library while Python exits would abort the process."""
+    """Wait for the threads: if one returned from a library while Python exits, it would abort the process."""
     for live in [*_lives]:
         live.close()
     for live in [*_lives]:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Files of true boxes: OTB's groundtruth_rect.txt counts pixels from 1, groundtruth.txt, VOT's, GOT-10k's and
-LaSOT's, is taken to count from 0.
+"""Files of true boxes: OTB's groundtruth_rect.txt counts pixels from 1; the groundtruth.txt of VOT, GOT-10k
+and LaSOT is assumed to count from 0.
 
-Princeton's are <sequence>.txt, which is public for few sequences, and init.txt, the first box alone. Folders
-without any of them may have a table, boxes.csv; see :mod:`tricue.data.box_table`.
+Princeton has <sequence>.txt, which is public for few sequences, and init.txt with the first box alone.
+Folders without any of them may have a table, boxes.csv; see :mod:`tricue.data.box_table`.
 """
 
 import re
@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 
 OTB_TRUTH, VOT_TRUTH, PRINCETON_FIRST_BOX = "groundtruth_rect.txt", "groundtruth.txt", "init.txt"
 ABSENT_TAGS = ("absent.tag", "absence.label", "full_occlusion.txt", "out_of_view.txt")
-"""Files of VOT, GOT-10k and, the last two, LaSOT: a number per frame, 1 where the target can't be seen."""
-_WHOLE_TAGS = ABSENT_TAGS[1:]  # as many as boxes; the VOT toolkit takes those that a shorter file lacks for 0
+"""Files of VOT, GOT-10k and LaSOT (the last two): a number per frame, 1 where the target can't be seen."""
+_WHOLE_TAGS = ABSENT_TAGS[1:]  # a number per box; VOT's toolkit takes missing ones for 0
 MAX_FRAME_NUMBER = 10_000_000  # a day at 100 frames per second; a larger number can't be a frame's
 DEPTHS_FILE = (
     "position_z_mm.txt"  # one line per frame: the target's median depth in millimeters, 0 or NaN if unknown
@@ -49,10 +49,11 @@ def truth_from_rows(boxes: ArrayLike, positions: NDArray[np.float64] | None = No
 
 
 def find_truth(folder: Path, target: str | None = None) -> Truth | None:
-    """The truth of a sequence folder by OTB or VOT, with the tags and depths beside it; None without a file.
+    """The truth of a sequence folder in OTB's or VOT's format, with the tags and depths beside it; None
+    without a file.
 
     target: one of :func:`otb_targets`. By default the file without a number, else that of the first target.
-    ValueError names the file and its line, or the targets that there are.
+    ValueError names the file and its line, or the targets of the folder.
     """
     path = _truth_path(folder, target)
     if path is None:
@@ -62,7 +63,7 @@ def find_truth(folder: Path, target: str | None = None) -> Truth | None:
 
 
 def find_princeton_truth(folder: Path) -> Truth | None:
-    """The truth of a sequence of the Princeton Tracking Benchmark; its lines hold more than the box."""
+    """The truth of a sequence of the Princeton Tracking Benchmark, whose lines hold more than the box."""
     names = (f"{folder.resolve().name}.txt", PRINCETON_FIRST_BOX)
     path = next((folder / name for name in names if (folder / name).is_file()), None)
     return None if path is None else add_tags_and_depths(read_truth_file(path, count=4), folder)
@@ -75,7 +76,7 @@ def otb_targets(folder: Path) -> tuple[str, ...]:
 
 
 def truth_files(folder: Path) -> list[Path]:
-    """All that this module reads in a folder."""
+    """All files that this module reads in a folder."""
     names = [OTB_TRUTH, VOT_TRUTH, *ABSENT_TAGS, DEPTHS_FILE]
     names += [PRINCETON_FIRST_BOX, f"{folder.resolve().name}.txt"]
     names += [f"groundtruth_rect.{target}.txt" for target in otb_targets(folder)]
@@ -83,10 +84,10 @@ def truth_files(folder: Path) -> list[Path]:
 
 
 def add_tags_and_depths(truth: Truth, folder: Path, rows: int = 0) -> Truth:
-    """Add the tags of absent frames and the file of depths, where the folder has them.
+    """Add the tags of absent frames and the file of depths, if the folder has them.
 
-    rows: how many boxes a benchmark's file has. LaSOT's and GOT-10k's tags are as many, or ValueError names
-    their file, unless there is the first box alone, as in test sets.
+    rows: how many boxes the benchmark's file has. LaSOT's and GOT-10k's tags must be as many, else ValueError
+    names their file. The exception is a file with the first box alone, as in test sets.
     """
     for path in (folder / name for name in ABSENT_TAGS):
         if path.is_file():
@@ -139,14 +140,14 @@ def _truth_path(folder: Path, target: str | None) -> Path | None:
 
 
 def check_target(target: str, known: Sequence[str], place: str | Path) -> None:
-    """Raise ValueError where a folder, a file or a camera has no such target; it lists the known ones."""
+    """Raise ValueError, which lists the known targets, if a folder, a file or a camera has no such target."""
     if target not in known:
         listed = f"one of {', '.join(map(repr, known))}" if known else "none, for it has one target"
         raise ValueError(f"{place}: expected target to be {listed}, got {target!r}")
 
 
 def read_box(line: str, place: str, count: int | None = None) -> tuple[float, ...]:
-    """The box x, y, width, height around what a line says, NaN for none; see :func:`read_truth_file`."""
+    """The box x, y, width, height around a line's region, NaN for none; see :func:`read_truth_file`."""
     words = re.split(r"[,;\s]+", line.strip().removeprefix("m"))
     words = words[: 4 if line.strip().startswith("m") else count]
     try:
@@ -165,7 +166,9 @@ def read_box(line: str, place: str, count: int | None = None) -> tuple[float, ..
 
 
 def _true_box(line: str, place: str, count: int | None) -> tuple[float, ...]:
-    """As :func:`read_box`; ValueError also for a negative width or height, which may be a corner's place."""
+    """As :func:`read_box`; ValueError also for a negative width or height, which may come from a file of
+    corners.
+    """
     return check_sizes(read_box(line, place, count), place, line)
 
 
@@ -187,7 +190,7 @@ def _apply_tag(truth: Truth, tag: NDArray[np.bool_]) -> Truth:
 
 
 def _read_tag(path: Path) -> NDArray[np.bool_]:
-    """(M,) a tag on each line, or, as LaSOT has them, all on one."""
+    """The tags (M,), one per line, or, as in LaSOT, all on one line."""
     tags = []
     for number, line in enumerate(read_lines(path), 1):
         for word in re.split(r"\s*,\s*|\s+", line.strip()):

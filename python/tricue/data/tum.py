@@ -15,8 +15,8 @@ from tricue.data.depth_images import DepthReader
 from tricue.data.files import listed_path
 from tricue.data.streams import Stream, TimedPaths, timed_images
 
-TUM_METERS_PER_UNIT = 1 / 5000  # by the format's definition, as the next
-MAX_TIME_DIFFERENCE = 0.02  # seconds between a color and a depth image of one frame
+TUM_METERS_PER_UNIT = 1 / 5000  # by the format's definition
+MAX_TIME_DIFFERENCE = 0.02  # seconds between a frame's color and depth images
 LIST_FILES = {"color": "rgb.txt", "depth": "depth.txt"}
 
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Folders of cameras' own viewers: color and depth images side by side, paired by the numbers in their names.
+"""Folders that cameras' viewers write: color and depth images side by side, paired by the numbers in their
+names.
 
-Such as RealSense's ``rs_Color_1.png`` and ``rs_Depth_1.png``, ``frame-000000.color.jpg`` and ``.depth.png``,
-``rgb_17.png`` and ``depth_17.png``.
+Examples are RealSense's ``rs_Color_1.png`` and ``rs_Depth_1.png``, ``frame-000000.color.jpg`` and
+``.depth.png``, ``rgb_17.png`` and ``depth_17.png``.
 """
 
 import re
@@ -16,7 +17,7 @@ from tricue.data.files import image_paths
 from tricue.data.streams import Images, Stream, timed_images
 from tricue.data.tum import match_times
 
-MAX_SAMPLED = 200  # images, of which the kind is looked up
+MAX_SAMPLED = 200  # images checked for their kind
 _WORD = r"(?<![a-z])({})(?![a-z])"
 _DEPTH, _COLOR = (re.compile(_WORD.format(words), re.IGNORECASE) for words in ("depth", "colou?r|rgb"))
 _FIRST_TIME = 1e9  # a larger number is a time, in a unit by its size: s, ms, us, ns
@@ -24,10 +25,10 @@ _PNG_HEADER = b"\x89PNG"
 
 
 def read_channels(folder: Path, scale: float | None) -> tuple[dict[str, Stream], tuple[str, ...]] | None:
-    """Color and depth by the same number or the nearest time, and notes; None where not both are there.
+    """Color and depth, paired by the same number or the nearest time, and notes; None unless both are there.
 
-    scale: meters per unit of depth; without it depth is left out, with a note. ValueError where images of
-    both kinds can't be paired, for as one sequence they would be none.
+    scale: meters per unit of depth; without it depth is left out, with a note. ValueError if images of both
+    kinds can't be paired, because together they aren't one sequence.
     """
     paths = image_paths(folder)
     color, depth = _by_name(paths) or _by_pixels(paths)
@@ -52,14 +53,14 @@ def read_channels(folder: Path, scale: float | None) -> tuple[dict[str, Stream],
 
 
 def _by_name(paths: Sequence[Path]) -> tuple[list[Path], list[Path]] | None:
-    """Color and depth, None unless names tell of both."""
+    """Color and depth images; None unless the names show both."""
     depth = [path for path in paths if _DEPTH.search(path.stem)]
     color = [path for path in _others(paths, depth) if _COLOR.search(path.stem)]
     return (color, depth) if color and depth else None
 
 
 def _by_pixels(paths: Sequence[Path]) -> tuple[list[Path], list[Path]]:
-    """Color, and depth: images with 16 bits in one channel."""
+    """Color and depth images, where depth has 16 bits in one channel."""
     chosen = np.linspace(0, len(paths) - 1, min(MAX_SAMPLED, len(paths))).round().astype(int)
     if len({_has_16_bits(paths[index]) for index in chosen}) < 2:
         return [], []
@@ -73,7 +74,7 @@ def _others(paths: Sequence[Path], chosen: Sequence[Path]) -> list[Path]:
 
 
 def _has_16_bits(path: Path) -> bool:
-    """Whether an image has 16 bits a pixel; of PNG its header says it."""
+    """Whether an image has 16 bits per pixel; for PNG its header is enough."""
     with path.open("rb") as file:
         header = file.read(26)
     if header.startswith(_PNG_HEADER):
@@ -82,7 +83,7 @@ def _has_16_bits(path: Path) -> bool:
 
 
 def _pairs(folder: Path, color: Sequence[Path], depth: Sequence[Path]) -> tuple[list[tuple[int, int]], bool]:
-    """Pairs of indices, and whether the numbers are times. ValueError where nothing pairs them."""
+    """Pairs of indices, and whether the numbers are times. ValueError if nothing pairs them."""
     first, second = ([_number(path) for path in paths] for paths in (color, depth))
     pairs: list[tuple[int, int]] = []
     timed = min(*first, *second) >= _FIRST_TIME

@@ -27,7 +27,7 @@ def read_channels(folder: Path, scale: float | None) -> dict[str, Stream] | None
 
 
 def _listed(folder: Path, reader: DepthReader) -> dict[str, Stream]:
-    """The channels that the file lists by patterns such as color/%08d.jpg, which count from 1."""
+    """The channels that the file lists as patterns such as color/%08d.jpg, with numbers from 1."""
     lines = (folder / SEQUENCE_FILE).read_text(encoding="utf-8-sig", errors="replace").splitlines()
     values = {
         key.strip(): value.strip() for key, found, value in (line.partition("=") for line in lines) if found
@@ -49,7 +49,7 @@ def _fps(values: Mapping[str, str]) -> float | None:
 
 
 def _color(values: Mapping[str, str]) -> str:
-    """The pattern of the channel named color, else of the default channel; "" without one."""
+    """The pattern of the channel color, else of the default channel; "" without one."""
     default = values.get("channel.default")
     return values.get("channels.color") or (
         values.get(f"channels.{default}", "") if default != "depth" else ""
@@ -73,7 +73,7 @@ def _images(folder: Path, channel: str, pattern: str) -> list[Path]:
 
 
 def _is_folder(path: Path) -> bool:
-    """Whether there is such a folder; False also for a name that no file can have."""
+    """Whether there is such a folder; False also for an invalid file name."""
     try:
         return path.is_dir()
     except (OSError, ValueError):
@@ -81,6 +81,6 @@ def _is_folder(path: Path) -> bool:
 
 
 def _has_numbered_images(folder: Path) -> bool:
-    """Whether all images are named by eight digits, such as 00000001.jpg, as VOT's are."""
+    """Whether all names are eight digits, such as 00000001.jpg, as VOT's are."""
     paths = image_paths(folder) if folder.is_dir() else []
     return bool(paths) and all(re.fullmatch(r"\d{8}", path.stem) for path in paths)

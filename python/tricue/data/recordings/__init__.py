@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Robots' recordings: ROS 1 bags (RealSense's, too), ROS 2 folders, MCAP."""
+"""Robot recordings: ROS 1 bags (RealSense's included), ROS 2 folders, MCAP files."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""ROS 1 bags, version 2.0: chunks of messages, and an index at the end, which a cut off bag lacks.
+"""ROS 1 bags, version 2.0: chunks of messages, then an index, which a truncated bag lacks.
 
 Source: the ROS wiki, "Bags/Format/2.0".
 """
@@ -16,14 +16,16 @@ from typing import BinaryIO, NamedTuple
 from tricue.data.recordings.container import EXTRA, Container, Message, Topic
 
 _MESSAGE, _HEADER, _CHUNK, _CHUNK_INFO, _CONNECTION = 2, 3, 5, 6, 7  # kinds of records
-_MAX_HELD = 200  # messages, whose order by time is being found; chunks overlap a little
+_MAX_HELD = 200  # messages held back to sort them by time; chunks overlap a little
 _BROKEN = (EOFError, IndexError, KeyError, OSError, ValueError, struct.error)
-"""What reading damaged records raises; OSError where they name a place that no file has."""
-_MAX_FIELDS = 1 << 20  # bytes of a record's header; more is no header
+"""What reading damaged records raises; OSError if they give an impossible position."""
+_MAX_FIELDS = 1 << 20  # bytes in a record's header; a longer one can't be a header
 
 
 class _ChunkPlace(NamedTuple):
-    """Where a chunk is, the times of its first and last message, and each connection's number of them."""
+    """The position of a chunk, the times of its first and last messages, and the message count of each
+    connection.
+    """
 
     start: int
     end: int
@@ -32,7 +34,7 @@ class _ChunkPlace(NamedTuple):
 
 
 class Bag1(Container):
-    """A ROS 1 bag. Without an index at its end all of it is read once, to find one."""
+    """A ROS 1 bag. If it lacks the index at its end, it is read once from start to end to build one."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -77,7 +79,7 @@ class Bag1(Container):
         return dict(total)
 
     def _read_index(self, file: BinaryIO, position: int, connections: int, chunks: int) -> None:
-        """ValueError or EOFError where the bag wasn't closed or is cut off."""
+        """ValueError or EOFError if the bag wasn't closed or is truncated."""
         if position == 0:
             raise ValueError("no index")
         file.seek(position)
@@ -92,7 +94,7 @@ class Bag1(Container):
                 self._chunks.append(_ChunkPlace(first, last, place, dict(pairs)))
 
     def _scan(self, file: BinaryIO) -> None:
-        """Find topics and chunks by reading all."""
+        """Find topics and chunks by reading the whole file."""
         self.damage = "it is cut off or wasn't closed"
         file.seek(0)
         file.readline()
@@ -133,7 +135,7 @@ class Bag1(Container):
 
 
 def _read_start(file: BinaryIO, path: Path) -> tuple[int, int, int]:
-    """Where the index is, and its numbers of connections and chunks; ValueError for what is no bag."""
+    """The position of the index, and its numbers of connections and chunks; ValueError if it isn't a bag."""
     magic = re.match(rb"#ROSBAG V(\d+\.\d+)\n", file.readline(64))
     if magic is None:
         raise ValueError(f"{path}: expected a ROS 1 bag, this file isn't one")
@@ -178,7 +180,7 @@ def _lz4(data: bytes) -> bytes:
 
 
 def _read_record(file: BinaryIO, kind: int | None = None) -> tuple[dict[str, bytes], bytes]:
-    """A record's fields and data; EOFError where the file ends, ValueError for another kind of record."""
+    """A record's fields and data; EOFError at the end of the file, ValueError for another kind of record."""
     fields = _fields(_read(file, _read_length(file, _MAX_FIELDS)))
     if "op" not in fields or (kind is not None and fields["op"][0] != kind):
         raise ValueError("a record isn't where it has to be")
@@ -209,7 +211,7 @@ def _records(content: bytes) -> Iterator[tuple[dict[str, bytes], bytes]]:
 
 
 def _part(content: bytes, at: int) -> tuple[bytes, int]:
-    """What a length in front of it holds, and where it ends."""
+    """The bytes of a length-prefixed field, and the offset after it."""
     (length,) = struct.unpack_from("<I", content, at)
     return content[at + 4 : at + 4 + length], at + 4 + length
 

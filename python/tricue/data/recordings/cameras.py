@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Cameras of a recording: intrinsics from camera_info, extrinsics from transforms, and what follows."""
+"""Cameras of a recording: intrinsics from camera_info, extrinsics from transforms; rigs, rectification and
+registration.
+"""
 
 from collections import deque
 from collections.abc import Mapping, Sequence
@@ -15,13 +17,15 @@ from tricue.data.recordings.messages import CameraMessage, Transform
 from tricue.data.recordings.topics import stem
 from tricue.data.source import Rectify, Register
 
-MAX_SAME_PLACE = 1e-3  # meters between two cameras that are one
-MAX_SAME_CAMERA = 0.5  # pixels between the intrinsics of two cameras that are one
+MAX_SAME_PLACE = 1e-3  # meters between two cameras that count as one
+MAX_SAME_CAMERA = 0.5  # pixels between the intrinsics of two cameras that count as one
 MAX_SAME_RECTIFIED = 1e-3  # pixels between those of a rectified pair, as in a calibration file
 
 
 class View(NamedTuple):
-    """A channel's camera. frame: its coordinate frame. rectified: whether its images are, by their name."""
+    """A channel's camera. frame: its coordinate frame. rectified: whether the topic's name says that its
+    images are.
+    """
 
     topic: str
     size: tuple[int, int]
@@ -31,7 +35,7 @@ class View(NamedTuple):
 
 
 class Cameras(NamedTuple):
-    """What is known of the cameras: as :class:`tricue.data.source.Source` has it, and notes."""
+    """What is known of the cameras, with the fields of :class:`tricue.data.source.Source`, and notes."""
 
     camera: Intrinsics | StereoRig | None = None
     register: Register | None = None
@@ -40,7 +44,7 @@ class Cameras(NamedTuple):
 
 
 def find_info(image: str, frame: str, infos: Mapping[str, CameraMessage]) -> CameraMessage | None:
-    """The camera_info of an image's topic: the one beside it, else the only one of its coordinate frame."""
+    """The camera_info of an image's topic: the one beside it, else the only one with its coordinate frame."""
     own = stem(image)
     folder = own.rsplit("/", 1)[0]
     for place in (f"{own}/camera_info", f"{own}/info/camera_info", f"{folder}/camera_info"):
@@ -52,9 +56,9 @@ def find_info(image: str, frame: str, infos: Mapping[str, CameraMessage]) -> Cam
 
 
 def find_extrinsics(transforms: Sequence[Transform], start: str, end: str) -> Extrinsics | None:
-    """x_end = rotation @ x_start + translation between two frames; None where nothing connects them.
+    """x_end = rotation @ x_start + translation between two coordinate frames; None if nothing connects them.
 
-    A transform whose quaternion is 0, as in a message that nobody filled in, connects nothing.
+    A transform with a quaternion of 0, as in a message that wasn't filled in, is ignored.
     """
     steps: dict[str, list[tuple[str, NDArray[Any]]]] = {}
     for each in transforms:
@@ -89,7 +93,7 @@ def calibrate(views: Mapping[str, View], transforms: Sequence[Transform]) -> Cam
 
 
 def _intrinsics(view: View) -> tuple[Intrinsics | None, tuple[str, ...]]:
-    """A camera's intrinsics, None with a note where they aren't known."""
+    """A camera's intrinsics; None, with a note, if they aren't known."""
     info, (width, height) = view.info, view.size
     if info is None:
         return None, (f"{view.topic} has no camera_info",)
@@ -109,7 +113,7 @@ def _intrinsics(view: View) -> tuple[Intrinsics | None, tuple[str, ...]]:
 
 
 def _is_calibrated(info: CameraMessage) -> bool:
-    """Whether K is that of a camera; of one that nobody calibrated it is 0, NaN or left out."""
+    """Whether K is valid; in an uncalibrated camera it is 0, NaN or missing."""
     return len(info.k) == 9 and bool(np.isfinite(info.k).all()) and min(info.k[0], info.k[4]) > 0
 
 
@@ -135,7 +139,7 @@ def _color_and_depth(color: View, depth: View, transforms: Sequence[Transform]) 
 
 
 def _stereo(left: View, right: View, transforms: Sequence[Transform]) -> Cameras:
-    """The rig of a stereo pair, and what rectifies it where its images aren't."""
+    """The rig of a stereo pair, and the rectification if its images are raw."""
     camera, notes = _intrinsics(left)
     first, second = left.info, right.info
     if camera is None or first is None or second is None or not _is_calibrated(second):
@@ -165,7 +169,7 @@ def _stereo(left: View, right: View, transforms: Sequence[Transform]) -> Cameras
 
 
 def _place(info: CameraMessage) -> float:
-    """Where a camera of a rectified pair is by its P: meters to the right of the pair's origin."""
+    """The position of a camera in a rectified pair, from its P: meters to the right of the pair's origin."""
     return -info.p[3] / info.p[0] if len(info.p) == 12 and info.p[0] else 0.0
 
 
@@ -188,7 +192,7 @@ def _both(left: CameraMessage, right: CameraMessage, *names: str) -> list[list[t
 
 
 def _is_raw(*infos: CameraMessage) -> bool:
-    """Whether a lens bends, or a camera is turned against its pair."""
+    """Whether a lens distorts, or a camera must be rotated to rectify the pair."""
     turned = any(
         info.r and any(info.r) and not np.allclose(np.reshape(info.r, (3, 3)), np.eye(3)) for info in infos
     )
@@ -202,8 +206,8 @@ def _is_same(first: Intrinsics, second: Intrinsics, tolerance: float = MAX_SAME_
 
 
 def _have_same_info(color: View, depth: View) -> bool:
-    """Whether depth has color's own camera_info, as drivers publish it with depth aligned to color: then both
-    are in the same pixels, whether K or P counts for color.
+    """Whether depth has the same camera_info as color. Drivers publish this for depth aligned to color: both
+    then have the same pixels, whether color uses K or P.
     """
     first, second = color.info, depth.info
     if first is None or second is None or color.size != depth.size:
@@ -212,7 +216,7 @@ def _have_same_info(color: View, depth: View) -> bool:
 
 
 def _note_two_cameras(left: Intrinsics, right: Intrinsics) -> str:
-    """What to do about a pair whose images were rectified to different intrinsics."""
+    """A note on what to do about a pair whose images were rectified to different intrinsics."""
     names = [name for name in ("fx", "fy", "cx", "cy") if getattr(left, name) != getattr(right, name)]
     differ = ", ".join(f"{name} {getattr(left, name):.6g} and {getattr(right, name):.6g}" for name in names)
     return (
@@ -222,7 +226,7 @@ def _note_two_cameras(left: Intrinsics, right: Intrinsics) -> str:
 
 
 def _is_none(between: Extrinsics) -> bool:
-    """Whether two frames are one."""
+    """Whether two coordinate frames are the same."""
     near = np.linalg.norm(between.translation) <= MAX_SAME_PLACE
     return bool(near and np.allclose(between.rotation, np.eye(3), atol=1e-3))
 

@@ -13,9 +13,9 @@ EXTRA = "pip install 'tricue[recordings]'"
 class Topic(NamedTuple):
     """A topic of a recording.
 
-    type: such as "sensor_msgs/msg/Image", "foxglove.RawImage". encoding: of its messages: "ros1", "cdr",
-    "json", "protobuf". definition: the text that defines the type, "" if the file lacks it. idl: whether that
-    is in OMG's language, not in ROS's.
+    type: such as "sensor_msgs/msg/Image", "foxglove.RawImage". encoding: how its messages are encoded:
+    "ros1", "cdr", "json", "protobuf". definition: the text that defines the type, "" if the file lacks it.
+    idl: whether this text is in OMG IDL, not in ROS's language.
     """
 
     name: str
@@ -31,7 +31,7 @@ class Topic(NamedTuple):
 
 
 class Message(NamedTuple):
-    """A message as it was recorded. time: nanoseconds, when it was recorded."""
+    """A message as it was recorded. time: when, in nanoseconds."""
 
     topic: str
     time: int
@@ -39,9 +39,9 @@ class Message(NamedTuple):
 
 
 class Container(ABC):
-    """Messages by topic, which are read from the file when asked for.
+    """Messages by topic, read from the file on demand.
 
-    damage: why not all of the file can be read, "" if all can; it may show only while reading.
+    damage: why part of the file can't be read, "" if all can; it may be found only while reading.
     """
 
     path: Path
@@ -50,14 +50,15 @@ class Container(ABC):
 
     @abstractmethod
     def messages(self, names: Collection[str], start: int = 0) -> Iterator[Message]:
-        """The messages of these topics by the time of recording; those before a damage, if there is one.
+        """The messages of these topics in order of recording time; if the file is damaged, those before the
+        damage.
 
-        start: nanoseconds; only those of this time and later, which are found without reading all before.
+        start: nanoseconds; earlier messages are skipped without reading them all.
         """
 
     @abstractmethod
     def counts(self) -> dict[str, int]:
-        """The number of messages that can be read by topic."""
+        """The number of readable messages, by topic."""
 
 
 class Chain(Container):
@@ -69,7 +70,7 @@ class Chain(Container):
 
     @property
     def damage(self) -> str:  # type: ignore[override]  # it is the parts'
-        """The first damage of a part."""
+        """The first damage in any file."""
         return next((part.damage for part in self.parts if part.damage), "")
 
     def messages(self, names: Collection[str], start: int = 0) -> Iterator[Message]:

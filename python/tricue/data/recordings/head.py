@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The beginning of a recording, which tells what its topics hold: the first images, cameras, transforms."""
+"""The beginning of a recording, which shows what its topics hold: the first images, cameras, transforms."""
 
 import re
 from collections.abc import Collection, Iterator
@@ -25,22 +25,22 @@ from tricue.data.recordings.messages import (
 from tricue.data.streams import plausible_fps
 
 HEAD_IMAGES = 15  # of each topic
-HEAD_SECONDS = 2.0  # behind the first image
-LATE_SECONDS = 10.0  # behind the first image, in which cameras and transforms have to come
+HEAD_SECONDS = 2.0  # after the first image
+LATE_SECONDS = 10.0  # after the first image, within which cameras and transforms must come
 
 STATIC_TRANSFORMS = "/tf_static"
 
-# RealSense's own bags: where a stream is, such as /device_0/sensor_0/Depth_0/tf/0, and the unit of depth
+# RealSense's own bags: the pose of a stream, such as /device_0/sensor_0/Depth_0/tf/0, and the unit of depth
 _STREAM_PLACE = re.compile(r"(/device_\d+/sensor_\d+/\w+)/tf/(\d+)$")
 _DEPTH_UNITS = re.compile(r"/option/Depth[ _]Units/value$")
 
 
 @dataclass
 class Head:
-    """What the beginning holds, by topic.
+    """What the beginning of a recording holds, by topic.
 
-    images: the first ones. times: nanoseconds, of the first few. units: meters per unit of 16-bit depth, None
-    where nothing says it. unread: why topics of images can't be read.
+    images: the first one of each. times: of the first few, nanoseconds. units: meters per unit of 16-bit
+    depth, None if not recorded. unread: why image topics can't be read.
     """
 
     images: dict[str, ImageMessage] = field(default_factory=dict)
@@ -51,14 +51,14 @@ class Head:
     unread: dict[str, str] = field(default_factory=dict)
 
     def fps(self, topic: str) -> float | None:
-        """Images per second of a topic, None where the first few don't tell."""
+        """Images per second of a topic; None if the first few don't determine it."""
         times = self.times.get(topic, [])
         step = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
         return plausible_fps(1e9 / step) if step > 0 else None
 
 
 def read_head(container: Container, images: Collection[str] | None = None) -> Head:
-    """Read the beginning; images: the topics of images that matter, all by default."""
+    """Read the beginning of a recording. images: the image topics to read, by default all."""
     head = Head()
     decoders: dict[str, Decoder] = {}
     for topic in container.topics.values():
@@ -93,9 +93,9 @@ def _matters(topic: Topic, images: Collection[str] | None) -> bool:
 def _until_known(
     container: Container, names: Collection[str], pending: set[str], late: set[str]
 ) -> Iterator[Message]:
-    """Messages until nothing is pending, or too long after the first image.
+    """Yield messages until no topic is pending, or until too long after the first image.
 
-    late: topics that may come later than images, whose first message is enough.
+    late: topics that may come later than images; their first message is enough.
     """
     first = None
     images = frozenset(pending)

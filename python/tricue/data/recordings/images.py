@@ -12,8 +12,8 @@ from tricue.data.recordings.messages import ImageMessage
 
 DEPTH_ENCODINGS = {"16UC1", "mono16", "32FC1", "64FC1", "Z16"}
 
-_HEADER = struct.Struct("<iff")  # before the PNG of a compressedDepth: its kind, and two parameters
-_TO_BGR: dict[str, int | None] = {  # of encodings with a byte a channel: cv2's conversion
+_HEADER = struct.Struct("<iff")  # before the PNG of a compressedDepth: its format, and two parameters
+_TO_BGR: dict[str, int | None] = {  # cv2's conversion for encodings with one byte per channel
     "bgr8": None,
     "8UC3": None,
     "rgb8": cv2.COLOR_RGB2BGR,
@@ -37,13 +37,13 @@ _TWO_BYTES = {"yuv422", "uyvy", "yuv422_yuy2", "yuyv", "YUYV"}
 
 
 class DepthUnits(NamedTuple):
-    """Meters per unit of recorded depth, by the type of its pixels; by default ROS's, of REP 118."""
+    """Meters per unit of recorded depth, by pixel type; by default those of ROS's REP 118."""
 
     integers: float = 0.001
     floats: float = 1.0
 
     def of(self, message: ImageMessage) -> float:
-        """The unit of a depth image, by its encoding."""
+        """The unit of a depth image with this encoding."""
         return self.floats if holds_floats(message) else self.integers
 
 
@@ -51,7 +51,7 @@ ROS_UNITS = DepthUnits()
 
 
 def is_depth(message: ImageMessage) -> bool:
-    """Whether the image is one of depth, by its encoding."""
+    """Whether the image's encoding is that of a depth image."""
     if message.compressed:
         form = message.encoding
         return "compressedDepth" in form or form.split(";")[0].strip() in ("16UC1", "32FC1")
@@ -64,11 +64,11 @@ def holds_floats(message: ImageMessage) -> bool:
 
 
 def to_color(message: ImageMessage) -> NDArray[np.uint8]:
-    """The image (H, W, 3), BGR; ValueError for an encoding that has none, or that isn't known."""
+    """The image (H, W, 3), BGR; ValueError for an unknown encoding, or one without color."""
     if message.compressed:
         return np.asarray(_decoded(message.data, cv2.IMREAD_COLOR), np.uint8)
     encoding = message.encoding
-    if encoding in ("mono16", "16UC1"):  # an infrared camera's
+    if encoding in ("mono16", "16UC1"):  # from an infrared camera
         return np.asarray(cv2.cvtColor((_pixels(message, 2) >> 8).astype(np.uint8), cv2.COLOR_GRAY2BGR))
     if encoding not in _TO_BGR:
         raise ValueError(f"the encoding {encoding!r} of color isn't known")
@@ -77,14 +77,14 @@ def to_color(message: ImageMessage) -> NDArray[np.uint8]:
     image = rows.reshape(message.height, message.width, channels)[..., slice(None) if channels > 1 else 0]
     conversion = _TO_BGR[encoding]
     if conversion is None:
-        return np.array(image)  # a copy, for it is a view of the message
+        return np.array(image)  # a copy, because it is a view of the message
     return np.asarray(cv2.cvtColor(np.ascontiguousarray(image), conversion), np.uint8)
 
 
 def to_depth(message: ImageMessage, units: DepthUnits = ROS_UNITS) -> NDArray[np.float32]:
     """The depth (H, W), meters, 0 or NaN where nothing was measured.
 
-    ValueError for an encoding that holds no depth.
+    ValueError if the encoding isn't one of depth.
     """
     if message.compressed:
         return _compressed_depth(message, units)
@@ -104,7 +104,9 @@ def _meters(image: NDArray[Any], units: DepthUnits) -> NDArray[np.float32]:
 
 
 def _compressed_depth(message: ImageMessage, units: DepthUnits) -> NDArray[np.float32]:
-    """By ROS's compressed_depth_image_transport: 16 bits as they are, or the inverse depth of floats."""
+    """Depth from ROS's compressed_depth_image_transport: plain 16 bits, or the quantized inverse of float
+    depth.
+    """
     form = message.encoding
     if "compressedDepth" not in form:
         return _meters(_decoded(message.data, cv2.IMREAD_UNCHANGED), units)
@@ -131,7 +133,7 @@ def _decoded(data: NDArray[np.uint8], flag: int) -> NDArray[Any]:
 
 
 def _rows(message: ImageMessage, bytes_per_pixel: int) -> NDArray[np.uint8]:
-    """The bytes of the rows, without those behind the last pixel of each."""
+    """The bytes of the rows, without the padding after each row's last pixel."""
     width = message.width * bytes_per_pixel
     step = message.step or width
     if min(message.width, message.height) < 1 or step < width or len(message.data) < step * message.height:
@@ -143,7 +145,7 @@ def _rows(message: ImageMessage, bytes_per_pixel: int) -> NDArray[np.uint8]:
 
 
 def _pixels(message: ImageMessage, size: int) -> NDArray[Any]:
-    """Pixels of one channel with 2, 4 or 8 bytes: integers or floats, in this machine's order."""
+    """Pixels of one channel with 2, 4 or 8 bytes: integers or floats, in this machine's byte order."""
     order, kind = ">" if message.big_endian else "<", "u" if size == 2 else "f"
     rows = np.ascontiguousarray(_rows(message, size))
     return rows.view(np.dtype(f"{order}{kind}{size}")).astype(np.dtype(f"{kind}{size}"), copy=False)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""MCAP files, by the library mcap: indexed, or, where the index is missing, from the start to the end."""
+"""MCAP files, read with the library mcap: by the index, or, without one, from start to end."""
 
 import struct
 from bisect import bisect_left
@@ -13,14 +13,14 @@ from tricue.data.recordings.container import EXTRA, Container, Message, Topic
 
 
 class _ChunkEnd(NamedTuple):
-    """Where a chunk ends in the file, and the time of the latest message up to there."""
+    """Where a chunk ends in the file, and the time of the latest message so far."""
 
     latest: int
     offset: int
 
 
 class McapFile(Container):
-    """An MCAP file; one without a summary, such as one cut off, is read once to find its topics."""
+    """An MCAP file; one without a summary, such as a truncated one, is read once to find its topics."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -47,7 +47,7 @@ class McapFile(Container):
         return {name: self._counts[name] for name in self.topics}
 
     def _read_summary(self) -> Any:
-        """The summary at the file's end; None where it is missing, incomplete or damaged."""
+        """The summary at the file's end; None if it is missing, incomplete or damaged."""
         from mcap.exceptions import McapError
         from mcap.reader import make_reader
 
@@ -87,11 +87,13 @@ class McapFile(Container):
                 yield Message(channels[record.channel_id], record.log_time, record.data)
 
     def _offset(self, start: int) -> int:
-        """Where to read from for the messages of this time and later."""
+        """The file offset from which to read to get all messages from this time on."""
         return self._chunk_ends[at - 1].offset if (at := bisect_left(self._chunk_ends, (start,))) else 0
 
     def _records(self, offset: int = 0) -> Iterator[Any]:
-        """The records, those in chunks, too. offset: where in the file one begins, 0 for the first."""
+        """The records, including those in chunks. offset: where a record begins in the file, 0 for the
+        first.
+        """
         from mcap.records import Chunk
         from mcap.stream_reader import StreamReader, breakup_chunk
 
@@ -109,7 +111,7 @@ class McapFile(Container):
                     self._chunk_ends.append(_ChunkEnd(latest, file.tell()))
 
     def _scan(self) -> None:
-        """Find topics and counts by reading all."""
+        """Find topics and counts by reading the whole file."""
         from mcap import records
 
         schemas: dict[int, Any] = {}
@@ -129,7 +131,7 @@ class McapFile(Container):
 
 
 def _since(reader: Any, start: int) -> dict[str, Any]:
-    """The keyword for the first time, whose name mcap has changed."""
+    """The keyword argument for the start time, which has different names in different versions of mcap."""
     known = signature(reader.iter_messages).parameters
     return {"starting_at" if "starting_at" in known else "start_time": start} if start else {}
 
@@ -149,7 +151,7 @@ def _topics(channels: Collection[Any], schemas: dict[int, Any]) -> dict[str, Top
 
 
 def _errors(path: Path) -> tuple[type[Exception], ...]:
-    """What mcap raises for files that are cut off or damaged; ImportError where it isn't installed."""
+    """What mcap raises for truncated or damaged files; ImportError if it isn't installed."""
     try:
         from mcap.exceptions import McapError
         from zstandard import ZstdError
@@ -157,5 +159,5 @@ def _errors(path: Path) -> tuple[type[Exception], ...]:
         raise ImportError(f"{path}: an MCAP file needs the package mcap: {EXTRA}") from None
     return (
         *(McapError, ZstdError, struct.error, EOFError, RuntimeError, ValueError),
-        *(KeyError, MemoryError, OverflowError, OSError),  # numbers, lengths and places that can't be
+        *(KeyError, MemoryError, OverflowError, OSError),  # impossible numbers, lengths and offsets
     )

@@ -25,8 +25,8 @@ _ROS_TYPE = re.compile(r"[A-Za-z]\w*/msg/[A-Za-z]\w*", re.ASCII)
 class ImageMessage(NamedTuple):
     """An image as it was recorded.
 
-    time: nanoseconds, of the exposure; 0 where it isn't known. frame: the camera's coordinate frame.
-    encoding: the layout of its pixels, or, of a compressed image, its format. step: bytes of a row.
+    time: of the exposure, nanoseconds; 0 if unknown. frame: the camera's coordinate frame. encoding: the
+    layout of the pixels; for a compressed image, its format. step: bytes per row.
     """
 
     time: int
@@ -41,7 +41,7 @@ class ImageMessage(NamedTuple):
 
 
 class CameraMessage(NamedTuple):
-    """A camera_info: K (9,), R (9,) and P (12,) row by row, D the coefficients of the distortion."""
+    """A camera_info: K (9,), R (9,) and P (12,) row by row, D the distortion coefficients."""
 
     frame: str
     width: int
@@ -54,7 +54,9 @@ class CameraMessage(NamedTuple):
 
 
 class Transform(NamedTuple):
-    """Where a frame is in its parent: p_parent = R p_child + t. rotation: a quaternion x, y, z, w."""
+    """The pose of a coordinate frame in its parent: p_parent = R p_child + t. rotation: a quaternion x, y, z,
+    w.
+    """
 
     parent: str
     child: str
@@ -63,9 +65,9 @@ class Transform(NamedTuple):
 
 
 def decoder(topic: Topic) -> Decoder:
-    """What makes a message of this topic an object or a dictionary of its fields.
+    """A function that turns a message of this topic into an object or a dictionary of its fields.
 
-    ValueError, then or when called, for a message that can't be read.
+    ValueError, here or when it is called, for messages that can't be read.
     """
     if topic.encoding == "json":
         return json.loads
@@ -80,8 +82,8 @@ def decoder(topic: Topic) -> Decoder:
 
 
 def _typed(convert: Callable[..., T]) -> Callable[..., T]:
-    """A conversion whose error is ValueError also for fields of another type, as JSON may have them, such as
-    null for NaN.
+    """Make a conversion raise ValueError also for fields of the wrong type, which JSON may have, such as null
+    for NaN.
     """
 
     @wraps(convert)
@@ -153,12 +155,12 @@ def _nanoseconds(time: Any) -> int:
 
 
 def _numbers(values: Sequence[Any] | None) -> tuple[float, ...]:
-    """The numbers of a list, which is null in JSON of Go where it is empty."""
+    """The numbers of a list; Go writes an empty one to JSON as null."""
     return () if values is None else tuple(float(value) for value in values)
 
 
 def _bytes(data: Any) -> NDArray[np.uint8]:
-    """The bytes of an image, which JSON has in base64."""
+    """The bytes of an image, which JSON holds in base64."""
     if isinstance(data, str):
         data = base64.b64decode(data)
     return np.frombuffer(data, np.uint8) if isinstance(data, bytes) else np.ravel(np.asarray(data, np.uint8))
@@ -168,7 +170,7 @@ _NOTHING = object()
 
 
 def _field(message: Any, *names: str, default: Any = _NOTHING) -> Any:
-    """The first of the fields that the message has."""
+    """The first of these fields that the message has."""
     for name in names:
         found = message.get(name, _NOTHING) if isinstance(message, dict) else getattr(message, name, _NOTHING)
         if found is not _NOTHING:
@@ -179,7 +181,7 @@ def _field(message: Any, *names: str, default: Any = _NOTHING) -> Any:
 
 
 def _ros_decoder(topic: Topic) -> Decoder:
-    """The type is the recording's own, or, where that says nothing, ROS's newest."""
+    """It decodes with the recording's own type definition, or, without one, with ROS's newest."""
     try:
         from rosbags.serde import SerdeError
         from rosbags.typesys import Stores, TypesysError, get_typestore
@@ -187,7 +189,7 @@ def _ros_decoder(topic: Topic) -> Decoder:
         raise ImportError(f"ROS's messages need the package rosbags: {EXTRA}") from None
     ros1 = topic.encoding == "ros1"
     kind = topic.type if "/msg/" in topic.type else topic.type.replace("/", "/msg/", 1)
-    if not _ROS_TYPE.fullmatch(kind):  # which rosbags makes Python code of
+    if not _ROS_TYPE.fullmatch(kind):  # rosbags turns it into Python code
         raise ValueError(f"{topic.type!r:.60} can't be the name of a type")
     try:
         store = get_typestore(Stores.EMPTY)
@@ -209,7 +211,7 @@ def _ros_decoder(topic: Topic) -> Decoder:
 
 
 def _ros_types(topic: Topic, kind: str) -> Any:
-    """The types that a definition has, by rosbags."""
+    """rosbags' types from the topic's definition."""
     from rosbags.typesys import get_types_from_idl, get_types_from_msg
 
     if not topic.idl:

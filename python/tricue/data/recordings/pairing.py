@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Pairs images of several cameras by their times, one after the other, as they come out of a file."""
+"""Pairs images of several cameras by their times, while they are read from a file."""
 
 from collections import Counter, deque
 from collections.abc import Iterable, Iterator, Sequence
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 T = TypeVar("T")
-MAX_WAITING = 30  # images of a channel that wait for another one's; what comes later isn't paired
+MAX_WAITING = 30  # images of a channel that wait for another channel's; later ones aren't paired
 
 
 @dataclass(frozen=True)
@@ -20,10 +20,10 @@ class Timed(Generic[T]):
 
 
 class Pairing(Generic[T]):
-    """Finds to each image of the first channel the nearest of each other channel.
+    """Finds, for each image of the first channel (the clock), the nearest in time of each other channel.
 
-    tolerance: nanoseconds, the largest difference. Each image is used once. left_out: how many images of each
-    channel weren't, up to now.
+    tolerance: the largest difference, nanoseconds. Each image is used at most once. left_out: how many images
+    of each channel weren't used so far.
     """
 
     def __init__(self, channels: Sequence[str], tolerance: int) -> None:
@@ -61,14 +61,16 @@ class Pairing(Generic[T]):
                 self.left_out[channel] += 1
 
     def _can_decide(self) -> bool:
-        """Whether nothing nearer can come: the clock's next image is here, and all others are later."""
+        """Whether nothing nearer can come: the clock's next image is here, and the other channels are far
+        enough ahead.
+        """
         clock, *others = self.channels
         late = self._waiting[clock][0].time + self.tolerance
         newest = [self._waiting[channel] for channel in others]
         return len(self._waiting[clock]) > 1 and all(each and each[-1].time >= late for each in newest)
 
     def _nearest(self, channel: str, time: int) -> Timed[T] | None:
-        """The nearest image that isn't nearer to the clock's next one."""
+        """The nearest image within the tolerance; None if it is nearer to the clock's next image."""
         waiting = self._waiting[channel]
         match = min(waiting, key=lambda each: abs(each.time - time), default=None)
         if match is None or abs(match.time - time) > self.tolerance:
@@ -83,6 +85,6 @@ class Pairing(Generic[T]):
             self.left_out[channel] += 1
 
     def _drop_until(self, channel: str, match: Timed[T] | None) -> None:
-        """Drop the match, and those before it, which are left out."""
+        """Drop the match and the images before it; the latter count as left out."""
         while self._waiting[channel].popleft() is not match:
             self.left_out[channel] += 1

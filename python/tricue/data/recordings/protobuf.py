@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Foxglove's messages in protobuf, as dictionaries of their fields.
 
-They need no compiler and no package: the numbers of fields are fixed for all time. Sources: the schemas of
-Foxglove's SDK; "Encoding" in the documentation of Protocol Buffers.
+This needs no compiler and no package, because field numbers never change. Sources: the schemas of Foxglove's
+SDK; "Encoding" in the documentation of Protocol Buffers.
 """
 
 import struct
@@ -10,11 +10,11 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 Schema = Mapping[int, tuple[str, Any]]
-"""By number: a field's name, and its kind: "int", "string", "bytes", "double", "doubles", a schema, or a list
-of one.
+"""A field's name and kind, by its number. The kind is "int", "string", "bytes", "double", "doubles", a
+schema, or a list of one schema.
 """
 
-_VARINT, _FIXED64, _BYTES, _FIXED32 = 0, 1, 2, 5  # kinds of encoding
+_VARINT, _FIXED64, _BYTES, _FIXED32 = 0, 1, 2, 5  # wire types
 _TIME: Schema = {1: ("seconds", "int"), 2: ("nanos", "int")}
 _VECTOR: Schema = {1: ("x", "double"), 2: ("y", "double"), 3: ("z", "double")}
 _QUATERNION: Schema = {**_VECTOR, 4: ("w", "double")}
@@ -59,9 +59,9 @@ _ABSENT: dict[str, Any] = {"int": 0, "string": "", "bytes": b"", "double": 0.0}
 
 
 def read_message(data: bytes, schema: Schema) -> dict[str, Any]:
-    """The fields of a message by name; those it leaves out are 0 or empty.
+    """The fields of a message by name; missing ones are 0 or empty.
 
-    ValueError for what isn't protobuf.
+    ValueError if the data isn't protobuf.
     """
     message: dict[str, Any] = {name: _absent(kind) for name, kind in schema.values()}
     for number, value in _values(data):
@@ -79,7 +79,7 @@ def read_message(data: bytes, schema: Schema) -> dict[str, Any]:
 
 
 def _check_kind(name: str, kind: Any, value: int | bytes) -> None:
-    """ValueError for a value that can't be of the kind, as in a damaged message."""
+    """Raise ValueError if a value can't be of this kind, as in a damaged message."""
     size = 0 if isinstance(value, int) else len(value)
     if (
         (isinstance(value, int) and kind != "int")

@@ -31,12 +31,12 @@ READERS: dict[str, tuple[str, Callable[[Path], Container]]] = {
     ".db3": ("ROS 2 recording", SqliteFile),
 }
 T = TypeVar("T")
-METADATA = "metadata.yaml"  # in the folder of a ROS 2 recording, once it is closed
-MAX_UNDECODED = 10  # moments that are read over, before the last whole one of them is decoded
+METADATA = "metadata.yaml"  # in the folder of a closed ROS 2 recording
+MAX_UNDECODED = 10  # skipped moments, after which the last undamaged one is decoded
 
 
 class TopicSummary(NamedTuple):
-    """A topic for the user. channel: "" where it isn't read."""
+    """A topic, as listed for the user. channel: the one it is read as, else ""."""
 
     name: str
     type: str
@@ -45,7 +45,7 @@ class TopicSummary(NamedTuple):
 
 
 class Stored(NamedTuple):
-    """An image, and where it is: the time of recording, and its place among those of the same time."""
+    """An image, its time of recording, and its index among the topic's images with the same time."""
 
     time: int
     place: int
@@ -76,12 +76,12 @@ class Recording:
 
     @property
     def tolerance(self) -> int:
-        """Nanoseconds between images of one moment: half a frame."""
+        """The largest difference in time between the images of one moment, nanoseconds: half a frame."""
         return round(0.5e9 / self.fps)
 
     @property
     def depth_unit(self) -> float:
-        """Meters per unit of depth: 1 where it is recorded in meters."""
+        """Meters per unit of recorded depth: 1 if it is recorded in meters."""
         return self.units.of(self.head.images[self.chosen["depth"]])
 
     @property
@@ -106,10 +106,11 @@ class Recording:
         return width, height
 
     def moments(self, channels: Sequence[str], indices: Sequence[int] | None = None) -> Iterator[Moment]:
-        """A moment with a damaged image has the images of the one before, so that all keep their numbers.
+        """Yield the moments. A moment with a damaged image repeats earlier images, so that frame numbers stay
+        the same.
 
-        These are those of the last whole moment before, whether that was asked for or not; of the topics'
-        first images where there is none.
+        The earlier images are those of the last undamaged moment, even if it wasn't requested; without one,
+        each topic's first image.
         """
         remaining = None if indices is None else deque(indices)
         number = self._unreadable = self._damaged = 0
@@ -146,9 +147,9 @@ class Recording:
     def _last_whole(
         self, moments: Sequence[dict[str, Timed[Stored]]], before: dict[str, NDArray[Any]]
     ) -> tuple[dict[str, NDArray[Any]], bool]:
-        """The images of the last moment without a damaged one, and whether that is the last of all.
+        """The images of the last undamaged moment, and whether that is the last of these moments.
 
-        before: those of the moment before all of these, with the channels that are read.
+        before: the images to use if all are damaged; their channels are the ones that are read.
         """
         for paired in reversed(moments):
             try:
@@ -162,7 +163,7 @@ class Recording:
         yield from self.paired(self.images())
 
     def paired(self, images: Iterable[Timed[T]]) -> Iterator[dict[str, Timed[T]]]:
-        """The images of one moment by channel, moment by moment; ValueError where there is none."""
+        """Yield the images of each moment, by channel; ValueError if there is no moment."""
         pairing: Pairing[T] = Pairing(list(self.chosen), self.tolerance)
         count = 0
         for count, paired in enumerate(pairing(images), 1):  # noqa: B007  # the last is reported
@@ -176,9 +177,9 @@ class Recording:
             )
 
     def images(self, start: int = 0) -> Iterator[Timed[Stored]]:
-        """The images as they were recorded, not decoded, by the time of recording.
+        """The images as they were recorded, not decoded, in order of recording time.
 
-        start: nanoseconds, of the recording; those before aren't read.
+        start: recording time, nanoseconds; earlier images aren't read.
         """
         latest: dict[str, tuple[int, int]] = {}
         for message in self.container.messages(self._channels, start):
@@ -194,12 +195,12 @@ class Recording:
             yield Timed(channel, image.time or message.time, Stored(message.time, place, image))
 
     def decode(self, channel: str, image: ImageMessage) -> NDArray[Any]:
-        """The image as a channel has it; ValueError for a damaged one."""
+        """The image as an array, as the channel gives it; ValueError if it is damaged."""
         return to_depth(image, self.units) if channel == "depth" else to_color(image)
 
 
 def is_recording(path: Path) -> bool:
-    """Whether it is a recording's file, or a folder with some and without images of its own."""
+    """Whether it is a recording's file, or a folder that has such files and no images."""
     if not path.is_dir():
         return path.suffix.lower() in READERS
     return bool(_files(path) or _packed(path)) and not find_plain_images(path)
@@ -208,10 +209,10 @@ def is_recording(path: Path) -> bool:
 def open_recording(path: Path, topics: Mapping[str, str] | None = None, scale: float | None = None) -> Source:
     """The recording as a source.
 
-    topics: by channel: "color", "depth", "right"; chosen by their names and images where none are given.
-    scale: meters per unit of depth, 16 bits or floats; by default 16 bits are in the recording's own unit,
-        else in millimeters, and floats are meters.
-    ValueError, OSError or ImportError in one line that says what to do.
+    topics: by channel: "color", "depth", "right"; by default chosen by their names and images.
+    scale: meters per unit of depth, for 16 bits and floats. By default 16 bits are in the unit that the
+        recording names, else in millimeters, and floats are meters.
+    ValueError, OSError or ImportError says in one line what to do.
     """
     container, format_ = _open_container(path)
     _check_topics(container, topics)
@@ -242,7 +243,7 @@ def _files(folder: Path) -> list[Path]:
 
 
 def _packed(folder: Path) -> list[Path]:
-    """Files that ROS 2 compressed as a whole, such as walk_0.db3.zstd."""
+    """Files that ROS 2 compressed whole, such as walk_0.db3.zstd."""
     return [path for path in folder.glob("*.zstd") if Path(path.stem).suffix.lower() in READERS]
 
 
@@ -263,7 +264,7 @@ def _open_container(path: Path) -> tuple[Container, str]:
 
 
 def _check_topics(container: Container, topics: Mapping[str, str] | None) -> None:
-    """ValueError for topics that aren't there, and for those of other types than images."""
+    """Raise ValueError for topics that are missing or don't hold images."""
     images = [name for name, topic in container.topics.items() if topic.kind in IMAGES]
     if not images:
         kinds = sorted({topic.type for topic in container.topics.values() if topic.type})
@@ -290,7 +291,7 @@ def _check_images(container: Container, head: Head, chosen: Mapping[str, str]) -
 
 
 def _depth_units(head: Head, scale: float | None) -> DepthUnits:
-    """Those that are given, else the recording's own, else ROS's."""
+    """The given units, else the recording's own, else ROS's."""
     if scale is not None:
         unit = positive(scale, "depth_scale", "meters per unit")
         return DepthUnits(unit, unit)
@@ -309,7 +310,7 @@ def _view(recording: Recording, channel: str) -> View:
     info = find_info(topic, head.images[topic].frame, head.cameras)
     own = stem(topic)
     frames = {each for transform in head.transforms for each in (transform.parent, transform.child)}
-    # RealSense's own bags name the stream itself; ROS has the camera's frame in the images
+    # RealSense's own bags name the stream itself; in ROS the images name the camera's frame
     frame = own if own in frames else head.images[topic].frame or (info.frame if info else "")
     rectified = "rect" in own.rsplit("/", 1)[-1] or is_depth_topic(topic, head.images[topic])
     return View(topic, recording.size(channel), frame, info, rectified)

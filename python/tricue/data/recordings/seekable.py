@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Any frame of a robot's recording at once: its frames are listed first, then read from where they are."""
+"""Random access to the frames of a robot recording: they are listed first, then read by position."""
 
 from collections import OrderedDict
 from collections.abc import Iterator, Sequence
@@ -15,21 +15,21 @@ from tricue.data.recordings.messages import ImageMessage
 from tricue.data.recordings.pairing import Timed
 from tricue.data.recordings.recording import Recording, Stored
 
-KEPT_BYTES = 128 << 20  # of images as they were recorded, which stepping back falls back on
-MAX_SKIPPED = 10**9  # nanoseconds that are rather read over than sought
-BEFORE = 15  # frames that are read with one before the last, as those before it are wanted next
-DISORDER = 2 * 10**9  # nanoseconds by which messages may be recorded out of their order
+KEPT_BYTES = 128 << 20  # of undecoded images, kept for stepping back
+MAX_SKIPPED = 10**9  # nanoseconds; a gap up to this is read through, a larger one needs a seek
+BEFORE = 15  # frames read ahead of the wanted one when stepping back, since they are wanted next
+DISORDER = 2 * 10**9  # nanoseconds by which messages may be recorded out of order
 
 Key = tuple[str, int, int]
-"""Where an image is: its channel, the time of recording, the place among those of the same time."""
+"""Identifies an image: its channel, its time of recording, its index among those of the same time."""
 
 
 @dataclass(frozen=True)
 class FrameList:
-    """When the frames are, and where their images: as many bytes as a few dozen for each frame.
+    """The times of the frames and the positions of their images, in a few dozen bytes per frame.
 
-    times: (N,) seconds. recorded: (N, C) nanoseconds, when the image of each channel was recorded; places:
-    (N, C) among those of the same channel and time.
+    times: (N,) seconds. recorded: (N, C) nanoseconds, when each channel's image was recorded. places: (N, C)
+    its index among the images of the same channel and time.
     """
 
     times: NDArray[np.float64]
@@ -41,7 +41,7 @@ class FrameList:
 
 
 def list_frames(recording: Recording) -> FrameList:
-    """Pair the recording's images, decoding none; one image at a time is in memory."""
+    """Pair the recording's images without decoding them, with one image at a time in memory."""
     light = (Timed(each.channel, each.time, each.item[:2]) for each in recording.images())
     paired = list(recording.paired(light))
     clock, channels = recording.clock, list(recording.chosen)
@@ -51,11 +51,11 @@ def list_frames(recording: Recording) -> FrameList:
 
 
 class SeekableRecording:
-    """A recording whose frames can be had in any order; a joint as those of :mod:`tricue.data.joint`.
+    """A recording whose frames can be read in any order; a joint, see :mod:`tricue.data.joint`.
 
-    The frames are those that :class:`Recording` gives. It reads on from the last frame, or from where the
-    recording has the wanted one, and keeps the last images undecoded. Used by one thread at a time.
-    ValueError names a frame whose image is damaged.
+    The frames are those that :class:`Recording` gives. It reads on from the last frame or seeks to the wanted
+    one, and keeps the last images undecoded. For one thread at a time. ValueError names a frame whose image
+    is damaged.
     """
 
     def __init__(self, recording: Recording, frames: FrameList) -> None:
@@ -67,7 +67,7 @@ class SeekableRecording:
 
     @classmethod
     def of(cls, recording: Recording) -> "SeekableRecording":
-        """List the frames; ValueError where there are none."""
+        """List the frames; ValueError if there are none."""
         return cls(recording, list_frames(recording))
 
     def again(self) -> "SeekableRecording":
@@ -108,12 +108,12 @@ class SeekableRecording:
         return {channel: moment[channel] for channel in channels}
 
     def _where(self, number: int) -> dict[str, tuple[int, int]]:
-        """Time of recording and place of each channel's image."""
+        """The time of recording and the index of each channel's image."""
         pairs = zip(self.frames.recorded[number].tolist(), self.frames.places[number].tolist(), strict=True)
         return dict(zip(self.recording.chosen, pairs, strict=True))
 
     def _find(self, number: int) -> dict[str, ImageMessage]:
-        """The images of a frame by channel; ValueError where they can't be read."""
+        """The images of a frame by channel; ValueError if they can't be read."""
         keys = {channel: (channel, *where) for channel, where in self._where(number).items()}
         found = {key: self._kept[key] for key in keys.values() if key in self._kept}
         if len(found) < len(keys):
@@ -124,7 +124,7 @@ class SeekableRecording:
             raise ValueError(f"{self.recording.container.path}: frame {number} can't be read") from None
 
     def _read(self, number: int, missing: set[Key]) -> dict[Key, ImageMessage]:
-        """Read on until nothing is missing, or nothing of it can come any more; what was missing."""
+        """Read on until no image is missing, or none of them can still come; return those found."""
         found: dict[Key, ImageMessage] = {}
         first, last = min(time for _, time, _ in missing), max(time for _, time, _ in missing)
         if not self._read_to < first <= self._read_to + MAX_SKIPPED:
@@ -139,7 +139,7 @@ class SeekableRecording:
                 found[key] = each.item.image
             if len(found) == len(missing) or self._read_to > last + DISORDER:
                 return found
-        self._read_to = -1  # the end: nothing can be read on
+        self._read_to = -1  # at the end: it can't read on from here
         return found
 
     def _keep(self, key: Key, image: ImageMessage) -> None:
@@ -153,7 +153,7 @@ class SeekableRecording:
 
 
 class SeekableChannel(JointStream):
-    """A channel of such a recording. times: seconds of its frames."""
+    """A channel of such a recording."""
 
     joint: SeekableRecording
 
@@ -163,5 +163,5 @@ class SeekableChannel(JointStream):
 
     @property
     def times(self) -> NDArray[Any]:
-        """Seconds, one per frame."""
+        """The time of each frame, seconds."""
         return self.joint.frames.times

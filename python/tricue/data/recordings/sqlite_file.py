@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""ROS 2 databases (.db3): a table of topics and one of messages, each in CDR."""
+"""ROS 2 databases (.db3): a table of topics, and one of messages in CDR."""
 
 import os
 import sqlite3
@@ -11,11 +11,11 @@ from urllib.parse import quote
 
 from tricue.data.recordings.container import EXTRA, Container, Message, Topic
 
-_ZSTD = b"\x28\xb5\x2f\xfd"  # begins a compressed message; CDR begins with 0
+_ZSTD = b"\x28\xb5\x2f\xfd"  # how a compressed message begins; CDR begins with 0
 
 
 class SqliteFile(Container):
-    """A ROS 2 database, of any of its versions; one whose recording was cut off is read to the damage."""
+    """A ROS 2 database of any version; a truncated one is read up to the damage."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -37,11 +37,11 @@ class SqliteFile(Container):
         # a damaged row may hold values of other types
         columns = "topic_id, CAST(IFNULL(timestamp, 0) AS INTEGER), CAST(IFNULL(data, '') AS BLOB)"
         query = f"SELECT {columns} FROM messages WHERE topic_id IN ({_marks(numbers)})"
-        query += " AND timestamp >= ?" * (start > 0)  # which an index finds, but one that may be damaged
+        query += " AND timestamp >= ?" * (start > 0)  # this uses an index, which may be damaged
         values = [*numbers, *([start] * (start > 0))]
         any_read = False
         with closing(self._connect()) as database:
-            for order in ("ORDER BY timestamp", "ORDER BY id"):  # a damage may be in the index of times
+            for order in ("ORDER BY timestamp", "ORDER BY id"):  # the index of times may be damaged
                 try:
                     for number, time, data in database.execute(f"{query} {order}", values):
                         any_read = True
@@ -56,34 +56,34 @@ class SqliteFile(Container):
         with closing(self._connect()) as database:
             try:
                 for number, count in database.execute("SELECT topic_id, COUNT(*) FROM messages GROUP BY 1"):
-                    if number in self._names:  # a topic's row may be lost
+                    if number in self._names:  # the topic's row may be lost
                         counts[self._names[number]] += count
             except sqlite3.DatabaseError as error:
                 self.damage = f"it is cut off or damaged ({error})"
         return counts
 
     def _connect(self) -> sqlite3.Connection:
-        """Read alone; what a recorder that crashed left in a journal beside the file is taken, too."""
+        """Open it read-only, with what a crashed recorder left in a journal beside the file."""
         journal = self.path.with_name(f"{self.path.name}-wal").exists()
         options = "mode=ro" if journal else "mode=ro&immutable=1"
         database = sqlite3.connect(f"file:{quote(os.fsencode(self.path))}?{options}", uri=True)
         database.text_factory = partial(str, encoding="utf-8", errors="replace")
-        database.execute("PRAGMA writable_schema = ON")  # else a file that is cut off isn't opened at all
+        database.execute("PRAGMA writable_schema = ON")  # else a truncated file can't be opened at all
         return database
 
 
 def _text(column: str) -> str:
-    """The column as a text for a query, whatever type a damaged row has."""
+    """A query's expression for the column as text, whatever its type in a damaged row."""
     return f"CAST(IFNULL({column}, '') AS TEXT)"
 
 
 def _marks(values: Collection[int]) -> str:
-    """As many question marks as there are values, for a query."""
+    """A query's placeholders, one for each value."""
     return ", ".join("?" * len(values))
 
 
 def _definitions(database: sqlite3.Connection) -> dict[str, tuple[str, bool]]:
-    """The definitions of types, which older databases lack, and whether they are in OMG's language."""
+    """The definitions of types, which older databases lack, and whether they are in OMG IDL."""
     try:
         columns = ", ".join(map(_text, ("topic_type", "encoding", "encoded_message_definition")))
         rows = database.execute(f"SELECT {columns} FROM message_definitions").fetchall()
@@ -93,14 +93,14 @@ def _definitions(database: sqlite3.Connection) -> dict[str, tuple[str, bool]]:
 
 
 def _decompressed(data: bytes) -> bytes:
-    """The message, whether ROS 2 compressed it or not; where it is damaged b"", which no message is."""
+    """The message, decompressed if ROS 2 compressed it; b"", which no message is, if it is damaged."""
     if not data.startswith(_ZSTD):
         return data
     try:
         import zstandard
     except ImportError:
         raise ImportError(f"compressed messages need the package zstandard: {EXTRA}") from None
-    stream = zstandard.ZstdDecompressor().decompressobj()  # which needs no size in the frame's header
+    stream = zstandard.ZstdDecompressor().decompressobj()  # needs no size in the frame's header
     try:
         content: bytes = stream.decompress(data)
     except zstandard.ZstdError:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which of a recording's topics are color, depth and the right camera's, where nobody says it."""
+"""Guesses which topics of a recording are color, depth and the right camera, unless the user names them."""
 
 import re
 from collections.abc import Collection, Mapping
@@ -18,7 +18,7 @@ _PAIRS = (
     ("image_0", "image_1"),
     ("image_02", "image_03"),
 )
-"""What names of the left and the right camera differ in."""
+"""By what the names of left and right topics differ."""
 _NO_PICTURE = r"mask|segment|label|confiden|disparit|debug|annotat|heat"
 _INFRARED = r"infra|thermal|(^|[/_])ir([/_]|$)|fisheye"
 _REGISTERED = r"aligned|registered|depth_to_(color|rgb)"
@@ -27,7 +27,7 @@ _REGISTERED = r"aligned|registered|depth_to_(color|rgb)"
 def guess_topics(first: Mapping[str, ImageMessage]) -> dict[str, str]:
     """Topics by channel, from the first image of each topic: color and depth, else a stereo pair, else one.
 
-    Empty where there are no images.
+    Empty if there are no images.
     """
     depths = [name for name, image in first.items() if is_depth_topic(name, image)]
     colors = [name for name in first if name not in depths]
@@ -40,12 +40,12 @@ def guess_topics(first: Mapping[str, ImageMessage]) -> dict[str, str]:
 
 
 def is_depth_topic(name: str, image: ImageMessage) -> bool:
-    """Whether it is depth, not the 16 bits of an infrared camera."""
+    """Whether it is depth, not 16-bit infrared."""
     return is_depth(image) and (holds_floats(image) or not re.search(_INFRARED, name, re.IGNORECASE))
 
 
 def stem(name: str) -> str:
-    """The topic's name without what image_transport appends."""
+    """The topic's name without image_transport's suffix."""
     return re.sub(r"/(compressed|compressedDepth|theora|image/data)$", "", name)
 
 
@@ -54,7 +54,9 @@ def _has(pattern: str, name: str) -> bool:
 
 
 def _color_rank(name: str) -> tuple[object, ...]:
-    """Sorts the likeliest first: color before infrared, left before right, rectified before others."""
+    """A sort key that puts the likeliest first: color before infrared, left before right, rectified before
+    raw.
+    """
     right = any(_has(rf"(^|[/_]){second}([/_]|$)", name) for _, second in _PAIRS)
     return (
         _has(_NO_PICTURE, name),
@@ -73,6 +75,6 @@ def _depth_rank(name: str, color: str) -> tuple[object, ...]:
 
 
 def _partner(left: str, names: Collection[str]) -> str | None:
-    """The right camera's topic to the left one's."""
+    """The right camera's topic for the left camera's."""
     swapped = (left.replace(first, second) for first, second in _PAIRS if first in left)
     return next((name for name in swapped if name in names), None)
