@@ -2,8 +2,9 @@
 """Rendered scenes with exact truth.
 
 The face scenes, the stress scenes and the rooms use photographs of scikit-image (``pip install
-tricue[demo]``). The others need only NumPy and OpenCV: people before a depth camera, a head before a stereo
-pair, walkers before a panning stereo pair, and hands and a jumping person before one camera.
+tricue[demo]``). The others need only NumPy and OpenCV: people in front of a depth camera, a head in front of
+a stereo pair, walkers in front of a panning stereo pair, and hands and a jumping person in front of one
+camera.
 """
 
 from tricue.former_names import attributes

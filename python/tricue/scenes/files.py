@@ -25,10 +25,10 @@ def write_sequence(scene: StressScene | RoomScene, folder: str | Path) -> None:
 
     A stereo pair goes to left/ and right/. Other scenes become a sequence in VOT's layout with color/, depth/
     in millimeters, or both; their boxes are clipped to the image. The camera goes to intrinsics.toml, that of
-    a stereo pair with its baseline. The truth goes to boxes.csv, with empty cells if nothing of the target is
-    visible, which readers take as absent. Of the times only the frame rate is kept, and for a stereo pair
-    not even that.
-    FileExistsError if the folder has files already.
+    a stereo pair with its baseline. The truth goes to boxes.csv, with empty cells, which readers take as
+    absent, if no part of the target is visible. Timestamps aren't written, only the frame rate, and for a
+    stereo pair not even that.
+    FileExistsError if the folder isn't empty.
     """
     folder = Path(folder)
     if folder.exists() and any(folder.iterdir()):
@@ -70,7 +70,7 @@ def _table(scene: StressScene | RoomScene, clipped: bool) -> str:
     for index, row in enumerate(scene.boxes):
         box = Box(*row.tolist())
         written = box.clip(*size) if clipped else box
-        # A sliver at the edge, which no tracker could follow, has no box either.
+        # A sliver at the image's edge, which no tracker could follow, gets no box either.
         seen = scene.visible[index] > 0 and min(written.width, written.height) >= MIN_WRITTEN_SIDE
         cells = [f"{value:.4f}" for value in written] if seen else [""] * 4
         place = scene.positions[index]

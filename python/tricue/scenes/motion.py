@@ -24,7 +24,7 @@ def sample_path(frames: int, reach: tuple[float, float], max_speed: float, rng: 
 
 
 _SHARES = np.array([0.75, 0.25])
-_TURNS = np.array([[1.0, 3.0], [2.0, 3.0]])  # periods of each sine on each axis, in one round of the curve
+_TURNS = np.array([[1.0, 3.0], [2.0, 3.0]])  # periods of each axis' two sines in one round of the curve
 
 
 def _sines(angle: Array, phases: Array, size: Array) -> Array:
@@ -38,7 +38,7 @@ def sample_gain_steps(frames: int, low: float, high: float, rng: np.random.Gener
     gains = np.ones(frames)
     start = int(rng.integers(10, 21))
     while start < frames:
-        # Adding a quarter to three quarters, modulo 1, keeps away from the last share on both sides.
+        # Adding a quarter to three quarters, modulo 1, keeps the distance from the last share.
         share = (gains[start - 1] - low) / (high - low) + rng.uniform(0.25, 0.75)
         gains[start:] = low + (share % 1.0) * (high - low)
         start += int(rng.integers(10, 21))

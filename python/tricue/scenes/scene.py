@@ -24,7 +24,7 @@ class Scene:
     changes: tuple[int, ...] = ()
     """The frames in which the light or the brightness of the target changes abruptly."""
     visible: tuple[float, ...] = ()
-    """The share of the target that nothing hides, in each frame; empty where nothing ever does."""
+    """The visible share of the target in each frame; empty if nothing ever hides it."""
 
 
 class Bystander(NamedTuple):
@@ -91,18 +91,18 @@ class Events(NamedTuple):
     """The frames in which the events of an overtaking happen; None for an event after the last frame."""
 
     hiding: int | None
-    """The first in which less than 60 % of the target is visible."""
+    """The first frame in which less than 60 % of the target is visible."""
     hidden: int | None
-    """The first with less than 10 %."""
+    """The first frame with less than 10 %."""
     back: int | None
-    """The first with more than 20 % after that."""
+    """The first frame with more than 20 % after that."""
     passing: int | None
-    """The one in which the target passes the standing person, both on one line of sight."""
+    """The frame in which the target passes the standing person, both on one line of sight."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class WalkScene:
-    """A rendered sequence of walkers before a panning stereo pair or RGB-D camera, and its exact truth.
+    """A rendered sequence of walkers in front of a panning stereo pair or RGB-D camera, and its exact truth.
 
     The same arguments give the same bits. The truth is that of the geometry at the pixels' centers, before
     noise, in the image and frame of the left (or color) camera.
@@ -133,4 +133,4 @@ class WalkScene:
     """The stereo rig; in scenes with depth instead of a right image its right camera takes no image."""
     events: Events
     vergence: float = 0.0
-    """Degrees by which the right camera is turned inwards; ``rig`` has a parallel pair's numbers."""
+    """Degrees by which the right camera is turned inward; ``rig`` has the numbers of a parallel pair."""

@@ -27,10 +27,10 @@ def face_over_clutter(
     """A face of 50x63 pixels moves over clutter, 320x240, and its brightness changes several times.
 
     background: one of BACKGROUNDS. max_speed: pixels per frame. brightness: the range of the gain that
-    multiplies the face's levels; it begins with 1. noise: standard deviation in levels of 255.
+    multiplies the face's levels; it starts at 1. noise: standard deviation in levels of 255.
 
     The seed decides the window of the background, the path, the times and sizes of the brightness steps, and
-    the noise. ValueError for a background or a range that isn't one.
+    the noise. ValueError for an unknown background or an invalid range.
     """
     if not 0 <= brightness[0] < brightness[1] < np.inf:
         raise ValueError(f"brightness: expected a low and a higher gain, got {brightness}")

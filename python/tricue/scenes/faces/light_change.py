@@ -16,7 +16,7 @@ from tricue.scenes.rendering.paste import ellipse_mask, expose, paste
 from tricue.scenes.scene import Scene
 from tricue.scenes.seeds import make_generator
 
-PHOTOGRAPH_SCALE = 0.625  # from the photograph's upper 512x384 to 320x240
+PHOTOGRAPH_SCALE = 0.625  # from the upper 512x384 of the photograph to 320x240
 MAX_HEAD_OFFSET = (40.0, 10.0)  # pixels from the center, horizontally and vertically
 
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Scenes of a head before a stereo pair."""
+"""Scenes of a head in front of a stereo pair."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A person before a stereo pair: head with face and hair, dressed body, and a hand that may hide the head."""
+"""A person in front of a stereo pair: head, face, hair, dressed body, and a hand that may hide the head."""
 
 from typing import NamedTuple
 
@@ -16,7 +16,7 @@ from tricue.scenes.rendering.textures import Looks
 # Meters, along x, y, z, of head and hair of a person 1.75 m tall. A bare head is about 15 by 22 by 19 cm.
 HEAD_SEMI_AXES = np.array([0.084, 0.108, 0.095])
 TROUSERS_INDEX, SHIRT_INDEX, SKIN_INDEX = range(3)
-# The texture of each ellipsoid of tricue.scenes.people.body, in its order; the head, at 5, has its own.
+# The texture of each ellipsoid, in the order of tricue.scenes.people.body; the head, at 5, has its own.
 BODY_PART_TEXTURES = [
     TROUSERS_INDEX,
     *[SHIRT_INDEX] * 3,
@@ -111,7 +111,7 @@ def _dress(
 ) -> list[TexturedEllipsoid]:
     """The textured ellipsoids of a body without its head, placed so that the head is at ``head_center``."""
     values, vectors = np.linalg.eigh(bodies.shapes)
-    # The symmetric square root keeps each texture in its place on the body.
+    # The symmetric square root keeps each texture in place on the body.
     units = vectors @ (vectors.transpose(0, 2, 1) / np.sqrt(values)[:, :, None]) @ rotation.T
     centers = (bodies.centers - bodies.centers[HEAD_PART]) @ rotation.T + head_center
     return [
@@ -124,7 +124,7 @@ def _dress(
 def _place_hand(
     hand: HandMotion, index: int, head_center: Array, skin: list[Picture]
 ) -> list[TexturedEllipsoid]:
-    """Palm, thumb and forearm, off the line of sight to the head by the hand's offset along the forearm."""
+    """Palm, thumb and forearm, at the hand's offset along the forearm from the line of sight to the head."""
     forearm = np.array([np.sin(hand.tilt), np.cos(hand.tilt), 0.0])
     beside = np.array([forearm[1], -forearm[0], 0.0])
     rotation = np.stack([beside, forearm, [0, 0, 1.0]])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A head before a stereo pair, as in Moreno, Tarrida, Andrade-Cetto and Sanfeliu (2002), section 5."""
+"""A head in front of a stereo pair, as in Moreno, Tarrida, Andrade-Cetto and Sanfeliu (2002), section 5."""
 
 from typing import NamedTuple
 
@@ -30,8 +30,8 @@ from tricue.scenes.seeds import make_generator
 
 HEAD_KINDS = ("normal", "distractor", "turning", "jump", "ramp", "hidden")
 MIN_HEAD_DISTANCE, MAX_HEAD_DISTANCE = 0.9, 4.05  # meters, of the head's center
-HIDDEN_HEAD_DISTANCES = 1.0, 2.1  # the same in scenes with a hand in front
-RADIUS = 0.13  # meters, round a head's center
+HIDDEN_HEAD_DISTANCES = 1.0, 2.1  # the same, in scenes with a hand in front
+RADIUS = 0.13  # meters, around a head's center
 
 
 def head(
@@ -43,13 +43,13 @@ def head(
     light: float = 0.3,
     noise: float = 2.0,
 ) -> StereoScene:
-    """A person walks before a stereo pair, 0.8 to 4 m away, in a cluttered room; 30 frames per second.
+    """A person walks in front of a stereo pair, 0.8 to 4 m away, in a cluttered room; 30 frames per second.
 
     camera: "160x120" or "640x480" pixels. kind: one of HEAD_KINDS;
         "normal": the face stays visible, the light varies smoothly;
-        "distractor": as "normal", and the head passes in front of things that have the color of its skin;
-        "turning": as "normal", and the person turns around, so that only hair is visible for a while;
-        "jump": the light changes abruptly every 10 to 20 frames;
+        "distractor": as "normal", and the head passes in front of skin-colored things; "turning": as
+        "normal", and the person turns around, so that only hair is visible for a while; "jump": the light
+        changes abruptly every 10 to 20 frames;
         "ramp": the light falls linearly from 1 to 0.5 within 100 frames;
         "hidden": as "normal", and a hand in front of the head, which is then at 1 to 2.1 m, hides it
         completely from the left camera for 10 frames or more (in scenes of about 40 frames or longer).
@@ -82,13 +82,13 @@ def static_head(
     light: float = 0.0,
     noise: float = 2.0,
 ) -> StereoScene:
-    """As :func:`head`, with a person who stands still and looks at the cameras.
+    """As :func:`head`, but the person stands still and looks at the cameras.
 
     distance: of the head's center along the camera's axis, 0.5 to 10 m. aside: how far the head is to the
-    right of and below the midpoint of the cameras, as shares of half the view. ValueError if a camera
-    wouldn't see all of it.
-    light: the largest difference of the light's gain from 1; its color then varies by 4 %. At 0 neither
-    changes.
+    right of and below the cameras' midpoint, as shares of half the view. ValueError if a camera wouldn't see
+    the whole head.
+    light: the largest difference of the light's gain from 1; the light's color then varies by 4 %. At 0
+    neither changes.
     """
     _check(frames, camera, "normal", light, noise)
     if not 0.5 <= finite(distance, "distance", "meters") <= 10:
@@ -107,7 +107,7 @@ def static_head(
 
 
 class _Film(NamedTuple):
-    """What a person does before a stereo pair, and in which light."""
+    """What a person does in front of a stereo pair, and the light."""
 
     name: str
     rig: StereoRig
@@ -125,7 +125,7 @@ class _Film(NamedTuple):
         tinted: bool = True,
         changes: tuple[int, ...] = (),
     ) -> StereoScene:
-        """A random person and room, recorded. tinted: whether the light's color changes."""
+        """Record a random person in a random room. tinted: whether the light's color changes."""
         person = Actor.sample(self.moves, hand, rng)
         skin = person.looks.skin if distractors else None
         room = furnish_room(self.rig, self.moves.center, person.floor, skin, rng)
@@ -149,7 +149,7 @@ class _VisibleHead(NamedTuple):
     """The head as one camera sees it."""
 
     part: DrawnEllipsoid
-    visible: float  # share of its pixels that no hand hides, of those that the neck doesn't hide
+    visible: float  # share of the pixels not behind the neck that no hand hides
 
 
 class _FrameTruth(NamedTuple):

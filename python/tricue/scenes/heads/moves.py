@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Motion of a head before a stereo pair, changes of the light, and a hand that hides the head."""
+"""Motion of a head in front of a stereo pair, changes of the light, and a hand that hides the head."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -14,8 +14,8 @@ HEAD_FRAME_RATE = 30.0  # frames per second
 WALKING_SPEEDS = 0.7, 1.4  # meters per second, on the straight parts of a path
 STEP_LENGTH = 0.7  # meters per step
 RAMP_FRAMES, RAMP_END_GAIN = 100, 0.5  # duration of the ramp, and the gain at its end
-HAND_SLIDE_FRAMES = 6  # that a hand takes to come, and to leave
-HAND_START_DISTANCE = 0.6  # meters along the forearm; there it is outside the image
+HAND_SLIDE_FRAMES = 6  # for the hand to come, and again to leave
+HAND_START_DISTANCE = 0.6  # meters along the forearm, where the hand is outside the image
 
 
 class HeadRange(NamedTuple):
@@ -29,7 +29,7 @@ class HeadRange(NamedTuple):
 
 
 class HeadMotion(NamedTuple):
-    """A head's motion over M frames. Angles in radians; at 0 the face looks along -z, at the cameras."""
+    """A head's motion over M frames. Angles are in radians; at 0 the face looks along -z, at the cameras."""
 
     center: Array  # (M, 3) of the head, meters, left camera's frame
     yaw: Array  # (M,)
@@ -67,7 +67,7 @@ def sample_walk(frames: int, room: HeadRange, turning: bool, rng: np.random.Gene
 
 
 def stand(frames: int, center: Array) -> HeadMotion:
-    """A head at rest at ``center`` (3,), meters, that looks along -z."""
+    """A head at rest at ``center`` (3,), meters, looking along -z."""
     still = np.zeros(frames)
     return HeadMotion(np.tile(center, (frames, 1)), *[still] * 6)
 
@@ -81,7 +81,7 @@ def sample_smooth_light(frames: int, amplitude: float, rng: np.random.Generator)
 
 
 def sample_jumping_light(frames: int, amplitude: float, rng: np.random.Generator) -> Array:
-    """A gain (M,) within 1 +- amplitude that jumps every 10 to 20 frames; 1 at first."""
+    """A gain (M,) within 1 +- amplitude that starts at 1 and jumps every 10 to 20 frames."""
     return (
         motion.sample_gain_steps(frames, 1 - amplitude, 1 + amplitude, rng) if amplitude else np.ones(frames)
     )
@@ -100,7 +100,7 @@ def sample_tint(frames: int, rng: np.random.Generator) -> Array:
 
 
 def sample_hand(frames: int, rng: np.random.Generator) -> HandMotion:
-    """A hand that comes about halfway, covers the head for 10 to 16 frames, and leaves."""
+    """A hand that comes about halfway through the scene, covers the head for 10 to 16 frames, and leaves."""
     held = int(rng.integers(10, 17))
     start = max(round(frames * rng.uniform(0.32, 0.45)), 1)
     early, late = start - np.arange(frames), np.arange(frames) - (start + held - 1)
@@ -146,7 +146,7 @@ def _pace(curve: Callable[[Array], Array], time: Array, speed: float) -> Array:
 
 
 def _turns(time: Array, rng: np.random.Generator) -> Array:
-    """The yaw (M,) of a person who repeatedly turns away, pauses, and turns on or back to the cameras."""
+    """The yaw (M,) of a person who repeatedly turns away, pauses, and turns on or back toward the cameras."""
     moments, angles, sense = [0.0], [0.0], rng.choice([-1, 1])
     while moments[-1] <= time[-1]:
         pause, away, back, home = rng.uniform([0.3, 0.7, 0.3, 0.7], [0.6, 1.1, 0.7, 1.1]).tolist()

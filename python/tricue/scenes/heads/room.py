@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A room behind a person before a stereo pair: wall, floor, and textured things at all depths."""
+"""A room behind a person in front of a stereo pair: wall, floor, and textured things at all depths."""
 
 from typing import NamedTuple
 
@@ -18,7 +18,7 @@ from tricue.scenes.rendering.stereo_camera import (
     TexturedRectangle,
 )
 
-MIN_GAP_BEHIND_HEAD = 0.35  # meters, where both are on one line of sight
+MIN_GAP_BEHIND_HEAD = 0.35  # meters between a thing and the head on one line of sight
 HEAD_RADIUS = 0.16  # meters, of the space around the head's center that stays free
 MAX_RECTANGLES, MAX_RECTANGLE_TRIES = 12, 60
 
@@ -35,7 +35,7 @@ def furnish_room(
 ) -> StereoRoom:
     """A random room for a head that moves along ``path`` (M, 3), meters, always in front of all things.
 
-    floor: its height y, meters. skin: a color (3,), BGR, for some things on lines of sight to the path; None
+    floor: its height y, meters. skin: a BGR color (3,) for some things on lines of sight to the path; None
     for no such things.
     """
     wall = float(path[:, 2].max()) + rng.uniform(1.0, 2.5)
@@ -71,7 +71,7 @@ def render_room(camera: RayCamera, room: StereoRoom, lamp: Lamp) -> RayImage:
 
 
 def is_clear(center: Array, radius: float, path: Array) -> bool:
-    """Whether the head stays in front of a thing, with a margin, wherever both share a line of sight.
+    """Whether the head stays in front of a thing, with a margin, wherever they share a line of sight.
 
     center, radius: the thing's, meters. path: (M, 3) of the head.
     """
@@ -83,7 +83,7 @@ def is_clear(center: Array, radius: float, path: Array) -> bool:
 def _place_skin_colored_things(
     path: Array, wall: float, skin: NDArray[np.float64], rng: np.random.Generator
 ) -> StereoRoom:
-    """Skin-colored things behind the path: a large rectangle, and ellipsoids of a head's size."""
+    """Skin-colored things behind the path: a large rectangle, and head-sized ellipsoids."""
     room = StereoRoom([], [])
     for index in range(4):
         on_path = path[rng.integers(len(path))]

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Scenes of people before one color camera, rendered by NumPy alone: a hand, a hidden face, a jump."""
+"""Scenes of people in front of one color camera, rendered by NumPy alone: a hand, a hidden face, a jump."""

@@ -27,12 +27,12 @@ Image = NDArray[np.uint8]
 
 FRAME_RATE = 30.0  # frames per second
 SHUTTER = 0.4  # of the time between two frames
-SLIDE_FRAMES = 9  # that the hand takes to come, and to leave
-AWAY = np.array([0.06, 0.36])  # meters aside and down from the face, where the hand is out of the image
+SLIDE_FRAMES = 9  # for the hand to come, and again to leave
+AWAY = np.array([0.06, 0.36])  # meters sideways and down from the face, where the hand is out of the image
 
 
 class _Still(NamedTuple):
-    """The person, the hand and the room, without their motion."""
+    """The person, the hand and the room, without motion."""
 
     paints: Paints
     lamp: Lamp
@@ -41,12 +41,12 @@ class _Still(NamedTuple):
 
 
 class _Moves(NamedTuple):
-    """M frames: where head and hand are, and how they are held."""
+    """The positions and poses of head and hand in M frames."""
 
     heads: Array  # (M, 3) meters
-    turns: Array  # (M, 3) of the head: yaw, pitch, roll, radians
-    hands: Array  # (M, 3) meters, of the palms' middles
-    tilts: Array  # (M, 3) of the hand: yaw, pitch, roll, radians
+    turns: Array  # (M, 3) the head's yaw, pitch, roll, radians
+    hands: Array  # (M, 3) meters, the centers of the palms
+    tilts: Array  # (M, 3) the hand's yaw, pitch, roll, radians
     spreads: Array  # (M,)
     bends: Array  # (M, 5) radians
 
@@ -54,8 +54,9 @@ class _Moves(NamedTuple):
 def hand(seed: int = 0, frames: int = 90, *, noise: float = 2.0) -> Scene:
     """A hand moves, turns, spreads and closes its fingers in front of a person in a cluttered room, 320x240.
 
-    The target is the hand without the wrist, some 60 to 110 px long. It passes before the person's face, and
-    before wood, clay and a curtain of nearly its color. 30 frames per second, with motion blur.
+    The target is the hand without the wrist, about 60 to 110 px long. It passes in front of the person's
+    face, and in front of wood, clay and a curtain of nearly its color. 30 frames per second, with motion
+    blur.
 
     frames: a count. noise: standard deviation in levels of 255. The seed decides the person, the room, the
     light, the motion and the noise. ValueError or TypeError names the argument that is wrong.
@@ -71,9 +72,9 @@ def hand(seed: int = 0, frames: int = 90, *, noise: float = 2.0) -> Scene:
 
 
 def hidden_face(seed: int = 0, frames: int = 90, *, noise: float = 2.0) -> Scene:
-    """A person's hand comes before the face, hides it, and leaves, twice; a cluttered room, 320x240.
+    """A person's hand moves in front of the face, hides it, and leaves, twice; a cluttered room, 320x240.
 
-    The target is the head, some 50 by 65 px. First the hand covers it, the fingers closed, for 8 to 12
+    The target is the head, about 50 by 65 px. First the hand covers it with closed fingers for 8 to 12
     frames; later it wipes across with spread fingers. 30 frames per second, with motion blur.
 
     frames, noise, the seed and errors are as in :func:`hand`.
@@ -92,7 +93,7 @@ def hidden_face(seed: int = 0, frames: int = 90, *, noise: float = 2.0) -> Scene
 def skin_picture(seed: int = 0, *, noise: float = 2.0) -> tuple[Image, Mask]:
     """A picture of a person with a raised hand in a cluttered room, 320x240, and the mask of its skin.
 
-    noise, the seed and errors are as in :func:`hand`. Hair, brows, pupils and clothes are no skin.
+    noise, the seed and errors are as in :func:`hand`. Hair, brows, pupils and clothes don't count as skin.
     """
     rng, still = _start(seed, 1, noise)
     person, palm, *_ = _layers(still, _sample_gestures(1, rng), 0)
@@ -116,7 +117,7 @@ def _scene(name: str, images: list[Image], boxes: list[Box], visible: tuple[floa
 
 
 def _layers(still: _Still, moves: _Moves, index: int) -> tuple[Layer, Layer, Mask, Mask]:
-    """The person and the hand in a frame, and the pixels of head and hand as if nothing hid them."""
+    """The person and the hand in a frame, and the pixels of head and hand if nothing hid them."""
     head, rotation = moves.heads[index], turned(*moves.turns[index])
     shoulders = head * [0.6, 0.5, 1.0] + SHOULDERS * still.size
     cones, head_parts = build_person(BodyPose(head, rotation, shoulders, (0.05, 0.1)), still.size)
@@ -152,7 +153,7 @@ def _box(mask: Mask) -> Box:
 
 
 def _sample_head(frames: int, rng: np.random.Generator) -> tuple[Array, Array]:
-    """A head that sways and looks around a meter away: places (M, 3) and angles (M, 3)."""
+    """The positions (M, 3) and angles (M, 3) of a head that sways and looks around, a meter away."""
     time = np.arange(frames) / FRAME_RATE
     middle = rng.uniform([-0.06, -0.08, 1.02], [0.06, -0.03, 1.12])
     sway = np.stack([sample_sway(time, 1.2, 3.0, rng) for _ in range(6)], axis=1)
@@ -172,7 +173,7 @@ def _sample_gestures(frames: int, rng: np.random.Generator) -> _Moves:
 
 
 def _sample_bends(time: Array, most: float, rng: np.random.Generator) -> Array:
-    """(M, 5) bends of the fingers, which mostly go together, up to ``most`` radians a joint."""
+    """The bends (M, 5) of the fingers, which mostly move together, up to ``most`` radians per joint."""
     shared = sample_sway(time, 0.8, 2.0, rng)
     own = np.stack([sample_sway(time, 0.6, 1.5, rng) for _ in range(5)], axis=1)
     return np.asarray(most * np.clip(0.4 + 0.4 * shared[:, None] + 0.25 * own, 0.05, 1.05))
@@ -187,7 +188,7 @@ def _sample_wiping(frames: int, rng: np.random.Generator) -> _Moves:
     covering = _away(index, start, start + held)
     wiping = _away(index, again, again + 4)
     side = float(rng.choice([-1.0, 1.0]))
-    ratio = rng.uniform(0.55, 0.58)  # of the face's distance
+    ratio = rng.uniform(0.55, 0.58)  # of the distance to the face
     aside = AWAY * [side, 1.0]
     offset = np.where(covering < wiping, covering, wiping)[:, None] * aside
     cross = np.clip((index - again) / 6, -1, 1) * (wiping < 1) * 0.05 * side
@@ -199,6 +200,6 @@ def _sample_wiping(frames: int, rng: np.random.Generator) -> _Moves:
 
 
 def _away(index: Integers, first: int, stop: int) -> Array:
-    """(M,) how far the hand is, 0 from ``first`` to ``stop`` and 1 long before and after."""
+    """How far away (M,) the hand is: 0 from ``first`` to ``stop``, 1 long before and after."""
     share = np.clip(np.maximum(first - index, index - stop) / SLIDE_FRAMES, 0, 1)
     return np.asarray(share**2 * (3 - 2 * share))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""A right hand with forearm, its fingers spread, closed and bent.
+"""A right hand with its forearm; the fingers can spread, close and bend.
 
-Hand frame: the origin in the middle of the palm, y towards the wrist, z into the palm's side, so that the
-back looks along -z; the thumb at -x. Lengths are our own estimates of a hand 19 cm long.
+Hand frame: the origin in the center of the palm, y toward the wrist, z out of the palm, so that the back of
+the hand faces -z; the thumb is at -x. Lengths are our own estimates of a hand 19 cm long.
 """
 
 from typing import NamedTuple
@@ -22,19 +22,19 @@ LENGTHS = np.array(
     [[0.043, 0.026, 0.020], [0.047, 0.030, 0.021], [0.043, 0.028, 0.021], [0.034, 0.021, 0.018]]
 )
 RADII = np.array([0.0098, 0.0100, 0.0094, 0.0083])  # of the fingers at the knuckles
-FANNING = np.array([-0.10, -0.02, 0.06, 0.16])  # radians, of the closed fingers from the palm's axis
-SPREADING = np.array([-0.24, -0.06, 0.14, 0.34])  # radians, of fully spread ones, added to that
+FANNING = np.array([-0.10, -0.02, 0.06, 0.16])  # radians, the closed fingers' angles to the palm's axis
+SPREADING = np.array([-0.24, -0.06, 0.14, 0.34])  # radians, added to those when the fingers are fully spread
 
 
 class HandPose(NamedTuple):
     """How the fingers are held."""
 
     spread: float  # 0 closed, 1 spread
-    bend: Array  # (5,) radians, of each joint; the thumb first
+    bend: Array  # (5,) radians, the same at each joint of a finger; the thumb first
 
 
 def build_hand(pose: HandPose, size: float = 1.0) -> Cones:
-    """The hand in its own frame; palm and fingers first, at last wrist and forearm, FOREARM_PARTS of them."""
+    """The hand in its own frame: palm and fingers, then wrist and forearm, the last FOREARM_PARTS cones."""
     parts: list[tuple[Array, Array, float, float, int]] = []
     for knuckle, lengths, radius, fan, spread, bend in zip(
         KNUCKLES, LENGTHS, RADII, FANNING, SPREADING, pose.bend[1:], strict=True
@@ -69,7 +69,7 @@ FOREARM_PARTS = 3
 def _finger(
     knuckle: Array, fan: float, bend: float, lengths: Array, radius: float
 ) -> list[tuple[Array, Array, float, float, int]]:
-    """The bones of a finger, which bends towards the palm at each joint."""
+    """The bones of a finger, which bends toward the palm at each joint."""
     bones, start, angle = [], knuckle, 0.3 * bend
     for number, length in enumerate(lengths):
         angle += bend

@@ -20,11 +20,11 @@ from tricue.scenes.rendering.zbuffer import box_of_mask
 from tricue.scenes.scene import Scene
 from tricue.scenes.seeds import make_generator
 
-FRAME_RATE = 15.0  # frames per second, as of a web camera indoors
+FRAME_RATE = 15.0  # frames per second, like a webcam indoors
 SHUTTER = 0.5  # of the time between two frames
 GRAVITY = 9.81  # m/s²
 DISTANCES = 1.65, 1.95  # meters
-MAX_ASIDE = 0.5  # meters of the head from the middle
+MAX_ASIDE = 0.5  # meters from the middle to the head
 
 
 class _Moves(NamedTuple):
@@ -38,8 +38,8 @@ class _Moves(NamedTuple):
 def jump(seed: int = 0, frames: int = 90, *, noise: float = 2.0) -> Scene:
     """A person jumps up and down in a cluttered room, 320x240 at 15 frames per second.
 
-    The target is the head, some 30 by 45 px. In each jump it goes down, up and down again by up to 35 px a
-    frame, turns, rolls and changes its distance, and is blurred by its motion. Between jumps it stands.
+    The target is the head, about 30 by 45 px. In each jump it goes down, up and down again by up to 35 px per
+    frame, turns, rolls and changes its distance, with motion blur. Between jumps it rests.
 
     frames: a count. noise: standard deviation in levels of 255. The seed decides the person, the room, the
     light, the jumps and the noise. ValueError or TypeError names the argument that is wrong.
@@ -72,7 +72,7 @@ def jump(seed: int = 0, frames: int = 90, *, noise: float = 2.0) -> Scene:
 
 
 def _sample_jumps(frames: int, rng: np.random.Generator) -> _Moves:
-    """Crouch, leap, land in a crouch, stand for a moment, and again."""
+    """Crouch, leap, land in a crouch, stand for a moment, repeat."""
     fine = 8  # steps per frame
     time = np.arange(frames * fine) / (FRAME_RATE * fine)
     up, aside, arms, roll = (np.zeros(len(time)) for _ in range(4))

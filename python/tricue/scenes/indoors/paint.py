@@ -19,14 +19,14 @@ from tricue.scenes.indoors.surface import Integers, Surface
 from tricue.scenes.rendering import textures
 from tricue.scenes.rendering.textures import Looks
 
-HEAD_AXES = np.array([0.078, 0.108, 0.095], np.float32)  # meters, of the ellipsoid of the head's texture
+HEAD_AXES = np.array([0.078, 0.108, 0.095], np.float32)  # meters, of the textured ellipsoid
 SKIN_PERIOD, CLOTH_PERIOD = 0.12, 0.5  # meters, of the textures along a limb
 SKIN_PAINTS = (SKIN_PAINT, FINGER_PAINT, FINGERTIP_PAINT)
 NAIL_HALF_ANGLE = 0.75  # radians
 
 
 class HeadFrame(NamedTuple):
-    """Where the head's texture is."""
+    """The pose of the head's texture."""
 
     middle: Array  # (3,) meters
     rotation: Array  # (3, 3)
@@ -44,11 +44,11 @@ class Paints(NamedTuple):
 
     @classmethod
     def sample(cls, looks: Looks, rng: np.random.Generator) -> "Paints":
-        """Random textures for somebody's looks."""
+        """Random textures for a person of these looks."""
         kinds = (str(rng.choice(textures.SURFACE_KINDS[:4])), textures.PLAIN_SURFACE)
         cloths = [textures.make_surface(kind, (128, 256), textures.random_color(rng), rng) for kind in kinds]
         skin = textures.make_skin((128, 128), looks.skin, rng)
-        # The same head in black and white tells where the hair is.
+        # The same head in black and white shows where the hair is.
         marks = looks._replace(skin=np.full(3, 200.0), hair=np.zeros(3))
         marked = textures.make_head(marks, deepcopy(rng)).max(axis=2, keepdims=True) > 100
         head = np.concatenate([textures.make_head(looks, rng), marked.astype(np.float32)], axis=2)
@@ -57,7 +57,7 @@ class Paints(NamedTuple):
     def colors(
         self, points: Picture, surface: Surface, materials: Integers, lengths: Array, head: HeadFrame | None
     ) -> tuple[Picture, Picture]:
-        """(m, 3) of points on a surface, and (m,) the share of skin. materials, lengths: of each cone."""
+        """The colors (m, 3) of points on a surface, and the share of skin (m,). materials, lengths: per cone."""
         paints = materials[surface.parts]
         along = surface.shares * lengths[surface.parts].astype(np.float32)
         turn = surface.angles / np.float32(2 * np.pi) + np.float32(0.5)
@@ -86,7 +86,7 @@ class Paints(NamedTuple):
 
 
 def sample_periodic(texture: Picture, v: Picture, u: Picture) -> Picture:
-    """(m, channels) colors of a periodic texture at v, u (m,), in its heights and widths, bilinearly."""
+    """The colors (m, channels) of a periodic texture at v, u (m,), in its heights and widths, bilinearly."""
     height, width = texture.shape[:2]
     rows, columns = v * np.float32(height) - np.float32(0.5), u * np.float32(width) - np.float32(0.5)
     top, left = np.floor(rows), np.floor(columns)
@@ -99,13 +99,13 @@ def sample_periodic(texture: Picture, v: Picture, u: Picture) -> Picture:
 
 
 def _creases(colors: Picture, shares: Picture, angles: Picture) -> Picture:
-    """Darker, redder skin at both joints of a bone."""
+    """Make the skin darker and redder at both joints of a bone."""
     fold = np.exp(-(((np.minimum(shares, 1 - shares)) / 0.09) ** 2))[:, None]
     return np.asarray(colors * (1 - fold * np.array([0.20, 0.17, 0.07], np.float32)), np.float32)
 
 
 def _nails(colors: Picture, shares: Picture, angles: Picture) -> Picture:
-    """Reddish fingertips, and a nail on the back."""
+    """Paint reddish fingertips, with a nail on the back."""
     red = (0.25 * shares)[:, None] * np.array([0.35, 0.30, 0.0], np.float32)
     colors = colors * (1 - red)
     across, along = angles / np.float32(NAIL_HALF_ANGLE), (shares - np.float32(0.78)) / np.float32(0.42)

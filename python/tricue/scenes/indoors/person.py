@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Head, neck, trunk and arms of a person before the camera.
+"""Head, neck, trunk and arms of a person in front of the camera.
 
-Head frame: the origin in the middle of the head, x to the person's left, y down, z out of the face. Lengths
+Head frame: the origin in the center of the head, x to the person's left, y down, z out of the face. Lengths
 are our own estimates of an adult.
 """
 
@@ -16,9 +16,9 @@ from tricue.scenes.indoors.hand import HEAD_PAINT, SHIRT_PAINT, SKIN_PAINT, TROU
 from tricue.scenes.indoors.surface import Cones
 
 BLEND = 0.007  # meters
-SHOULDERS = np.array([0.0, 0.222, 0.035])  # meters from the head of who looks at the camera to their middle
+SHOULDERS = np.array([0.0, 0.222, 0.035])  # meters from a head that faces the camera
 
-_Part = tuple[ArrayLike, ArrayLike, float, float]  # start and end, meters; radius at both
+_Part = tuple[ArrayLike, ArrayLike, float, float]  # start, end, and the radius at each; meters
 
 _HEAD: list[_Part] = [  # start, end, radii
     ((0, -0.026, -0.034), (0, -0.030, 0.006), 0.072, 0.069),
@@ -57,16 +57,16 @@ def turned(yaw: float, pitch: float = 0.0, roll: float = 0.0) -> Array:
 
 
 class BodyPose(NamedTuple):
-    """How a person stands in a frame."""
+    """A person's pose in a frame."""
 
-    head: Array  # (3,) its middle, meters
+    head: Array  # (3,) its center, meters
     rotation: Array  # (3, 3) from the head frame
     shoulders: Array  # (3,) their middle, meters
-    arms: tuple[float, float]  # radians, of both arms from hanging, in the image
+    arms: tuple[float, float]  # radians, by which each arm is raised, in the image plane
 
 
 def build_person(pose: BodyPose, size: float = 1.0) -> tuple[Cones, int]:
-    """The person, and how many of the first cones are the head."""
+    """The person's cones, and how many of the first ones are the head."""
     head = _cones(_HEAD, np.zeros(3), HEAD_PAINT, size).moved(pose.rotation, pose.head)
     nape = pose.head + pose.rotation @ (np.array([0, 0.05, -0.025]) * size)
     throat = pose.shoulders + np.array([0, -0.05, 0.005]) * size

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Layers: what a camera sees of one body, over others; and the blur of motion and lens."""
+"""Layers: what a camera sees of each body, composited; with the blur of motion and lens."""
 
 from typing import NamedTuple
 
@@ -11,20 +11,20 @@ from tricue.scenes.indoors.paint import HeadFrame, Paints
 from tricue.scenes.indoors.surface import Body, Integers, direct_light, open_sky, trace
 
 CAMERA = Intrinsics.from_fov(320, 240, 50.0)
-MIN_COVERAGE = 0.5  # of a pixel that counts as the body's
+MIN_COVERAGE = 0.5  # of a pixel, to count as the body's
 BLUR_STEP = 0.7  # pixels between the exposures that a motion blur averages
 
 
 class Lamp(NamedTuple):
-    """A lamp and the light that comes from everywhere; BGR gains of both."""
+    """A lamp and ambient light, each with BGR gains."""
 
-    direction: Array  # (3,) unit vector towards the lamp
+    direction: Array  # (3,) unit vector toward the lamp
     direct: Array  # (3,)
     ambient: Array  # (3,)
 
     @classmethod
     def sample(cls, rng: np.random.Generator) -> "Lamp":
-        """A lamp above and before the scene, warmer or colder than the rest."""
+        """A lamp above and in front of the scene, warmer or colder than the rest."""
         direction = rng.uniform([-0.8, -1.0, -1.0], [0.8, -0.5, -0.6])
         warmth = rng.uniform(-0.06, 0.10) * np.array([-1, 0, 1.0])
         ambient = rng.uniform(0.36, 0.48)
@@ -36,12 +36,12 @@ class Lamp(NamedTuple):
 
 
 class Layer(NamedTuple):
-    """A picture that covers part of others."""
+    """A picture that covers part of the ones behind."""
 
-    color: Picture  # (H, W, 3), times the coverage
+    color: Picture  # (H, W, 3), multiplied by the coverage
     coverage: Picture  # (H, W), 0 to 1
     parts: Integers  # (H, W): the cone at each pixel, -1 where the coverage is below one half
-    skin: Picture  # (H, W) the share of skin, of the whole pixel
+    skin: Picture  # (H, W) the share of each whole pixel that is skin
 
     def over(self, picture: Picture) -> Picture:
         """The picture (H, W, 3) with the layer in front."""
@@ -63,7 +63,7 @@ class Layer(NamedTuple):
 def render(
     body: Body, paints: Paints, lamp: Lamp, head: HeadFrame | None = None, shadow: Body | None = None
 ) -> Layer:
-    """A body as the camera sees it. shadow: another one that keeps the lamp from it."""
+    """Render a body as the camera sees it. shadow: another body that shades it from the lamp."""
     rows, columns = _window(body)
     y, x = np.mgrid[rows, columns]
     rays = np.stack(
@@ -104,7 +104,7 @@ def render(
 
 
 def _shade(normals: Picture, light: Picture, sky: Picture, lamp: Lamp) -> Picture:
-    """(m, 3) gains: Lambert's law, softened at the edge of the shadow as by skin and cloth."""
+    """The gains (m, 3) by Lambert's law; the edge of the shadow is softened, as on skin and cloth."""
     toward = normals @ lamp.direction.astype(np.float32)
     soft = np.clip((toward + 0.15) / 1.15, 0, 1) * light
     above = 0.78 - 0.22 * normals[:, 1]  # the ceiling is brighter than the floor
@@ -113,7 +113,7 @@ def _shade(normals: Picture, light: Picture, sky: Picture, lamp: Lamp) -> Pictur
 
 
 def _sheen(normals: Picture, rays: Picture, light: Picture, lamp: Lamp) -> Picture:
-    """(m, 1) levels of the lamp's reflection on smooth skin."""
+    """The levels (m, 1) of the lamp's reflection on smooth skin."""
     half = lamp.direction.astype(np.float32) - rays
     half /= np.linalg.norm(half, axis=1, keepdims=True)
     shine = np.clip((normals * half).sum(axis=1), 0, 1) ** 24
@@ -121,7 +121,7 @@ def _sheen(normals: Picture, rays: Picture, light: Picture, lamp: Lamp) -> Pictu
 
 
 def _window(body: Body) -> tuple[slice, slice]:
-    """The rows and columns in which a body can be: those of all its spheres, with a margin."""
+    """The rows and columns that a body can cover: those of all its spheres, with a margin."""
     cones = body.cones
     margin = 3 * cones.blend
     low, high = np.full(2, np.inf), np.full(2, -np.inf)
@@ -139,12 +139,12 @@ def _window(body: Body) -> tuple[slice, slice]:
 
 
 def mask_of(layer: Layer, first: int, stop: int) -> Mask:
-    """The pixels (H, W) of which at least half is covered, by the cones first to stop - 1."""
+    """The pixels (H, W) of which the cones first to stop - 1 cover at least half."""
     return np.asarray((layer.parts >= first) & (layer.parts < stop))
 
 
 def shift(picture: Picture, x: float, y: float) -> Picture:
-    """A picture (H, W, ...) moved by x and y pixels, bilinearly; zeros come in at the edge."""
+    """A picture (H, W, ...) moved by x and y pixels, bilinearly, padded with zeros."""
     for axis, step in ((1, x), (0, y)):
         whole = int(np.floor(step))
         share = np.float32(step - whole)
@@ -164,7 +164,7 @@ def _move(picture: Picture, step: int, axis: int) -> Picture:
 
 
 def blur(picture: Picture, deviation: float) -> Picture:
-    """A picture (H, W, ...) blurred by a Gaussian, its edge repeated."""
+    """A picture (H, W, ...) blurred by a Gaussian, with its edge replicated."""
     radius = int(np.ceil(3 * deviation))
     weights = np.exp(-0.5 * (np.arange(-radius, radius + 1) / deviation) ** 2)
     weights /= weights.sum()

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A cluttered room behind a person: wall, table, shelves with books, boxes and vases, lit with shadows.
 
-Some things have a color near that of the person's skin: wood, cardboard, clay, a curtain.
+Some things have nearly the color of the person's skin: wood, cardboard, clay, a curtain.
 """
 
 from typing import NamedTuple
@@ -17,7 +17,7 @@ from tricue.scenes.rendering import textures
 
 RAYS = 2  # per pixel, along each axis
 SHADOW_SAMPLES = 4
-LAMP_SIZE = 0.12  # deviation of the directions towards the lamp
+LAMP_SIZE = 0.12  # standard deviation of the unit vector toward the lamp
 TEXTURES = 12
 TEXTURE_METERS = 0.6
 DEFOCUS = 0.8  # pixels
@@ -25,13 +25,13 @@ MIN_RAY = 1e-4  # meters
 
 
 class Things(NamedTuple):
-    """Boxes and ellipsoids with their axes along the camera's."""
+    """Boxes and ellipsoids whose axes are parallel to the camera's."""
 
     low: Array  # (n, 3) meters
     high: Array  # (n, 3)
     colors: Array  # (n, 3) BGR
     textures: Integers  # (n,)
-    round: NDArray[np.bool_]  # (n,): an ellipsoid in that box
+    round: NDArray[np.bool_]  # (n,): whether it is the ellipsoid inscribed in the box
 
 
 class _List:
@@ -58,7 +58,7 @@ class _List:
 
 
 def render_room(skin: Array, lamp: Lamp, near: float, rng: np.random.Generator) -> Picture:
-    """The room (H, W, 3) behind a person of this skin (3,), who is up to ``near`` meters away."""
+    """The room (H, W, 3) behind a person with this skin color (3,), who is up to ``near`` meters away."""
     things = _furnish(skin, near, rng)
     pictures = [
         textures.make_surface(kind, (128, 128), np.full(3, 128.0), rng) / np.float32(128)
@@ -72,7 +72,7 @@ def render_room(skin: Array, lamp: Lamp, near: float, rng: np.random.Generator) 
     points, hit = (rays * depth[..., None]).reshape(-1, 3), hit.ravel()
     normals = _normals(things, points, hit)
     colors = things.colors[hit].astype(np.float32) * _texture(things, pictures, points, normals, hit)
-    # The shadows are soft, and need one ray per pixel.
+    # The shadows are soft, so one ray per pixel is enough.
     at = np.arange(len(points)).reshape(len(y), len(x))[::RAYS, ::RAYS]
     start = points[at.ravel()] + np.float32(2e-3) * normals[at.ravel()]
     open_lamp: Picture = np.zeros(at.shape, np.float32)
@@ -118,7 +118,7 @@ def _near_skin(skin: Array, rng: np.random.Generator) -> Array:
 
 
 def _add_curtain(room: _List, wall: float, wide: float, tall: float, skin: Array) -> None:
-    """A curtain in folds at one side, in a color near the skin's."""
+    """Add a pleated curtain at one side, in a color near the skin's."""
     rng = room.rng
     left = rng.choice([-1.0, 1.0]) * rng.uniform(0.75, 0.95) * wide - 0.18 * wide
     color = _near_skin(skin, rng) * rng.uniform(0.85, 1.05)
@@ -128,7 +128,7 @@ def _add_curtain(room: _List, wall: float, wide: float, tall: float, skin: Array
 
 
 def _add_shelf(room: _List, left: float, right: float, height: float, wall: float, skin: Array) -> None:
-    """A board with books and a few other things on it."""
+    """Add a board with books and a few other things on it."""
     rng = room.rng
     room.add([left, height, wall - 0.26], [right, height + 0.025, wall], np.array([80.0, 125, 170]), 6)
     x = left + 0.02
@@ -146,7 +146,7 @@ def _add_shelf(room: _List, left: float, right: float, height: float, wall: floa
 
 
 def _add_thing(room: _List, x: float, floor: float, z: float, skin: Array) -> None:
-    """A vase, a ball, a bottle or a box that stands on ``floor``; half of them near the skin's color."""
+    """Add a vase, a ball, a bottle or a box that stands on ``floor``; half of them are skin-colored."""
     rng = room.rng
     color = _near_skin(skin, rng) if rng.random() < 0.5 else textures.random_color(rng)
     kind = rng.integers(4)
@@ -164,7 +164,7 @@ def _add_thing(room: _List, x: float, floor: float, z: float, skin: Array) -> No
 
 
 def _cast_camera(things: Things, rays: Picture) -> tuple[Picture, Integers]:
-    """(h, w) how far along rays (h, w, 3) from the camera the first thing is, and which it is."""
+    """The distance (h, w) to the first thing along rays (h, w, 3) from the camera, and that thing's index."""
     height, width = rays.shape[:2]
     depth, hit = np.full((height, width), np.inf, np.float32), np.zeros((height, width), np.int64)
     origin = np.zeros(3, np.float32)
@@ -183,7 +183,7 @@ def _cast_camera(things: Things, rays: Picture) -> tuple[Picture, Integers]:
 
 
 def _blocked(things: Things, points: Picture, toward: Picture) -> NDArray[np.bool_]:
-    """(m,) whether a thing keeps the lamp, in a direction (3,), from points (m, 3)."""
+    """Whether a thing shades each of the points (m, 3) from the lamp in direction ``toward`` (3,)."""
     blocked = np.zeros(len(points), bool)
     for low, high, is_round in zip(things.low[1:], things.high[1:], things.round[1:], strict=True):
         free = np.flatnonzero(~blocked)
@@ -193,11 +193,11 @@ def _blocked(things: Things, points: Picture, toward: Picture) -> NDArray[np.boo
 
 
 def _first_hit(low: Array, high: Array, is_round: bool, origin: Picture, rays: Picture) -> Picture:
-    """(m,) how far along rays a box or the ellipsoid in it is; infinite for a miss."""
+    """The distance (m,) along rays to a box or its inscribed ellipsoid; infinite for a miss."""
     a, b = np.float32(low), np.float32(high)
     with np.errstate(divide="ignore", invalid="ignore"):
         if is_round:
-            # One axis after the other: NumPy is slow at sums over an axis of 3.
+            # One axis at a time: NumPy is slow at sums over an axis of length 3.
             axes, middle = (b - a) / 2, (a + b) / 2
             away = [(origin[..., i] - middle[i]) / axes[i] for i in range(3)]
             along = [rays[..., i] / axes[i] for i in range(3)]
@@ -230,7 +230,7 @@ def _normals(things: Things, points: Picture, hit: Integers) -> Picture:
 def _texture(
     things: Things, pictures: list[Picture], points: Picture, normals: Picture, hit: Integers
 ) -> Picture:
-    """(m, 3) gains by the textures, laid over each face along the axes that it spans."""
+    """The gains (m, 3) of the textures, which are mapped to each face along the axes that it spans."""
     axis = np.abs(normals).argmax(axis=1)
     u = np.where(axis == 0, points[:, 2], points[:, 0]) + hit * 0.137
     v = np.where(axis == 1, points[:, 2], points[:, 1]) + hit * 0.071

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Smooth bodies: unions of round cones that melt into each other, found by sphere tracing.
+"""Smooth bodies: smooth unions of round cones, rendered by sphere tracing.
 
 Hart, "Sphere tracing: a geometric method for the antialiased ray tracing of implicit surfaces", 1996. Frame:
 x right, y down, z forward from the camera, meters.
@@ -14,20 +14,20 @@ from tricue.scenes.arrays import Array, Picture
 
 Integers = NDArray[np.int64]
 MAX_STEPS = 40
-CHUNK = 2048  # points at a time, whose distances to all cones stay in the cache
-HIT = 2e-4  # meters from the surface, where a ray ends
-FAR_BLENDS = 5.0  # widths of the blend; beyond them the nearest part alone counts
+CHUNK = 2048  # points at a time, so that their distances to all cones stay in the cache
+HIT = 2e-4  # meters from the surface at which a ray ends
+FAR_BLENDS = 5.0  # blend widths, beyond which only the nearest part counts
 
 
 class Cones(NamedTuple):
-    """Round cones: spheres swept along segments, whose radii change linearly."""
+    """Round cones: spheres swept along segments, with linearly changing radii."""
 
     starts: Array  # (n, 3), meters
     ends: Array  # (n, 3), meters
     radii: Array  # (n, 2), meters, at both ends
-    sides: Array  # (n, 3) unit vectors across the segments: where the angle about them is 0
-    materials: Integers  # (n,): which paint each has
-    blend: float  # meters: how far two of them melt into each other
+    sides: Array  # (n, 3) unit vectors perpendicular to the segments, where the angle about them is 0
+    materials: Integers  # (n,) the paint of each
+    blend: float  # meters, the width over which cones blend
 
     def moved(self, rotation: Array, offset: Array) -> "Cones":
         """The cones after each point p has moved to rotation @ p + offset."""
@@ -35,22 +35,22 @@ class Cones(NamedTuple):
         return self._replace(starts=starts, ends=ends, sides=self.sides @ rotation.T)
 
     def __or__(self, other: "Cones") -> "Cones":
-        """All cones of both, with the blend of the first."""
+        """The cones of both, with the blend of the first."""
         starts, ends, radii, sides = (np.concatenate(pair) for pair in zip(self[:4], other[:4], strict=True))
         return Cones(starts, ends, radii, sides, np.append(self.materials, other.materials), self.blend)
 
 
 class Surface(NamedTuple):
-    """What each of m points near a body shows."""
+    """The surface at each of m points near a body."""
 
     normals: Picture  # (m, 3)
     parts: Integers  # (m,) of the nearest cone
-    shares: Picture  # (m,) along its segment, 0 to 1
-    angles: Picture  # (m,) about its segment, radians
+    shares: Picture  # (m,) position along its segment, 0 to 1
+    angles: Picture  # (m,) angle about its segment, radians
 
 
 class Body:
-    """Cones, ready for the distances of many points."""
+    """Cones, prepared for computing the distances of many points."""
 
     def __init__(self, cones: Cones) -> None:
         self.cones = cones
@@ -62,7 +62,7 @@ class Body:
         self._square = np.maximum((self._along**2).sum(axis=1), np.float32(1e-12))
 
     def distance(self, points: Picture) -> Picture:
-        """(m,) signed distances of points (m, 3), meters: a lower bound far away, smooth near the body."""
+        """Signed distances (m,) of points (m, 3), meters; a lower bound far away, smooth near the body."""
         smooth = np.empty(len(points), np.float32)
         for first in range(0, len(points), CHUNK):
             chunk = slice(first, first + CHUNK)
@@ -70,18 +70,18 @@ class Body:
         return smooth
 
     def _blend(self, distances: Picture) -> Picture:
-        """(m,) of distances (m, n) to each cone: their minimum, smooth where several are near."""
+        """The minimum (m,) of the distances (m, n) to all cones, smooth where several are near."""
         nearest = distances.min(axis=1)
         blend = np.float32(self.cones.blend)
         near = np.flatnonzero(nearest < FAR_BLENDS * blend)
-        smooth = nearest - 3 * blend  # far away: what a blend can add at most
+        smooth = nearest - 3 * blend  # far away: the most that a blend can subtract
         inside = nearest[near]
         total = np.exp((inside[:, None] - distances[near]) / blend).sum(axis=1)
         smooth[near] = inside - blend * np.log(total)
         return np.asarray(smooth, np.float32)
 
     def look(self, points: Picture) -> Surface:
-        """What points (m, 3) on the surface show."""
+        """The surface at points (m, 3) on it."""
         distances, shares = self._distances(points)
         parts = distances.argmin(axis=1)
         weights = np.exp((distances.min(axis=1)[:, None] - distances) / np.float32(self.cones.blend))
@@ -101,7 +101,7 @@ class Body:
         return Surface(normals, parts, share, angles)
 
     def _distances(self, points: Picture) -> tuple[Picture, Picture]:
-        """(m, n) distances to each cone, and where along it the nearest point is, 0 to 1."""
+        """The distances (m, n) to each cone, and the position of the nearest point along it, 0 to 1."""
         local = points - self.middle.astype(np.float32)
         along = local @ self._along.T - (self._starts * self._along).sum(axis=1)
         shares = np.clip(along / self._square, 0, 1)
@@ -114,7 +114,7 @@ class Body:
 
 
 class Hits(NamedTuple):
-    """Where m rays meet a body, or pass it nearest."""
+    """Where each of m rays hits a body, or passes nearest to it."""
 
     depths: Picture  # (m,) meters along the ray
     coverage: Picture  # (m,) share of the pixel that the body covers, 0 to 1
@@ -123,7 +123,7 @@ class Hits(NamedTuple):
 def trace(body: Body, rays: Picture, pixel: float) -> Hits:
     """Trace rays (m, 3), unit vectors from the camera. pixel: the angle of a pixel, radians.
 
-    At a body's edge the coverage falls from 1 to 0 within a pixel, half of it at the edge.
+    At a body's edge the coverage falls from 1 to 0 within a pixel; it is one half at the edge.
     """
     first, last = _bounds(body.cones, rays)
     active = np.flatnonzero(first < last)
@@ -148,7 +148,7 @@ def trace(body: Body, rays: Picture, pixel: float) -> Hits:
 
 
 def _bounds(cones: Cones, rays: Picture) -> tuple[Picture, Picture]:
-    """(m,) where rays first enter, and last leave, a sphere around one of the cones; infinite, 0 for none."""
+    """Where rays first enter and last leave the spheres around cones, (m,) each; infinite, 0 for misses."""
     first, last = np.full(len(rays), np.inf, np.float32), np.zeros(len(rays), np.float32)
     for start, end, radii in zip(cones.starts, cones.ends, cones.radii, strict=True):
         center = ((start + end) / 2).astype(np.float32)
@@ -163,7 +163,7 @@ def _bounds(cones: Cones, rays: Picture) -> tuple[Picture, Picture]:
 
 
 def open_sky(body: Body, points: Picture, normals: Picture) -> Picture:
-    """(m,) the share of ambient light that reaches each point: less in folds."""
+    """The share (m,) of ambient light that reaches each point; it is lower in folds."""
     light = np.ones(len(points), np.float32)
     for height, weight in ((0.008, 0.35), (0.03, 0.35)):
         free = body.distance(points + np.float32(height) * normals) / np.float32(height)
@@ -172,7 +172,7 @@ def open_sky(body: Body, points: Picture, normals: Picture) -> Picture:
 
 
 def direct_light(body: Body, points: Picture, normals: Picture, lamp: Array) -> Picture:
-    """(m,) the share of the lamp's light that a body leaves to points. lamp: (3,) unit vector towards it."""
+    """The share (m,) of the lamp's light that isn't blocked by a body. lamp: unit vector (3,) toward it."""
     direction = lamp.astype(np.float32)
     light = np.ones(len(points), np.float32)
     for step in (0.02, 0.04, 0.07, 0.12, 0.2):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A hall behind walkers before a panning stereo pair: walls, a floor, and textured things at all depths."""
+"""A hall behind walkers in front of a panning stereo pair: walls, a floor, textured things at all depths."""
 
 import math
 from typing import NamedTuple
@@ -14,7 +14,7 @@ from tricue.scenes.rendering.stereo_camera import RayCamera, RayImage, TexturedR
 HALL_RECTANGLES = 16
 MIN_GAP_BEHIND_WALKERS = 1.4  # meters behind the farthest path
 HALL_HALF_WIDTH = 7.0  # meters
-WALL_HEIGHT, MAX_HANGING_HEIGHT = 5.0, 3.2  # meters above the floor: of walls, and of things on them
+WALL_HEIGHT, MAX_HANGING_HEIGHT = 5.0, 3.2  # meters above the floor, of walls and of things on them
 RECTANGLE_OVERLAP = 0.01  # meters, so that no ray passes between two rectangles
 FLOOR_STRIP_DEPTHS = np.array([3.0, 4.8, 5.8, 7.0, 8.6, 11.0])  # meters, z of the floor's strips
 
@@ -27,8 +27,8 @@ class Hall(NamedTuple):
     def render(self, camera: RayCamera, to_camera: Array, shift: Array | None = None) -> RayImage:
         """Render the hall for a camera.
 
-        to_camera, shift: rotation (3, 3) from the level frame to the camera's, and what is added then, (3,)
-        meters.
+        to_camera, shift: rotation (3, 3) from the level frame to the camera's, and the translation added
+        after it, (3,) meters.
         """
         moved = np.zeros(3) if shift is None else shift
         shape = camera.intrinsics.height, camera.intrinsics.width
@@ -50,14 +50,14 @@ def furnish_hall(
 ) -> Hall:
     """A random hall with its floor at y = ``floor``, meters.
 
-    farthest: the largest distance of a path from the cameras, meters. angles: the leftmost and the rightmost
-    angle that the cameras see, radians.
+    farthest: the largest distance of a path from the cameras, meters. angles: the leftmost and rightmost that
+    the cameras see, radians.
     """
     wall = farthest + rng.uniform(3.5, 6.0)
     rectangles = [*_walls(wall, floor, rng), *_floor(wall, floor, rng)]
     low, high = (float(np.clip(angle, -1.0, 1.0)) for angle in angles)
     for place in rng.permutation(HALL_RECTANGLES).tolist():
-        # One in each of as many sectors, so that there are things in all directions.
+        # One thing in each of as many sectors, so that there are things in all directions.
         angle = low + (place + rng.random()) / HALL_RECTANGLES * (high - low)
         deepest = min(wall / math.cos(angle), HALL_HALF_WIDTH / max(abs(math.sin(angle)), 1e-6)) - 0.3
         near = farthest + MIN_GAP_BEHIND_WALKERS
@@ -88,7 +88,7 @@ def _walls(depth: float, floor: float, rng: np.random.Generator) -> list[Texture
 
 
 def _floor(depth: float, floor: float, rng: np.random.Generator) -> list[TexturedRectangle]:
-    """The floor in strips by depth, so that near and far strips have texture levels of their own."""
+    """The floor in strips by depth, so that each strip has the texture level of its distance."""
     kind = str(
         rng.choice(
             [

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A walker who is overtaken before a panning stereo pair, as in Okada, Shirai and Miura (1996), section 5."""
+"""A walker is overtaken in front of a panning stereo pair, as in Okada, Shirai, Miura (1996), section 5."""
 
 import math
 from collections.abc import Iterator
@@ -52,9 +52,9 @@ def overtaking(
 ) -> WalkScene:
     """A target walks through a hall, is overtaken, and passes a standing person; 15 frames per second.
 
-    frames: up to 200. All events happen within 100: less than a tenth of the target is visible in frames 24
-        to 46, approximately, and nearly nothing in the middle of them; it passes the standing person at
-        about frame 74. After that everybody walks on, and may leave the image.
+    frames: up to 200. All events happen within 100: less than a tenth of the target is visible in about
+        frames 24 to 46, and nearly nothing in the middle of them; it passes the standing person at about
+        frame 74. After that everybody walks on and may leave the image.
     camera: "160x120" or "640x480" pixels. kind: one of OVERTAKING_KINDS;
         "plain": from right to left; seeds differ only in looks, room and noise, and the target passes in
             front of the standing person;
@@ -64,12 +64,12 @@ def overtaking(
     noise: standard deviation in levels of 255, independent in both images; it doesn't change the depth
         camera's noise.
 
-    vergence: degrees by which the right camera is turned inwards, 0 to 20; the truth stays that of the left
-        camera, and disparities those of a parallel pair.
+    vergence: degrees by which the right camera is turned inward, 0 to 20. The truth stays that of the left
+        camera, and disparities stay those of a parallel pair.
 
     The pair pans with the target at constant velocity. The target and the standing person are only 0.3 to
-    0.45 m apart in depth, some 0.3 pixels of disparity in a width of 160. There is no motion blur and no cast
-    shadow. ValueError or TypeError names the argument that is wrong.
+    0.45 m apart in depth, about 0.3 pixels of disparity at a width of 160. There is no motion blur and no
+    cast shadow. ValueError or TypeError names the argument that is wrong.
     """
     _check(frames, camera, kind, noise, vergence)
     rng = make_generator(seed)
@@ -98,7 +98,7 @@ def overtaking(
 
 
 class _PanningStage(NamedTuple):
-    """What is rendered, with the texture levels that fit the cameras' rays."""
+    """The scene to render, with the texture levels that fit the cameras' rays."""
 
     pan: Pan
     cameras: tuple[RayCamera, RayCamera]
@@ -112,7 +112,7 @@ class _PanningStage(NamedTuple):
     def build(
         cls, geometry: WalkGeometry, depths: tuple[float, float, float], rays: int, rng: np.random.Generator
     ) -> "_PanningStage":
-        """depths: of the three people, meters, approximately."""
+        """Set up the scene. depths: the approximate depths of the three people, meters."""
         cameras = RayCamera.pair(geometry.pan.rig, rays)
         focal = cameras[0].intrinsics.fx
         people = [person.at_detail(at, focal) for person, at in zip(geometry.people, depths, strict=True)]
@@ -123,7 +123,7 @@ class _PanningStage(NamedTuple):
     def render(self, camera: RayCamera, index: int) -> Picture:
         """Render a frame for a camera, before gain and noise."""
         to_camera, shift = self.pan.to_camera(index), np.zeros(3)
-        if self.vergence and camera.offset:  # the right camera: turned about its own center
+        if self.vergence and camera.offset:  # the right camera turns about its own center
             turned = rotation_about_y(self.vergence)
             shift = turned @ [-camera.offset, 0.0, 0.0]
             to_camera, camera = turned @ to_camera, camera._replace(offset=0.0)

@@ -16,11 +16,11 @@ from tricue.scenes.people.body import rotation_about_y
 
 
 class Pan(NamedTuple):
-    """The rig, and the angle that it looks at in each of M frames."""
+    """The rig, and the direction in which it looks in each of M frames."""
 
     rig: StereoRig
     height: float  # of the cameras above the floor, meters
-    angles: Array  # (M,) radians from z towards x
+    angles: Array  # (M,) radians from z toward x
     tilt: float = 0.0  # radians upwards, after the pan
 
     def to_camera(self, index: int) -> Array:
@@ -32,7 +32,7 @@ class Pan(NamedTuple):
         return np.array([[1, 0, 0], [0, cos, sin], [0, -sin, cos]]) @ pan
 
     def on_floor(self, column: Array, depth: Array) -> Array:
-        """The places (M, 2), x and z in the level frame, at a column and a depth in each frame.
+        """The floor positions (M, 2), x and z in the level frame, at a column and a depth in each frame.
 
         column: X / Z in the camera's frame. depth: z in the camera's frame, meters.
         """

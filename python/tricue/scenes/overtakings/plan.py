@@ -2,7 +2,7 @@
 """The paths of an overtaking, as in figure 8 of Okada, Shirai and Miura (1996), section 5.
 
 Paths are planned as image columns and depths, and projected to the floor. Lengths in the image are pixels at
-a width of 160, whatever the camera has. The 100 frames of all events are those of the paper.
+a width of 160, whatever the camera's width. The events take the paper's 100 frames.
 """
 
 import math
@@ -33,7 +33,7 @@ class OvertakingPlan(NamedTuple):
     speed_gain: float  # pixels per frame by which the overtaker is faster
     overtaking_frame: float  # the frame in which the overtaker covers the target
     passing_frame: float  # the frame in which the target passes the standing person
-    standing_depth_offset: float  # meters from the target to the standing person then; below 0 nearer
+    standing_depth_offset: float  # meters from target to standing person then; nearer if negative
     depth_drift: float  # relative change of the target's depth over all events
     height_ratio: float  # the overtaker's body height divided by the target's
     clothes_contrast: tuple[float, float, float]  # of target, overtaker, standing person
@@ -103,7 +103,8 @@ def plan_paths(
     column = plan.direction * plan.target_speed * (time - STORY_FRAMES / 2) / focal
     gained = plan.direction * plan.speed_gain * (time - plan.overtaking_frame) / focal
     depths = depth * (1 + plan.depth_drift * (time / STORY_FRAMES - 0.5))
-    # The passing frame may lie between two frames; the person stands where the target is then, but for depth.
+    # The passing time may lie between two frames; the person stands where the target is then, except in
+    # depth.
     pan_at_passing = pan._replace(
         angles=np.array(
             [plan.direction * plan.pan_speed / focal * (plan.passing_frame - STORY_FRAMES / 2)], float
@@ -124,5 +125,5 @@ def plan_paths(
 
 
 def heading_to_camera(place: Array) -> float:
-    """The heading of a person at a place (2,) who looks at the cameras, radians from z towards x."""
+    """The heading of a person at a place (2,) who looks at the cameras, radians from z toward x."""
     return math.atan2(-place[0], -place[1])

@@ -85,7 +85,7 @@ class WalkGeometry(NamedTuple):
         return (rig.intrinsics.fx * rig.baseline / self.depth(index)).astype(np.float32)
 
     def flow(self, index: int) -> NDArray[np.float32]:
-        """The motion (H, W, 2), pixels along x and y, since the last frame of the surface at each pixel."""
+        """The motion (H, W, 2), pixels along x and y, since the last frame, of the surface at each pixel."""
         if index == 0:
             return np.full((*self._shape, 2), np.nan, np.float32)
         depth, owner = self._render(index)
@@ -103,7 +103,7 @@ class WalkGeometry(NamedTuple):
         return (np.stack([u, v], axis=-1) - self.pan.rig.intrinsics.project(earlier)).astype(np.float32)
 
     def _render(self, index: int) -> tuple[Array, NDArray[np.intp]]:
-        """The depth (H, W), and the owner of each pixel: 0 is the hall, then all people's parts in order."""
+        """The depth (H, W), and what each pixel shows: 0 for the hall, then all people's parts in order."""
         camera = RayCamera(self.pan.rig.intrinsics, 0.0, 1)
         depth = self.hall.render(camera, self.pan.to_camera(index)).depth.astype(np.float64)
         owner = np.zeros(self._shape, np.intp)

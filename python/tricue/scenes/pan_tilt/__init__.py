@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""A walker in front of a camera on a pan-tilt head, rendered as the head looks."""
+"""A walker in front of a camera on a pan-tilt head, rendered from where the head looks."""

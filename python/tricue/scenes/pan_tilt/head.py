@@ -14,7 +14,7 @@ STEPS_PER_SECOND = 1000  # of the simulation
 
 @dataclass(frozen=True, slots=True)
 class HeadLimits:
-    """What a head can do. latency: seconds from a command to when the head moves by it."""
+    """The limits of a head. latency: seconds from a command to its effect."""
 
     max_speed: float = 1.2  # rad/s, on each axis
     max_acceleration: float = 8.0  # rad/s²
@@ -25,7 +25,7 @@ class HeadLimits:
 
 @dataclass(slots=True)
 class SimulatedHead:
-    """A head that is driven by speeds. angles, speeds: (2,) pan to the right, tilt upwards; rad, rad/s."""
+    """A head driven by speed commands. angles, speeds: (2,) pan to the right, tilt upward; rad, rad/s."""
 
     limits: HeadLimits
     angles: Array
@@ -35,13 +35,13 @@ class SimulatedHead:
     _wanted: Array = field(default_factory=lambda: np.zeros(2))
 
     def drive(self, pan_speed: float, tilt_speed: float) -> None:
-        """Ask for speeds, rad/s; the head takes them up after its latency."""
+        """Command speeds, rad/s; they take effect after the latency."""
         fastest = self.limits.max_speed
         wanted = np.clip([pan_speed, tilt_speed], -fastest, fastest)
         self._commands.append((self.time + self.limits.latency, wanted))
 
     def move(self, seconds: float) -> None:
-        """Let so much time pass."""
+        """Advance the simulation."""
         steps = max(round(seconds * STEPS_PER_SECOND), 1)
         step = seconds / steps
         ends = np.array([self.limits.max_pan, self.limits.max_tilt])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A walker before a stereo pair on a pan-tilt head: each frame is rendered as the head looks then.
+"""A walker in front of a stereo pair on a pan-tilt head: each frame is rendered from where the head looks.
 
 The level frame is fixed to the room, with the left camera at its origin: x right, y down, z forward, meters.
 Both axes of the head go through that camera's center.
@@ -26,27 +26,27 @@ from tricue.scenes.people.pedestrian import Outfit, Pedestrian
 from tricue.scenes.rendering.stereo_camera import RAYS_PER_PIXEL, Lamp, RayCamera, expose_lit
 from tricue.scenes.seeds import make_generator
 
-PAN_TILT_RATE = 15.0  # frames per second, as the paper's system
+PAN_TILT_RATE = 15.0  # frames per second, as in the paper's system
 WIDTH, HEIGHT = 160, 120  # pixels
 RAYS = RAYS_PER_PIXEL[f"{WIDTH}x{HEIGHT}"]
 FIELD_OF_VIEW = 32.0  # degrees
 TARGET_HEIGHT, TARGET_DISPARITY = 74.0, 5.0  # pixels
-DEPTH_SWING = 0.5  # meters, by which the target comes nearer and goes away
-CROSSING_DEPTH_RATIO = 1.8  # of the target's depth over that of who crosses
+DEPTH_SWING = 0.5  # meters by which the target's depth varies to each side
+CROSSING_DEPTH_RATIO = 1.8  # the target's depth divided by the crossing person's
 STANDING_OFFSET = 0.4  # meters behind the target's path
 CROSSING_SPEED = 1.2  # m/s
-MEETING_PHASE = 0.35 * math.pi  # of the target's way, at which somebody crosses it
+MEETING_PHASE = 0.35 * math.pi  # of the target's walk, at which somebody crosses in front
 CLOTHES_CONTRAST = 0.25
 NOISE = 2.0  # levels of 255
 START_ERROR = math.radians(1.5)  # of the first view, on each axis
-MAX_VIEW_ANGLE = math.radians(60.0)  # from the optical axis, beyond which people aren't looked at
+MAX_VIEW_ANGLE = math.radians(60.0)  # from the optical axis, beyond which people aren't rendered
 
 
 class PanTiltTruth(NamedTuple):
     """The truth of a frame.
 
     seen: the target's box, position and visible pixels, as in :class:`tricue.scenes.WalkScene`. direction:
-    (2,) pan and tilt at which the center of its box would be in the middle of the image, radians.
+    (2,) pan and tilt, radians, that would put the center of its box in the middle of the image.
     """
 
     seen: FrameTruth
@@ -55,7 +55,7 @@ class PanTiltTruth(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PanTiltScene:
-    """A target walks to and fro, farther than the camera sees at once.
+    """A target walks to and fro over more than the camera's angle of view.
 
     The same arguments give the same bits.
 
@@ -80,7 +80,7 @@ class PanTiltScene:
         return self.truth(0, *self.start.tolist()).seen.target.box
 
     def look(self, index: int, pan: float, tilt: float) -> Frame:
-        """What the pair sees in a frame from these angles, radians; with a timestamp."""
+        """What the pair sees in a frame at these angles, radians; with a timestamp."""
         rng = np.random.default_rng([self.seed, index])
         view = self._view(pan, tilt)
         to_camera = view.to_camera(0)
@@ -94,7 +94,7 @@ class PanTiltScene:
         return Frame(images[0], right=images[1], timestamp=index / self.rate)
 
     def truth(self, index: int, pan: float, tilt: float) -> PanTiltTruth:
-        """The truth of that frame."""
+        """The truth in a frame at these angles."""
         view = self._view(pan, tilt)
         to_camera = view.to_camera(0)
         target, *others = (person._replace(parts=[person.parts[index]]) for person in self._people)
@@ -113,12 +113,14 @@ class PanTiltScene:
 def pan_tilt_scene(
     seed: int = 0, frames: int = 180, *, crossed: bool = False, limits: HeadLimits | None = None
 ) -> PanTiltScene:
-    """A walker before a stereo pair on a pan-tilt head, 160x120, 15 frames per second.
+    """A walker in front of a stereo pair on a pan-tilt head, 160x120, 15 frames per second.
 
-    The target walks some 6.4 m away over 50 to 70 degrees, at up to 0.9 to 1.2 m/s, and turns round after 140
-    to 210 frames; the camera sees 32 degrees of that. Halfway it passes somebody who stands behind its path.
+    The target walks about 6.4 m away over 50 to 70 degrees, at up to 0.9 to 1.2 m/s, and turns around after
+    140 to 210 frames; the camera sees 32 degrees of that. Halfway it passes somebody who stands behind its
+    path.
 
-    crossed: somebody nearer walks the other way, and hides the target for some frames. limits: of the head.
+    crossed: whether somebody nearer walks the other way and hides the target for some frames. limits: the
+    head's.
     """
     positive_whole(frames, "frames", "a count")
     rng = make_generator(seed)
@@ -148,12 +150,12 @@ def pan_tilt_scene(
 
 
 class _Walk(NamedTuple):
-    """The target's way: to and fro on a part of a flat ellipse around the camera."""
+    """The target's walk, to and fro on a part of a flat ellipse around the camera."""
 
     depth: float  # meters, on average
     reach: float  # radians, to each side
     side: int  # 1 from left to right at first, -1 from right to left
-    turn: float  # rad/s, of the phase
+    turn: float  # rad/s, speed of the phase
 
     @classmethod
     def sample(cls, depth: float, rng: np.random.Generator) -> "_Walk":
@@ -162,7 +164,7 @@ class _Walk(NamedTuple):
 
     @property
     def farthest(self) -> float:
-        """The distance of whoever is farthest, meters."""
+        """The largest distance of the path or of the standing person, meters."""
         return self.depth + DEPTH_SWING + STANDING_OFFSET
 
     def path(self, frames: int) -> Array:
@@ -171,7 +173,7 @@ class _Walk(NamedTuple):
         return _on_floor(-self.side * self.reach * np.cos(phase), self.depth + DEPTH_SWING * np.sin(phase))
 
     def crossing(self, frames: int) -> Array:
-        """The path (M, 2) of who walks the other way, nearer, and meets the target before halfway."""
+        """The path (M, 2) of the person who crosses in front of the target, before it is halfway."""
         nearer = self.depth / CROSSING_DEPTH_RATIO
         bearing = -self.side * self.reach * math.cos(MEETING_PHASE)
         seconds = np.arange(frames) / PAN_TILT_RATE - MEETING_PHASE / self.turn
@@ -182,7 +184,7 @@ class _Walk(NamedTuple):
 def _people(
     target: Person, walk: _Walk, floor: float, frames: int, crossed: bool, rng: np.random.Generator
 ) -> list[tuple[Pedestrian, float]]:
-    """The target, who stands, and who crosses, each with the distance, meters."""
+    """The target, the standing and the crossing person, each with their distance in meters."""
     outfits = [Outfit.sample(CLOTHES_CONTRAST, False, rng) for _ in range(3)]
     standing = Person.sample(rng)._replace(build=rng.uniform(0.9, 1.0))
     crossing = Person(target.height * rng.uniform(1.0, 1.05), rng.uniform(1.1, 1.2))
@@ -199,7 +201,7 @@ def _people(
 
 
 def _on_floor(bearing: Array, distance: Array) -> Array:
-    """Places (M, 2), x and z, from bearings (M,), radians from z towards x, and distances (M,), meters."""
+    """Positions (M, 2), x and z, from bearings (M,), radians from z toward x, and distances (M,), meters."""
     return np.stack([np.sin(bearing) * distance, np.cos(bearing) * distance], axis=1)
 
 

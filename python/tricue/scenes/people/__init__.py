@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Bodies, how they walk and what they wear, and scenes of people before a depth camera."""
+"""Bodies, their walks and clothes, and scenes of people in front of a depth camera."""

@@ -14,7 +14,7 @@ import numpy as np
 from tricue.scenes.arrays import Array
 from tricue.scenes.rendering.ellipsoids import Ellipsoids, OrientedEllipsoids
 
-# As shares of the height: joints above the floor and beside the middle, then lengths between joints.
+# As shares of the height: heights of joints, their offsets from the middle, and lengths between joints.
 ANKLE, HIP, SHOULDER = 0.039, 0.530, 0.818
 HIP_SIDE, SHOULDER_SIDE = 0.050, 0.112
 THIGH, SHANK, UPPER_ARM, FOREARM, HAND = 0.245, 0.246, 0.186, 0.146, 0.108
@@ -31,10 +31,10 @@ UNSCALED_PARTS = ("neck", "head")  # not scaled by the build
 
 
 class Person(NamedTuple):
-    """A person's measures."""
+    """A person's measurements."""
 
     height: float  # meters
-    build: float  # breadth and thickness, relative to the average
+    build: float  # breadth and thickness relative to the average
 
     @classmethod
     def sample(cls, rng: np.random.Generator, shortest: float = 1.55) -> "Person":
@@ -43,7 +43,7 @@ class Person(NamedTuple):
 
 
 class BodyPose(NamedTuple):
-    """How the joints are bent; by default the person stands."""
+    """A pose; by default the person stands."""
 
     gait: float = 0.0  # phase of the stride, radians; 2 pi are two steps
     swing: float = 0.0  # amplitude of the legs' swing, radians
@@ -76,7 +76,7 @@ def place_body(person: Person, pose: BodyPose, x: float, z: float, yaw: float, f
 
 
 def rotation_about_y(yaw: float) -> Array:
-    """The rotation (3, 3) by ``yaw`` radians from z towards x."""
+    """The rotation (3, 3) by ``yaw`` radians from z toward x."""
     return np.array([[math.cos(yaw), 0, math.sin(yaw)], [0, 1, 0], [-math.sin(yaw), 0, math.cos(yaw)]])
 
 
@@ -128,7 +128,7 @@ def _arm(side: float, build: float, lean: float, pose: BodyPose) -> list[_Limb]:
 
 
 def _on_trunk(x: float, up: float, lean: float) -> Array:
-    """A point of the trunk at height ``up`` when upright, after the trunk has bent by ``lean`` at the hip."""
+    """A point at height ``up`` of the upright trunk, after the trunk has bent by ``lean`` at the hip."""
     bent: Array = np.array([x, -HIP, 0.0]) + _tilt(lean) @ np.array([0.0, HIP - up, 0.0])
     return bent
 
@@ -141,12 +141,12 @@ def _tilt(angle: float) -> Array:
 
 
 def _direction(out: float, forward: float) -> Array:
-    """The unit vector straight down, rotated sideways by ``out`` (right is positive), then ``forward``."""
+    """The unit vector down, rotated sideways by ``out`` (positive to the right), then by ``forward``."""
     return np.array([math.sin(out), math.cos(out) * math.cos(forward), math.cos(out) * math.sin(forward)])
 
 
 def _limb(start: Array, end: Array, radius: float, over: float) -> _Limb:
-    """An ellipsoid between two joints that extends beyond each by the share ``over`` of its length."""
+    """An ellipsoid between two joints, which extends beyond each by the share ``over`` of its length."""
     length = float(np.linalg.norm(end - start))
     axis = (end - start) / length
     return (start + end) / 2, _along(axis) * [radius, length * (0.5 + over), radius]

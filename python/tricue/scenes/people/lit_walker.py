@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""A walker before a color camera and a time-of-flight camera, in falling or blinding light.
+"""A walker in front of a color camera and a time-of-flight camera, in fading or blinding light.
 
-For section VI of Sabeti, Parvizi and Wu (2008). Both cameras have one view, so that depth is registered.
+For section VI of Sabeti, Parvizi and Wu (2008). Both cameras have the same view, so depth is registered.
 """
 
 import math
@@ -38,22 +38,22 @@ NEAREST, FARTHEST = 2.4, 4.4  # meters, of the walker
 HALF_WIDTH, WALL_HEIGHT = 4.0, 4.5  # meters, of the hall; the ceiling is above the image
 BGR_TO_GRAY = np.array([0.114, 0.587, 0.299])
 CLUTTER = 10  # boards behind the walker
-MIN_BEHIND = 0.7  # meters, of those behind the walker's farthest place
-DARKEST, BRIGHTEST = 1e-4, 100.0  # light, at the end of dusk, and of a sunrise
+MIN_BEHIND = 0.7  # meters from the walker's farthest position to those boards
+DARKEST, BRIGHTEST = 1e-4, 100.0  # light at the end of dusk, and of sunrise
 CHANGE_START, CHANGE_END = 1 / 6, 5 / 6  # of the frames, between which the light changes
-DARK_REFLECTANCE, REFLECTANCE_RANGE = 0.2, 0.6  # in near infrared, in which clothes are brighter
+DARK_REFLECTANCE, REFLECTANCE_RANGE = 0.2, 0.6  # in near infrared, where clothes are brighter
 CLOTHES_CONTRAST = 0.25
 HEAD = list(TRUNK_PARTS).index("head")  # of a body's ellipsoids
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LitScene(DepthScene):
-    """A scene whose frames have color, too, under a light that may change."""
+    """A scene whose frames have color as well as depth, under light that may change."""
 
     light: NDArray[np.float64]
     """(M,) 1 indoors, 0 in darkness, 100 in the sun."""
     heads: tuple[Box, ...]
-    """Around the person's head, as ``boxes`` is around the body."""
+    """The person's head in each frame, as ``boxes`` has the body."""
 
 
 def lit_walker(
@@ -67,9 +67,9 @@ def lit_walker(
 ) -> LitScene:
     """One person walks a loop 2.4 to 4.4 m away, before colored boards; 176x144 pixels, 15 frames per second.
 
-    light: "indoors" is constant; at "dusk" it falls to a ten thousandth, and is off for the last sixth of the
-        frames; at "sunrise" it grows a hundredfold.
-    wall: meters to the end of the hall, above 5.5.
+    light: "indoors" is constant; at "dusk" it falls to one ten-thousandth, and is off for the last sixth of
+        the frames; at "sunrise" it grows a hundredfold.
+    wall: meters to the end of the hall, more than 5.5.
     unambiguous_range: meters, of the time-of-flight camera; see
         :class:`tricue.scenes.sensor.time_of_flight.TimeOfFlightCamera`, also for min_reflectance.
 
@@ -107,7 +107,7 @@ def lit_walker(
 
 
 def light_levels(course: LightCourse, frames: int) -> Array:
-    """(M,) the light in each frame."""
+    """The light (M,) in each frame."""
     last = {"indoors": 1.0, "dusk": DARKEST, "sunrise": BRIGHTEST}[course]
     share = np.clip((np.arange(frames) / frames - CHANGE_START) / (CHANGE_END - CHANGE_START), 0, 1)
     levels: Array = np.power(last, share)
@@ -125,7 +125,7 @@ class _Truth(NamedTuple):
 
 
 class _Stage(NamedTuple):
-    """The view, the hall as it is drawn once, and the walker."""
+    """The view, the hall, which is drawn only once, and the walker."""
 
     view: MountedCamera
     rays: RayCamera
@@ -164,7 +164,7 @@ class _Stage(NamedTuple):
         """The truth in a frame with a z-buffer (H, W)."""
         body = self.walker.parts[index].transformed(self.view.rotation, np.zeros(3)).ellipsoids
         window = self.view.render(body)
-        # The canvas has single precision.
+        # The canvas has only single precision.
         nearly = window._replace(depth=window.depth - 1e-3)
         mask, share = zbuffer.find_visible_pixels(nearly, depth)
         position = self.view.surface_points(window).mean(axis=0)
@@ -173,7 +173,7 @@ class _Stage(NamedTuple):
 
 
 def _render_hall(view: MountedCamera, rays: RayCamera, wall: float, rng: np.random.Generator) -> RayImage:
-    """The hall without people: walls, floor, and clutter behind where somebody walks."""
+    """The hall without people: walls, floor, and clutter behind the walker."""
     shape = rays.intrinsics.height, rays.intrinsics.width
     canvas = RayImage(np.full((*shape, 3), 90, np.float32), np.full(shape, np.inf, np.float32))
     for level in [*_walls(view.height, wall, rng), *_clutter(view.height, wall, rng)]:
@@ -205,7 +205,7 @@ def _walls(floor: float, wall: float, rng: np.random.Generator) -> list[Textured
 
 
 def _clutter(floor: float, wall: float, rng: np.random.Generator) -> list[TexturedRectangle]:
-    """Boards on the floor and on the walls, of all colors."""
+    """Boards of all colors on the floor and on the walls."""
     slope = math.tan(math.radians(47.5 / 2))
     things = []
     for place in range(CLUTTER):
@@ -222,7 +222,7 @@ def _clutter(floor: float, wall: float, rng: np.random.Generator) -> list[Textur
 
 
 def _reflectance(picture: Picture) -> Array:
-    """(H, W) of the surfaces of a picture, in near infrared."""
+    """The reflectance (H, W) of a picture's surfaces in near infrared."""
     gray = np.clip(picture, 0, 255).astype(np.float64) @ BGR_TO_GRAY / 255
     return np.asarray(DARK_REFLECTANCE + REFLECTANCE_RANGE * gray)
 

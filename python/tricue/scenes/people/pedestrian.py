@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Dressed pedestrians; each point of the clothes keeps its place on the limb that it covers."""
+"""Dressed pedestrians; each point of their clothes stays at its place on the limb."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -15,7 +15,7 @@ from tricue.scenes.rendering.stereo_camera import TexturedEllipsoid
 from tricue.scenes.rendering.textures import Looks
 
 TROUSERS_TEXTURE, SHIRT_TEXTURE, SLEEVE_TEXTURE, LEG_TEXTURE, SKIN_TEXTURE, HEAD_TEXTURE = range(6)
-# The texture of each part of tricue.scenes.people.body, in its order, and then of a coat's parts.
+# The texture of each part, in the order of tricue.scenes.people.body, then of a coat's parts.
 PART_TEXTURES = [
     TROUSERS_TEXTURE,
     *[SHIRT_TEXTURE] * 3,
@@ -27,7 +27,7 @@ PART_TEXTURES = [
 TRUNK_TEXTURE_SHAPE, LIMB_TEXTURE_COLUMNS = (
     (192, 256),
     96,
-)  # texels: rows and columns, and columns of a limb's
+)  # texels: rows and columns of a trunk's texture, and columns of a limb's
 CLOTH_KINDS = (
     textures.PLAIN_SURFACE,
     textures.WOOD_SURFACE,
@@ -46,11 +46,11 @@ class Outfit(NamedTuple):
     """A person's looks: a texture pyramid for each kind of body part."""
 
     part_textures: list[list[Picture]]
-    coat: bool  # whether a coat down to the knees is worn
+    coat: bool  # whether the person wears a coat down to the knees
 
     @classmethod
     def sample(cls, contrast: float, coat: bool, rng: np.random.Generator) -> "Outfit":
-        """Random looks and clothes. contrast: the deviation of the clothes' logarithmic brightness."""
+        """Random looks and clothes. contrast: the standard deviation of the clothes' log brightness."""
         looks = Looks.sample(rng)
         shirt, trousers = (rng.uniform(0.35, 1.0) * textures.random_color(rng) + 40 for _ in range(2))
         upper, lower = (str(rng.choice(CLOTH_KINDS)) for _ in range(2))
@@ -82,7 +82,7 @@ class Pedestrian(NamedTuple):
     def stand(
         cls, person: Person, outfit: Outfit, place: Array, floor: float, facing: float, frames: int
     ) -> "Pedestrian":
-        """A person who stands at a place (2,). facing: heading, radians from z towards x."""
+        """A person who stands at a place (2,). facing: heading, radians from z toward x."""
         path = np.tile(place, (frames, 1))
         return cls._dress_path(person, outfit, path, floor, np.full(frames, facing), [BodyPose()] * frames)
 
@@ -114,7 +114,7 @@ class Pedestrian(NamedTuple):
         return self._replace(part_textures=part_textures)
 
     def ellipsoids(self, index: int, to_camera: Array, shift: Array | None = None) -> list[TexturedEllipsoid]:
-        """The textured ellipsoids of a frame, in the camera's frame; shift: (3,) meters, added there."""
+        """The textured ellipsoids of a frame, in the camera's frame. shift: (3,) meters, added there."""
         moved = np.zeros(3) if shift is None else shift
         centers, roots = self.parts[index].transformed(to_camera, moved)
         units = np.linalg.inv(roots)
@@ -129,7 +129,7 @@ def make_cloth(kind: str, color: Array, contrast: float, rng: np.random.Generato
 
 
 def _dress(body: OrientedEllipsoids, person: Person, outfit: Outfit) -> OrientedEllipsoids:
-    """The body, with the coat if one is worn."""
+    """The body, with a coat if the outfit has one."""
     if not outfit.coat:
         return body
     up, *half = np.array(COAT_PARTS).T * person.height

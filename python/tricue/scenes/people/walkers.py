@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""People before a depth camera, as in figures 5 to 7 of Sabeti, Parvizi and Wu (2008), section V."""
+"""People in front of a depth camera, as in figures 5 to 7 of Sabeti, Parvizi and Wu (2008), section V."""
 
 import math
 from typing import NamedTuple
@@ -21,9 +21,9 @@ from tricue.scenes.rendering.ellipsoids import Ellipsoids
 from tricue.scenes.scene import Bystander, DepthScene
 from tricue.scenes.seeds import make_generator
 
-MIN_WALKER_DISTANCE = {"tof": 2.4, "rgbd": 2.0}  # meters; a body fits into the image from there on
+MIN_WALKER_DISTANCE = {"tof": 2.4, "rgbd": 2.0}  # meters; from this distance on a body fits into the image
 MAX_WALKER_DISTANCE = 6.2  # meters; within the range of both sensors
-DEPTH_CHANGE_SPEED = 1.2  # meters per second of a hidden target
+DEPTH_CHANGE_SPEED = 1.2  # meters per second, of a hidden target
 MAX_DEPTH_CHANGE = 1.3  # meters
 MAX_HIDDEN_SHARE = 0.6  # of the duration of a sweep
 COVERING_DURATION = 0.4  # seconds until the target is covered, and uncovered again
@@ -34,8 +34,8 @@ def walker(
 ) -> DepthScene:
     """One person walks a loop through a room, and crouches, raises the arms and turns around on the way.
 
-    camera: "tof", 176x144 pixels at 15 frames per second, or "rgbd", 640x480 pixels at 30 frames per second.
-    missing: share of the pixels within range that have no depth, 0 to 1.
+    camera: "tof", 176x144 pixels at 15 frames per second, or "rgbd", 640x480 at 30. missing: share of the
+    pixels within range that have no depth, 0 to 1.
     noise: multiplies the sensor's noise; at 0 the time-of-flight depths are exact, the RGB-D ones quantized.
 
     The seed decides the person, the path, the gestures, the room, its furniture, the camera's height and
@@ -64,10 +64,10 @@ def crossing(
 ) -> DepthScene:
     """A nearer person crosses in front of the target and hides it for some frames halfway.
 
-    depth_change: meters, at most 1.3 either way, by which the target moves away (below 0: nearer) while it is
-    hidden, which then takes longer. In half of the seeds a third person passes behind. They turn around and
-    cross again every six seconds; one crossing takes at least about two seconds (30 frames "tof", 60 "rgbd").
-    The other arguments and errors are those of :func:`walker`.
+    depth_change: meters, at most 1.3 either way, by which the target moves away (if negative, nearer) while
+    it is hidden; it then stays hidden longer. With half of the seeds a third person passes behind. They turn
+    around and cross again every six seconds; one crossing takes at least about two seconds (30 frames "tof",
+    60 "rgbd"). The other arguments and errors are those of :func:`walker`.
     """
     _check(frames, camera, missing, noise)
     rng = make_generator(seed)
@@ -76,13 +76,13 @@ def crossing(
     time = walks.compute_sweep_times(frames, rate)
     _check_depth_change(depth_change, float(np.ptp(time)))
     target = Person.sample(rng)
-    # A nearer person who is at least as tall hides the head too, for the camera is below it.
+    # A nearer person who is at least as tall hides the head too, because the camera is below it.
     people = [target, Person.sample(rng, shortest=target.height)]
     paths = [*_crossing_paths(stage, time, depth_change, rng)]
     if rng.random() < 0.5:
         people.append(Person.sample(rng))
         paths.append(_path_behind(stage, time, paths[0], rng))
-    # The person in front turns to the camera, so as to be broad enough to hide the target.
+    # The person in front faces the camera, to be broad enough to hide the target.
     looks = [None, np.abs(time) < _hidden_duration(depth_change, time) / 2, None]
     actors = [
         _Actor(
@@ -133,7 +133,7 @@ class _PersonTruth(NamedTuple):
 
 
 def _sample_stage(camera: str, rng: np.random.Generator) -> _DepthStage:
-    """A random room, and a camera that looks down slightly and sees a whole body at the least distance."""
+    """A random room, and a camera that looks slightly down and sees a whole body at the smallest distance."""
     sensor, near = DEPTH_SENSORS[camera], MIN_WALKER_DISTANCE[camera]
     height, wall, side = rng.uniform([1.0, 6.8, 3.1], [1.6, 10.0, 4.2]).tolist()
     # The mean of the angles to the floor and to a head at 1.75 m.
@@ -229,7 +229,7 @@ def _check(frames: int, camera: str, missing: float, noise: float) -> None:
 
 
 def _check_depth_change(meters: float, span: float) -> None:
-    """Raise ValueError where the target can't walk that far while hidden, in a sweep of ``span`` seconds."""
+    """Raise ValueError if the target can't walk that far while hidden, in a sweep of ``span`` seconds."""
     most = min(MAX_DEPTH_CHANGE, max(MAX_HIDDEN_SHARE * span - COVERING_DURATION, 0.0) * DEPTH_CHANGE_SPEED)
     if abs(finite(meters, "depth_change", "meters")) > most:
         raise ValueError(f"depth_change: expected at most {most:.2f} m in {span:.1f} s, got {meters!r}")

@@ -30,7 +30,7 @@ class WalkableArea(NamedTuple):
     side: float  # meters to each side at most
 
     def reach(self, z: Array) -> Array:
-        """How far to each side a walker at depth z may go and stay visible and clear of the walls, meters."""
+        """How far to each side a walker at depth z stays visible and clear of the walls, meters."""
         return np.minimum(self.slope * z, self.side) - BODY_CLEARANCE
 
 
@@ -62,9 +62,9 @@ def sample_gestures(frames: int, rate: float, rng: np.random.Generator) -> Gestu
 
 
 def sample_loop(floor: WalkableArea, crouch: Array, rate: float, rng: np.random.Generator) -> Array:
-    """A random closed path (M, 2), of such a size that it is walked about once.
+    """A random closed path (M, 2), sized so that it is walked about once.
 
-    crouch: (M,) 0 to 1; a crouching person walks slower. The speed varies within MIN_WALKING_SPEED and
+    crouch: (M,) 0 to 1; a crouching person walks more slowly. The speed varies between MIN_WALKING_SPEED and
     MAX_WALKING_SPEED.
     """
     frames = len(crouch)
@@ -103,7 +103,7 @@ def _lengths(curve: Array) -> Array:
 def compute_sweep_times(frames: int, rate: float) -> Array:
     """The time (M,) within a sweep, from -SWEEP_DURATION / 2 to SWEEP_DURATION / 2 seconds and back.
 
-    It is 0 halfway. With fewer frames than a sweep takes, half of them are before 0.
+    It is 0 halfway through a sweep. With fewer frames than a sweep takes, half of them are before 0.
     """
     half = min(SWEEP_DURATION, (frames - 1) / rate) / 2
     time = np.arange(frames) / rate
@@ -114,12 +114,12 @@ def compute_sweep_times(frames: int, rate: float) -> Array:
 
 
 def slow_down_time(time: Array, seconds: float, rest: float) -> Array:
-    """Time (M,) that passes at the rate ``rest`` during ``seconds`` around 0, and at 1 elsewhere."""
+    """Time (M,) that passes at the rate ``rest`` during ``seconds`` around 0, and at rate 1 elsewhere."""
     return time - (1 - rest) * np.clip(time, -seconds / 2, seconds / 2)
 
 
 def compute_headings(path: Array, rate: float, looks: NDArray[np.bool_] | None = None) -> Array:
-    """The headings (M,) along a path (M, 2), radians from z towards x, turning at most by MAX_TURN_RATE.
+    """The headings (M,) along a path (M, 2), radians from z toward x, with a turn rate up to MAX_TURN_RATE.
 
     looks: (M,) whether the walker faces the camera instead.
     """
@@ -138,7 +138,7 @@ def compute_headings(path: Array, rate: float, looks: NDArray[np.bool_] | None =
 def compute_poses(
     person: Person, path: Array, rate: float, gestures: Gestures | None = None
 ) -> list[BodyPose]:
-    """The pose at each point of a path; the legs swing by the speed, two steps take 0.8 body heights."""
+    """The pose at each point of a path; the legs swing with the speed, two steps span 0.8 body heights."""
     steps = np.hypot(*np.diff(path, axis=0, prepend=path[:1]).T)
     if len(steps) > 1:
         steps[0] = steps[1]

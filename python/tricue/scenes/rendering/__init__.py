@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""What scenes share: cameras, z-buffers, surfaces, textures, photographs."""
+"""Rendering that scenes share: cameras, z-buffers, surfaces, textures, photographs."""

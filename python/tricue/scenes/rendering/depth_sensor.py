@@ -12,7 +12,7 @@ from tricue.camera.rig import Intrinsics
 from tricue.scenes.arrays import Array, Mask
 
 MIN_EDGE_STEP = 0.1  # between the depths of neighbors at a depth edge, as a share of the smaller one
-FLYING_PIXEL_SHARE = 0.5  # of the pixels at edges (one on each side) of a time-of-flight camera
+FLYING_PIXEL_SHARE = 0.5  # of a time-of-flight camera's pixels at edges (one on each side)
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +27,7 @@ class DepthSensor:
 
     intrinsics: Intrinsics
     rate: float  # frames per second
-    near: float  # meters; depths outside of near to far are missing
+    near: float  # meters; depths outside near to far are missing
     far: float
     base_noise: float  # meters
     noise_growth: float  # per meter

@@ -18,7 +18,7 @@ from tricue.scenes.rendering.ellipsoids import Ellipsoids
 
 
 class DepthWindow(NamedTuple):
-    """A z-buffer (h, w) of a part of the image that begins at (left, top); infinite where nothing is.
+    """A z-buffer (h, w) of the part of the image that begins at (left, top); infinite where it is empty.
 
     It may reach beyond the image.
     """
@@ -28,7 +28,7 @@ class DepthWindow(NamedTuple):
     depth: Array
 
     def inside(self, width: int, height: int) -> tuple[tuple[slice, slice], Array]:
-        """The part inside an image of this size: its slices of rows and columns there, and its depths."""
+        """The part inside an image of this size: its slices of the image's rows and columns, and its depths."""
         rows, columns = self.depth.shape
         left, right = max(self.left, 0), max(min(self.left + columns, width), 0)
         top, bottom = max(self.top, 0), max(min(self.top + rows, height), 0)
@@ -136,7 +136,7 @@ class MountedCamera(NamedTuple):
 
 
 def _fold(smaller_or_larger: np.ufunc, values: Array) -> Array:
-    """The smallest or the largest of each three (h, w, 3); NumPy's own reduction of so few is slow."""
+    """The smallest or largest of each three values (h, w, 3); NumPy is slow at reducing so few."""
     x, y, z = np.moveaxis(values, -1, 0)
     return np.asarray(smaller_or_larger(smaller_or_larger(x, y), z))
 

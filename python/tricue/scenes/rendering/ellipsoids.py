@@ -20,7 +20,7 @@ class Ellipsoids(NamedTuple):
 class OrientedEllipsoids(NamedTuple):
     """Ellipsoids as images of the unit ball: q goes to root @ q + center, and S = root root^T.
 
-    A point q of the ball stays the same point of the body while it moves, which shapes alone don't tell.
+    A point q of the ball is the same point of the body while it moves, which shapes alone don't determine.
     """
 
     centers: Array  # (n, 3), meters
@@ -28,7 +28,7 @@ class OrientedEllipsoids(NamedTuple):
 
     @property
     def ellipsoids(self) -> Ellipsoids:
-        """The same ellipsoids by their shapes."""
+        """The same ellipsoids, described by their shapes."""
         return Ellipsoids(self.centers, self.roots @ self.roots.transpose(0, 2, 1))
 
     def transformed(self, rotation: Array, offset: Array) -> "OrientedEllipsoids":

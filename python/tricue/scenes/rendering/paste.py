@@ -30,7 +30,7 @@ def paste(picture: Picture, cutout: Picture, opacity: Picture, x: float, y: floa
 def expose(picture: Picture, noise: float, rng: np.random.Generator | None) -> NDArray[np.uint8]:
     """The 8-bit image of a sensor with Gaussian noise, clipped to 0 to 255. noise: deviation in levels.
 
-    Without a generator there is no noise. ValueError for a deviation that is none.
+    Without a generator there is no noise. ValueError for an invalid deviation.
     """
     if finite(noise, "noise", "levels of 255") < 0:
         raise ValueError(f"noise: expected levels of 255, 0 or more, got {noise!r}")

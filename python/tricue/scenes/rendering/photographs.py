@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Photographs for scenes: those inside the scikit-image wheel, so that nothing is downloaded."""
+"""Photographs for scenes, from the scikit-image wheel, so that nothing is downloaded."""
 
 from collections.abc import Callable
 from functools import cache
@@ -22,9 +22,9 @@ ASTRONAUT_HEAD = Box(152, 12, 152, 176)
 
 
 def load_photograph(name: str) -> Image:
-    """One of scikit-image's photographs as BGR (H, W, 3), read-only, for each is decoded once.
+    """One of scikit-image's photographs as BGR (H, W, 3), read-only because it is cached.
 
-    ImportError, which names the extra, without scikit-image.
+    Without scikit-image, ImportError names the extra to install.
     """
     try:
         import skimage  # noqa: F401

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Textured upright rectangles: walls, boards and posters in rooms before a stereo pair."""
+"""Textured upright rectangles: walls, boards and posters in rooms in front of a stereo pair."""
 
 import numpy as np
 from numpy.typing import NDArray

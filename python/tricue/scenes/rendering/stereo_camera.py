@@ -20,7 +20,7 @@ from tricue.scenes.rendering.paste import expose
 from tricue.scenes.rendering.textures import sample_texture
 
 RAYS_PER_PIXEL = {"160x120": 3, "640x480": 2}  # by image size; along each axis
-BLUR_DEVIATION = 0.5  # pixels, the sigma of the blur of lens and sensor, beside that of averaging
+BLUR_DEVIATION = 0.5  # pixels, sigma of the blur of lens and sensor, in addition to averaging
 MIN_RAY_DEPTH = 0.05  # meters
 
 
@@ -37,14 +37,14 @@ class TexturedEllipsoid(NamedTuple):
     """A textured ellipsoid: the points p with |unit (p - center)| <= 1."""
 
     center: Array  # (3,)
-    unit: Array  # (3, 3), to the unit sphere; the texture has -y in its top row, z in its middle column
+    unit: Array  # (3, 3), to the unit sphere; the texture's top row is at -y, its middle column at z
     texture: Sequence[Picture]  # a pyramid; columns are longitude, rows latitude
 
 
 class Lamp(NamedTuple):
-    """Directional and ambient light; a surface that faces the lamp is as bright as its texture."""
+    """Directional and ambient light; a surface facing the lamp has its texture's brightness."""
 
-    direction: Array  # (3,) unit vector towards the lamp
+    direction: Array  # (3,) unit vector toward the lamp
     ambient: float  # share of ambient light, 0 to 1
 
 
@@ -66,7 +66,7 @@ class RayImage(NamedTuple):
 
 
 class DrawnEllipsoid(NamedTuple):
-    """The part of the image in which an ellipsoid was drawn, and its depths, infinite where rays miss."""
+    """The part of the image in which an ellipsoid was drawn, and its depths; infinite where rays miss it."""
 
     place: tuple[slice, slice]
     depth: Picture
@@ -99,7 +99,7 @@ class RayCamera(NamedTuple):
         x, y = self._rays(*place)
         normal = np.cross(rectangle.along, rectangle.down)
         from_camera = rectangle.corner - [self.offset, 0, 0]
-        # Of upright rectangles and floors, z and most of u and v vary along one axis: (1, w) or (h, 1).
+        # For upright rectangles and floors, z and most of u and v vary along one axis only: (1, w) or (h, 1).
         with np.errstate(divide="ignore", invalid="ignore"):
             z = np.float32(normal @ from_camera) / _along_rays(normal, x, y).astype(np.float32)
             u, v = (
@@ -141,7 +141,7 @@ class RayCamera(NamedTuple):
             np.float32(row[0]) * x + (np.float32(row[1]) * y + np.float32(row[2])) for row in ellipsoid.unit
         ]
         depth = _first_hit(rays, to_center)
-        seen = depth < canvas.depth[place]  # never where the ray misses: nothing is beyond infinity
+        seen = depth < canvas.depth[place]  # False where the ray misses: nothing is beyond infinity
         if seen.any():
             safe = np.where(seen, depth, np.float32(0))
             q = [safe * ray - np.float32(at) for ray, at in zip(rays, to_center, strict=True)]
@@ -159,12 +159,12 @@ class RayCamera(NamedTuple):
         u, v = longitude * np.float32(0.5 / np.pi) + np.float32(0.5), latitude / np.float32(np.pi)
         girth = (
             2 * math.pi / float(np.linalg.norm(ellipsoid.unit[0]))
-        )  # meters around the equator, approximately
+        )  # circumference at the equator, meters, approximately
         texels = ellipsoid.texture[0].shape[1] / girth * float(ellipsoid.center[2]) / self.intrinsics.fx
         return sample_texture(ellipsoid.texture, u, v + np.float32(0.5), texels)
 
     def _place(self, rectangle: TexturedRectangle) -> tuple[slice, slice]:
-        """The rows and columns of rays that may hit a rectangle; empty where none can."""
+        """The rows and columns of rays that may hit a rectangle; empty if none can."""
         camera = self.intrinsics
         sides = np.array([[0, 0], [1, 0], [0, 1], [1, 1]]) @ np.stack([rectangle.along, rectangle.down])
         corners = rectangle.corner - [self.offset, 0, 0] + sides
@@ -183,7 +183,7 @@ class RayCamera(NamedTuple):
         return slice(top, bottom), slice(left, right)
 
     def _places(self, ellipsoids: Sequence[TexturedEllipsoid]) -> list[tuple[slice, slice] | None]:
-        """The rows and columns of rays that may hit each ellipsoid; None where none can.
+        """The rows and columns of rays that may hit each ellipsoid; None if none can.
 
         The boxes are those of :meth:`tricue.scenes.rendering.depth_view.MountedCamera.ellipsoid_boxes`.
         """
@@ -224,7 +224,7 @@ def _all_rays(camera: Intrinsics) -> tuple[Picture, Picture]:
 
 
 def _along_rays(vector: Array, x: Picture, y: Picture) -> Array:
-    """A vector (3,) times the rays (x, y, 1): (h, w), with 1 for an axis along which it is constant."""
+    """The dot products (h, w) of a vector (3,) and rays (x, y, 1); 1 long on an axis without variation."""
     parts = [share * axis for share, axis in zip(vector, (x, y), strict=False) if share]
     return np.asarray(sum(parts) + vector[2])
 
@@ -233,7 +233,7 @@ def _first_hit(rays: Sequence[Picture], to_center: Array) -> Picture:
     """The depth z at which rays r enter the unit sphere around c; infinite where they miss it.
 
     It is the smaller root of a z^2 - 2 b z + k = 0 with a = |r|^2, b = r . c, k = |c|^2 - 1. The discriminant
-    is computed as a - |r x c|^2, for b^2 - a k would cancel in single precision.
+    is computed as a - |r x c|^2, because b^2 - a k would lose precision to cancellation.
     """
     (r0, r1, r2), (c0, c1, c2) = rays, (np.float32(value) for value in to_center)
     a = r0 * r0 + r1 * r1 + r2 * r2
@@ -261,6 +261,6 @@ def _shade(q: Sequence[Picture], unit: Array, lamp: Lamp) -> Picture:
 def expose_lit(
     image: Picture, gain: NDArray[np.float64], noise: float, rng: np.random.Generator | None
 ) -> NDArray[np.uint8]:
-    """The 8-bit image of a picture (H, W, 3) under light of a gain (3,) per channel, with noise, clipped."""
+    """The 8-bit image of a picture (H, W, 3) under light with gains (3,), with noise, clipped."""
     lit = image if (gain == 1).all() else np.asarray(image * gain, np.float32)
     return expose(lit, noise, rng)

@@ -59,10 +59,11 @@ def make_noise(
 ) -> Picture:
     """Periodic noise (height, width) of mean 0 and deviation 1.
 
-    Its amplitude falls as 1 / frequency^slope. stretch: factors by which structures are longer along v and u.
+    Its amplitude falls as 1 / frequency^slope. stretch: factors by which structures are stretched along v and
+    u.
     """
     spectrum = np.ascontiguousarray(np.fft.rfft2(rng.standard_normal((height, width))))
-    parts = spectrum.view(np.float64)  # a product of complex numbers would take three times as long
+    parts = spectrum.view(np.float64)  # multiplying complex numbers would take three times as long
     parts *= _amplitudes(height, width, slope, stretch)
     values = np.fft.irfft2(spectrum, s=(height, width))
     values /= values.std()
@@ -71,7 +72,9 @@ def make_noise(
 
 @lru_cache(maxsize=32)
 def _amplitudes(height: int, width: int, slope: float, stretch: tuple[float, float]) -> NDArray[np.float64]:
-    """1 / frequency^slope, 0 at 0, of both parts of each coefficient: (height, 2 (width // 2 + 1))."""
+    """1 / frequency^slope, 0 at frequency 0, for both parts of each coefficient: (height, 2 (width // 2 +
+    1)).
+    """
     v = np.fft.fftfreq(height)[:, None] * stretch[0]
     u = np.fft.rfftfreq(width)[None, :] * stretch[1]
     frequency = np.hypot(v, u)
@@ -134,7 +137,7 @@ def _paint_face(
             (looks.skin * [0.85, 0.88, 1.04], side * 34, 20, 12, 9, 0.6),
             (darker, side * 7, 17, 3.5, 9, 0.5),  # beside the nose
             (darker, side * 4, 22, 2.5, 1.8, 0.8),  # nostrils
-            (darker, side * 91, 8, 3, 13, 0.7),  # the ear's rim
+            (darker, side * 91, 8, 3, 13, 0.7),  # the rim of the ear
         ]
         for color, lon, lat, half_width, half_height, opacity in spots:
             spot = _spot(longitude, latitude, lon, lat, half_width, half_height)
@@ -159,7 +162,7 @@ def _blend(picture: Picture, color: NDArray[np.float64], opacity: Picture) -> Pi
 def make_surface(
     kind: str, shape: tuple[int, int], color: NDArray[np.float64], rng: np.random.Generator
 ) -> Picture:
-    """A surface (*shape, 3) of a mean color (3,). kind: one of SURFACE_KINDS."""
+    """A surface (*shape, 3) with a mean color (3,). kind: one of SURFACE_KINDS."""
     uneven = make_noise(*shape, 1.0, rng)
     if kind == WOOD_SURFACE:
         uneven = 0.4 * uneven + make_noise(*shape, 1.0, rng, stretch=(1.0, 12.0))
@@ -200,7 +203,7 @@ def _add_clutter(picture: Picture, rng: np.random.Generator) -> None:
 
 
 def random_color(rng: np.random.Generator) -> NDArray[np.float64]:
-    """A random BGR color (3,) as of indoor things: seldom vivid, and in half of the cases of a warm hue."""
+    """A random BGR color (3,) like those of indoor things: seldom vivid, half of the time warm."""
     warm = rng.random() < 0.5
     hue = rng.normal(0.55, 0.25) if warm else rng.uniform(0, 2 * np.pi)  # radians; 0 is red, 1 is yellow
     vivid, level = rng.beta(1.5, 3.5), 220 * rng.beta(2.0, 2.0) + 20
@@ -220,7 +223,7 @@ def build_pyramid(texture: Picture, smallest: int = 4) -> list[Picture]:
 def select_level(levels: Sequence[Picture], texels: float) -> list[Picture]:
     """The one level for samples that span ``texels`` texels of the finest level, as a pyramid of one level.
 
-    Sampling from it keeps the level while the distance changes; a change would show between two frames.
+    Sampling from it keeps the level fixed while the distance changes; a switch would be visible.
     """
     return [levels[min(max(round(math.log2(max(texels, 1.0))), 0), len(levels) - 1)]]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Z-buffers (H, W) in meters, merged from the windows of single people, and which pixels are visible."""
+"""Z-buffers (H, W) in meters, merged from the windows of single people, and the visible pixels."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Rooms: targets that stand, lean, walk and are held, before cameras with the faults of real ones."""
+"""Rooms: targets that stand, lean, walk and are held, in front of cameras with the faults of real ones."""

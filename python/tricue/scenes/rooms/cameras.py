@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where the camera of a room is in each frame: on a stand, or held by a hand."""
+"""The camera's pose in each frame of a room: on a stand, or handheld."""
 
 import math
 from typing import NamedTuple
@@ -11,7 +11,7 @@ from tricue.scenes.motion import sample_sway
 from tricue.scenes.rooms.solids import Pose
 
 DOWN = np.array([0.0, 1, 0])
-TREMBLE = 0.004  # radians, of a camera held by a hand
+TREMBLE = 0.004  # radians, of a handheld camera
 
 
 class Viewpoint(NamedTuple):
@@ -23,7 +23,7 @@ class Viewpoint(NamedTuple):
     pitch: float
 
     def pose(self) -> Pose:
-        """The pose that brings the world into the camera's frame."""
+        """The pose that transforms the world into the camera's frame."""
         level = self.distance * math.cos(self.pitch)
         away = np.array([level * math.sin(self.azimuth), self.distance * math.sin(self.pitch), 0])
         away[2] = level * math.cos(self.azimuth)
@@ -40,7 +40,7 @@ def stand(view: Viewpoint, frames: int) -> list[Pose]:
 
 
 def hold(view: Viewpoint, frames: int, rate: float, rng: np.random.Generator) -> list[Pose]:
-    """The poses of a camera that a hand moves about, nearer and farther, and around."""
+    """The poses of a handheld camera, which moves about, nearer and farther, and around."""
     time = np.arange(frames) / rate
     around, up, near, *aside = (sample_sway(time, 2.0, 6.0, rng) for _ in range(6))
     reach = rng.uniform([0.1, 0.03, 0.1], [0.4, 0.12, 0.3])

@@ -15,8 +15,8 @@ MIN_CLEARANCE = 0.04  # meters between things on a table
 
 
 def make_shell(floor: float, back: float, front: float, rng: np.random.Generator) -> list[Thing]:
-    """A floor at y = ``floor`` and walls behind, left and right, from z = ``front`` to ``back``, as boxes,
-    and windows or screens.
+    """A floor at y = ``floor``, and walls behind, left and right, from z = ``front`` to ``back``, as boxes,
+    with windows or screens.
     """
     deep, thick = back - front, 0.1
     middle = (front + back) / 2
@@ -41,7 +41,7 @@ def _make_panel(floor: float, back: float, rng: np.random.Generator) -> Thing:
 
 
 def make_table(width: float, depth: float, rng: np.random.Generator) -> list[Thing]:
-    """A table whose top is y = 0, its middle the origin: a plate and four legs."""
+    """A table, a plate and four legs, whose top is at y = 0 with its center at the origin."""
     plate = np.array([width, TABLE_THICKNESS, depth])
     top = make_box(plate, [looks.furniture_cover(256, 384, rng)]).placed(
         Pose.at(np.array([0, TABLE_THICKNESS, 0]))
@@ -57,7 +57,8 @@ def make_table(width: float, depth: float, rng: np.random.Generator) -> list[Thi
 def scatter_things(count: int, free: Array, area: Array, lamp: Lamp, rng: np.random.Generator) -> list[Thing]:
     """Things on the plane y = 0: boxes, cans, figures, flat papers and thin rods.
 
-    free: (n, 3) x, z and radius, meters, of the places that stay free. area: half its width and depth (2,).
+    free: (n, 3) x, z and radius, meters, of the places that stay free. area: half the width and depth (2,) of
+    the area, meters.
     """
     made: list[Thing] = []
     taken = free
@@ -78,7 +79,7 @@ def scatter_things(count: int, free: Array, area: Array, lamp: Lamp, rng: np.ran
 def _make_clutter(lamp: Lamp, rng: np.random.Generator) -> Thing:
     """A thing to stand beside the target."""
     kind = rng.random()
-    if kind < 0.25:  # a paper or a magazine
+    if kind < 0.25:  # paper or a magazine
         size = np.array([rng.uniform(0.12, 0.3), rng.uniform(0.002, 0.012), rng.uniform(0.15, 0.3)])
         return Thing(_printed(size, rng), size)
     if kind < 0.4:  # a rod: a lamp's foot, a bottle's neck

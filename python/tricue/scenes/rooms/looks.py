@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How things in rooms look: printed packages, plain and patterned surfaces."""
+"""The looks of things in rooms: printed packages, plain and patterned surfaces."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from tricue.scenes.rendering.photographs import load_photograph
 PRINTS = ("astronaut", "coffee", "cat", "motorcycle", "immunohistochemistry", "rocket")
 PRINT_TEXELS = 128  # of a print's longer side
 TILED_SHARE, TEXTURELESS_SHARE = 0.2, 0.4  # of walls, floors and tables
-FAINT_CONTRAST = 0.1  # of what has no texture, against what has
+FAINT_CONTRAST = 0.1  # of textureless surfaces, relative to textured ones
 FURNITURE_KINDS = (textures.PLAIN_SURFACE, textures.PLAIN_SURFACE, textures.WOOD_SURFACE)
 THING_KINDS = (
     textures.PLAIN_SURFACE,
@@ -22,7 +22,7 @@ THING_KINDS = (
 
 
 def print_picture(aspect: float, rng: np.random.Generator) -> Picture:
-    """A random part of a photograph, of this width to height, as printed on a package."""
+    """A random part of a photograph with this ratio of width to height, as printed on a package."""
     picture = load_photograph(PRINTS[rng.integers(len(PRINTS))])
     largest = min(picture.shape[0], picture.shape[1] / aspect)
     height = largest * rng.uniform(0.35, 0.9)
@@ -34,13 +34,13 @@ def print_picture(aspect: float, rng: np.random.Generator) -> Picture:
 
 
 def cover(kinds: tuple[str, ...], rows: int, columns: int, rng: np.random.Generator) -> Picture:
-    """A surface of one of these kinds, seldom dark or vivid."""
+    """A surface of a random one of these kinds, seldom dark or vivid."""
     color = textures.random_color(rng)
     return textures.make_surface(kinds[rng.integers(len(kinds))], (rows, columns), color, rng)
 
 
 def furniture_cover(rows: int, columns: int, rng: np.random.Generator) -> Picture:
-    """The surface of a wall, a floor or a table: plain or wood; one of five is tiled, two have no texture."""
+    """The surface of a wall, a floor or a table: plain or wood; a fifth is tiled, two fifths are textureless."""
     draw = rng.random()
     if draw < TILED_SHARE:
         return tiles(rows, columns, rng)
@@ -52,7 +52,7 @@ def furniture_cover(rows: int, columns: int, rng: np.random.Generator) -> Pictur
 
 
 def tiles(rows: int, columns: int, rng: np.random.Generator) -> Picture:
-    """A pattern that repeats itself all over: squares in two colors, or lines between equal ones."""
+    """A repeating pattern: squares in two colors, or lines between equal squares."""
     pitch = int(rng.integers(max(columns // 40, 6), max(columns // 12, 8)))
     v, u = np.indices((rows, columns)) // pitch
     colors = [0.6 * textures.random_color(rng) + 60 for _ in range(2)]

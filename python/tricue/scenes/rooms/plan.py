@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What happens in a room: the target's place in each frame, whose hand is on it, and what passes."""
+"""What happens in a room: the target's pose in each frame, the hand that moves it, and what passes."""
 
 import math
 from collections.abc import Callable
@@ -21,12 +21,12 @@ from tricue.scenes.rooms.solids import Pose, Solid
 from tricue.scenes.rooms.things import TARGET_SHAPES, Thing, make_hand, make_thing
 
 DURATIONS = {4.0: 10.0, 15.0: 5.0, 30.0: 3.0}  # seconds, by frames per second
-MIN_SHARE, MAX_SHARE = 0.12, 0.36  # of the image's height that a target on a table takes
+MIN_SHARE, MAX_SHARE = 0.12, 0.36  # of the image's height that a target on a table covers
 MIN_DISTANCE, MAX_DISTANCE = 0.5, 2.0  # meters to a target on a table
-CLUTTER = 5, 12  # how many things are on a table
+CLUTTER = 5, 12  # least and most things on a table
 MIN_SLEEVE = 0.5  # meters
 ROOM_SIDE = 2.6  # meters to each side that people walk
-GRIP_SHARE = 0.5  # of a thing's height, where a hand holds it
+GRIP_SHARE = 0.5  # of a thing's height, at which a hand holds it
 
 
 @dataclass
@@ -38,11 +38,11 @@ class RoomPlan:
     cameras: list[Pose]
     still: list[Thing]
     target: list[Solid]
-    shiny: bool  # whether the target is
+    shiny: bool  # whether the target is shiny
     movers: list[list[Solid]] = field(default_factory=list)
-    """Of each other moving thing, by frame."""
+    """The other moving things, each in every frame."""
     spans: dict[str, range] = field(default_factory=dict)
-    """Frames of events by name, as in a stress scene."""
+    """The frames of events, by name, as in a stress scene."""
 
     def __len__(self) -> int:
         return len(self.cameras)
@@ -50,16 +50,16 @@ class RoomPlan:
 
 @dataclass
 class _Table:
-    """A set table: the target's place on it, the view of it, and all that stands still."""
+    """A laid table: the target's place on it, the view of it, and everything that stands still."""
 
     rng: np.random.Generator
     rate: float
     lamp: Lamp
     thing: Thing
-    place: Array  # (3,) of the target's foot
+    place: Array  # (3,) of the target's base
     view: Viewpoint
     still: list[Thing]
-    half_view: float  # meters, half the width that is seen at the target's distance
+    half_view: float  # meters, half the visible width at the target's distance
 
     @property
     def frames(self) -> int:
@@ -79,10 +79,10 @@ class _Table:
         return path
 
     def hand(self, thing: Thing) -> Solid:
-        """A hand on a thing that stands on y = 0 about the origin."""
+        """A hand on a thing that stands on y = 0 at the origin."""
         side = self.rng.choice([-1, 1])
         forearm = np.array([side, self.rng.uniform(-0.4, 0.1), self.rng.uniform(-0.2, 0.7)])
-        length = max(MIN_SLEEVE, 3 * self.half_view)  # it ends beyond the image
+        length = max(MIN_SLEEVE, 3 * self.half_view)  # it ends outside the image
         hand = make_hand(forearm / np.linalg.norm(forearm), thing.size, length, self.rng)
         return hand.placed(Pose.at(np.array([0, -GRIP_SHARE * thing.size[1], 0])))
 
@@ -95,7 +95,7 @@ def plan_room(kind: str, camera: Intrinsics, rng: np.random.Generator) -> RoomPl
 def _set_table(
     camera: Intrinsics, rng: np.random.Generator, *, free: float = 0.0, against_wall: bool = False
 ) -> _Table:
-    """A random table. free: meters about the target's place without other things."""
+    """A random table. free: radius in meters around the target's place that stays free of other things."""
     direction = rng.uniform([-0.8, -1.0, -0.8], [0.8, -0.6, 0.0])
     lamp = Lamp(direction / np.linalg.norm(direction), rng.uniform(0.5, 0.7))
     shape = TARGET_SHAPES[rng.integers(len(TARGET_SHAPES))]
@@ -127,7 +127,7 @@ def _set_table(
 
 
 def stand_on_table(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
-    """The target stands on a table; the camera is moved by hand."""
+    """The target stands on a table; the camera is handheld."""
     made = _set_table(camera, rng)
     pose = Pose.at(made.place, yaw=rng.uniform(-0.6, 0.6))
     target = [made.thing.solid.placed(pose)] * made.frames
@@ -135,7 +135,7 @@ def stand_on_table(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
 
 
 def lean_on_wall(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
-    """A flat target leans on the wall behind a table; the camera is moved by hand."""
+    """A flat target leans on the wall behind a table; the camera is handheld."""
     made = _set_table(camera, rng, against_wall=True)
     flat = np.diag([1.0, 1.0, min(0.02 / made.thing.size[2], 1.0)])
     tilt = -rng.uniform(0.08, 0.3)
@@ -153,7 +153,7 @@ def lean_on_wall(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
 
 
 def push_over_table(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
-    """A hand pushes the target over a table."""
+    """A hand pushes the target across a table."""
     made = _set_table(camera, rng, free=0.12)
     reach = min(0.5 * made.half_view, 0.35), min(0.3 * made.half_view, 0.2)
     path = made.path(reach, rng.uniform(0.3, 0.9))
@@ -166,7 +166,7 @@ def push_over_table(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
 
 
 def hold_in_hand(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
-    """A hand holds the target and moves and turns it above a table; the camera stands or is held."""
+    """A hand holds the target and moves and turns it above a table; the camera is static or handheld."""
     made = _set_table(camera, rng)
     path = made.path((0.5 * made.half_view, 0.3 * made.half_view), rng.uniform(0.4, 1.2))
     path[:, 1] -= 0.05 + 0.3 * made.half_view * (0.5 + 0.5 * sample_sway(made.time, 1.5, 4.0, rng))
@@ -187,13 +187,13 @@ def hold_in_hand(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
 
 
 def pass_before(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
-    """A hand pushes another thing, as far away as the target, past the target's front; the camera stands."""
+    """A hand pushes another thing, as far away as the target, past its front; the camera is static."""
     made = _set_table(camera, rng, free=0.1)
     shape = TARGET_SHAPES[rng.integers(len(TARGET_SHAPES))]
     side = float(np.sqrt(made.thing.size[0] * made.thing.size[1])) * rng.uniform(0.6, 1.1)
     other = make_thing(shape, side, made.lamp, rng)
     gap = (made.thing.size[2] + other.size[2]) / 2 + rng.uniform(0.02, 0.06)
-    toward = made.place - [0, 0, gap]  # as far before the target as both are deep
+    toward = made.place - [0, 0, gap]  # far enough in front of the target for the depths of both
     far = made.half_view + other.size[0]
     start = rng.uniform(0.1, 0.25) * made.time[-1]
     stop = start + rng.uniform(0.35, 0.6) * made.time[-1]
@@ -211,7 +211,7 @@ def pass_before(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
 
 
 def return_elsewhere(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
-    """A hand carries the target out of the image, and puts it down at another place; the camera stands."""
+    """A hand carries the target out of the image and puts it down elsewhere; the camera is static."""
     made = _set_table(camera, rng, free=0.1)
     last = made.time[-1]
     out = rng.uniform(0.15, 0.25) * last
@@ -229,7 +229,7 @@ def return_elsewhere(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
     )
     path = made.place + np.column_stack([x, -lifted, z])
     poses = [Pose.at(at) for at in path]
-    # The hand comes from beside, and goes when the target stands.
+    # The hand comes from the side, and leaves when the target stands.
     away = np.interp(made.time, [out - 0.3, out - 0.1, back + 0.25 * last, back + 0.4 * last], [1, 0, 0, 1])
     hand = made.hand(made.thing)
     plan = made.plan(cameras.stand(made.view, made.frames), [made.thing.solid.placed(pose) for pose in poses])
@@ -245,7 +245,7 @@ def return_elsewhere(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
 
 
 def walk_on_floor(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
-    """A person walks on the floor among others, at few frames per second; the camera stands."""
+    """A person walks on the floor among others, at few frames per second; the camera is static."""
     rate = float(rng.choice([4, 4, 15]))
     frames = round(rate * DURATIONS[rate])
     direction = rng.uniform([-0.8, -1.0, -0.8], [0.8, -0.6, 0.0])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Rooms: scenes whose targets, surrounds and sensors are as recordings have them, with exact truth."""
+"""Rooms: scenes whose targets, surroundings and sensor faults resemble recordings, with exact truth."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -56,14 +56,14 @@ class RoomScene:
     masks: tuple[Mask, ...]
     """(H, W) each: the target's visible pixels."""
     spans: dict[str, range]
-    """The frames of events by name; of "returning" those of "leaving"."""
+    """The frames of events by name; in "returning" those of "leaving"."""
     intrinsics: Intrinsics
     rig: StereoRig | None
     """The stereo rig; None in scenes without a right image."""
     depth_faults: DepthFaults
     stereo_faults: StereoFaults
     lookalikes: tuple[Array, ...] = ()
-    """None; as in a stress scene."""
+    """Empty; as in a stress scene."""
 
 
 def room_scene(
@@ -77,7 +77,7 @@ def room_scene(
     depth_faults: DepthFaults | None = None,
     stereo_faults: StereoFaults | None = None,
 ) -> RoomScene:
-    """A target in a room, before cameras with the faults of real ones.
+    """A target in a room, recorded by cameras with the faults of real ones.
 
     kind: one of ROOM_KINDS;
         "table": it stands on a table among other things; the camera is moved by hand;
@@ -90,10 +90,10 @@ def room_scene(
     size: width and height, pixels, at least 80. channels: one of ROOM_CHANNELS, as in a stress scene.
     frames: only the first so many, if the scene has more.
     noise: standard deviation in levels of 255, independent in both images.
-    depth_faults, stereo_faults: of the sensors; by default the seed draws them.
+    depth_faults, stereo_faults: the sensors' faults; by default drawn from the seed.
 
-    There are 15 or 30 frames per second, with a walker 4 or 15. No shadows are cast, and nothing is blurred
-    by motion. ValueError or TypeError names the argument that is wrong.
+    There are 15 or 30 frames per second; with a walker 4 or 15. There are no cast shadows and no motion blur.
+    ValueError or TypeError names the argument that is wrong.
     """
     _check(kind, seed, size, channels, noise)
     stage = _find_stage(kind, seed, Intrinsics.from_fov(*size, FIELD_OF_VIEW))
@@ -122,7 +122,7 @@ def room_scene(
 
 
 def _find_stage(kind: str, seed: int, camera: Intrinsics) -> RoomStage:
-    """The first random plan in whose first frame the target is seen."""
+    """The first random plan whose first frame shows the target."""
     for attempt in range(MAX_TRIES):
         plan = plan_room(kind, camera, np.random.default_rng([seed, 0, ROOM_KINDS.index(kind), attempt]))
         stage = RoomStage(plan, StereoRig(camera, ROOM_BASELINE), ROOM_RAYS)
@@ -170,7 +170,7 @@ class _Recorder:
     def _measure(
         self, colors: Sequence[NDArray[np.uint8]], rng: np.random.Generator
     ) -> list[NDArray[np.float32]]:
-        """The depth images, each of the frame that the delay says."""
+        """The depth images, each of the frame that the delay selects."""
         camera = FaultyDepthCamera(self.stage.rig.intrinsics, self.depth_faults, rng)
         found = []
         for index in range(len(colors)):

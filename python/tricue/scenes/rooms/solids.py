@@ -23,20 +23,20 @@ from tricue.scenes.rendering.textures import build_pyramid
 
 Pyramid = Sequence[Picture]
 CAN_SIDES = 14
-SEAM = 1.03  # by which a can's sides are wider than they need, so that no ray passes between two
+SEAM = 1.03  # factor by which a can's sides are widened, so that no ray passes between two
 LID_THICKNESS = 0.002  # meters
 LIGHT_ON_FACES = np.array([1.0, 0.85, 0.75, 0.9, 0.6, 0.4])  # front, left, right, top, back, bottom
 
 
 class Pose(NamedTuple):
-    """A rotation (3, 3), and where the origin goes, (3,) meters."""
+    """A rotation (3, 3) and a translation (3,), meters."""
 
     rotation: Array
     offset: Array
 
     @classmethod
     def at(cls, offset: Array, yaw: float = 0.0, roll: float = 0.0, tilt: float = 0.0) -> "Pose":
-        """Turned by roll about z, then tilt about x, then yaw about y, radians."""
+        """Rotate by roll about z, tilt about x, then yaw about y, in radians; then move by ``offset``."""
         (cy, sy), (cr, sr), (ct, st) = ((math.cos(a), math.sin(a)) for a in (yaw, roll, tilt))
         about_y = np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]])
         about_x = np.array([[1, 0, 0], [0, ct, -st], [0, st, ct]])
@@ -44,19 +44,19 @@ class Pose(NamedTuple):
         return cls(about_y @ about_x @ about_z, np.asarray(offset, float))
 
     def points(self, points: Array) -> Array:
-        """Where points (..., 3) go."""
+        """The transformed points (..., 3)."""
         return np.asarray(points @ self.rotation.T + self.offset)
 
 
 class Solid(NamedTuple):
-    """A thing: faces, of which along x down points inward, and balls with a texture each."""
+    """A thing made of faces, whose ``along`` x ``down`` points inward, and of textured balls."""
 
     faces: tuple[TexturedRectangle, ...] = ()
     balls: OrientedEllipsoids = OrientedEllipsoids(np.zeros((0, 3)), np.zeros((0, 3, 3)))
     skins: tuple[Pyramid, ...] = ()
 
     def __add__(self, other: object) -> "Solid":
-        """Both things as one."""
+        """Both things combined."""
         if not isinstance(other, Solid):
             return NotImplemented
         pairs = zip(self.balls, other.balls, strict=True)
@@ -64,7 +64,7 @@ class Solid(NamedTuple):
         return Solid(self.faces + other.faces, balls, self.skins + other.skins)
 
     def placed(self, pose: Pose) -> "Solid":
-        """The thing after each of its points moved."""
+        """The thing, transformed by a pose."""
         turn = pose.rotation
         faces = tuple(
             TexturedRectangle(pose.points(corner), turn @ along, turn @ down, texture)
@@ -73,7 +73,7 @@ class Solid(NamedTuple):
         return Solid(faces, self.balls.transformed(turn, pose.offset), self.skins)
 
     def draw(self, camera: RayCamera, canvas: RayImage, lamp: Lamp) -> None:
-        """Draw the thing, in the camera's frame, where it is nearer than what is there."""
+        """Draw the thing, given in the camera's frame, where it is nearer than what is there."""
         center = np.array([camera.offset, 0, 0])
         for face in self.faces:
             if _faces_away_from(face, center):
@@ -104,7 +104,7 @@ class Solid(NamedTuple):
 
 
 def _faces_away_from(face: TexturedRectangle, center: Array) -> bool:
-    """Whether along x down, which points inward, points away from a camera; np.cross takes much longer."""
+    """Whether along x down, which points inward, points away from a camera; np.cross is much slower."""
     (ax, ay, az), (dx, dy, dz), (x, y, z) = (
         each.tolist() for each in (face.along, face.down, face.corner - center)
     )
@@ -112,9 +112,9 @@ def _faces_away_from(face: TexturedRectangle, center: Array) -> bool:
 
 
 def make_box(size: Array, pictures: Sequence[Picture]) -> Solid:
-    """A box of this width, height and depth (3,), meters, that stands on y = 0 about the origin.
+    """A box of this width, height and depth (3,), meters, that stands on y = 0 at the origin.
 
-    pictures: of the front, the left, the right and the top face; behind and below the last is seen.
+    pictures: of the front, left, right and top faces; the back and the bottom show the last.
     """
     (w, h, d), x = size.tolist(), np.eye(3)
     sides = [
@@ -139,7 +139,7 @@ def make_box(size: Array, pictures: Sequence[Picture]) -> Solid:
 
 
 def make_can(radius: float, height: float, picture: Picture, lid: Picture, lamp: Lamp) -> Solid:
-    """A can, meters, that stands on y = 0 about the origin. picture: all around, the front in its middle."""
+    """A can, meters, that stands on y = 0 at the origin. picture: wrapped around, its middle in front."""
     edges = np.linspace(0, picture.shape[1], CAN_SIDES + 1).round().astype(int)
     half, inner = radius * math.tan(math.pi / CAN_SIDES) * SEAM, radius
     faces = []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The stage of a room: draws its frames, and tells the truth of each."""
+"""The stage of a room: draws its frames and computes the truth of each."""
 
 from dataclasses import dataclass, field
 
@@ -11,12 +11,12 @@ from tricue.scenes.rendering.stereo_camera import RayCamera, RayImage
 from tricue.scenes.rooms.plan import RoomPlan
 from tricue.scenes.rooms.solids import Pose, Solid
 
-BACKGROUND = 90.0  # level of what is beyond the room
+BACKGROUND = 90.0  # gray level beyond the room
 
 
 @dataclass
 class RoomView:
-    """What one ray in the middle of each pixel meets: depth (H, W) in meters, the target, shiny things."""
+    """What one ray in the middle of each pixel hits: depth (H, W) in meters, the target, shiny things."""
 
     depth: Array
     target: Mask
@@ -25,7 +25,7 @@ class RoomView:
 
 @dataclass
 class RoomTruth:
-    """The truth of a frame; NaN where the target is outside of the image."""
+    """The truth of a frame; NaN if the target is outside the image."""
 
     view: RoomView
     box: Array  # (4,)
@@ -35,7 +35,7 @@ class RoomTruth:
 
 @dataclass
 class RoomStage:
-    """A plan before a stereo rig, whose left camera is the color camera."""
+    """A plan, seen by a stereo rig whose left camera is the color camera."""
 
     plan: RoomPlan
     rig: StereoRig
@@ -78,7 +78,7 @@ class RoomStage:
         )
 
     def _still_view(self, pose: Pose) -> tuple[RayImage, Mask]:
-        """A copy of what stands still, and which pixels of it are shiny."""
+        """A copy of the image of the static things, and its shiny pixels."""
         if not self._views or self._views[0][0] is not pose:
             canvas = _empty(self._probe)
             shiny = np.zeros(canvas.depth.shape, bool)

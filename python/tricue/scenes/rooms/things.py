@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Things in rooms: targets, what stands beside them, and hands."""
+"""Things in rooms: targets, clutter and hands."""
 
 from typing import NamedTuple
 
@@ -48,11 +48,11 @@ def make_thing(shape: str, side: float, lamp: Lamp, rng: np.random.Generator) ->
 
 
 def make_hand(forearm: Array, clasped: Array, length: float, rng: np.random.Generator) -> Solid:
-    """A hand that holds a thing whose middle is the origin, and its arm.
+    """A hand with its arm that holds a thing centered at the origin.
 
     forearm: unit vector (3,) from the thing along the arm, mostly sideways. clasped: the thing's width,
     height and depth (3,), meters. length: of the sleeve, meters. The palm is at the thing's side, the fingers
-    reach before its front.
+    reach around its front.
     """
     tone = textures.SKIN_TONES[rng.integers(len(textures.SKIN_TONES))]
     skin = textures.build_pyramid(textures.make_skin((64, 64), tone, rng))
@@ -90,7 +90,7 @@ def _make_figure(side: float, rng: np.random.Generator) -> Thing:
 
 
 def _along(axis: Array) -> Array:
-    """A rotation (3, 3) of y to a unit vector."""
+    """A rotation (3, 3) that takes y to a unit vector."""
     helper = np.array([0, 0, 1.0]) if abs(axis[2]) < 0.9 else np.array([1.0, 0, 0])
     x = np.cross(axis, helper)
     x /= np.linalg.norm(x)

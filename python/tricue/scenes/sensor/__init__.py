@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""What real cameras do to rendered frames: faults of depth cameras, and of stereo pairs."""
+"""The faults of real depth cameras and stereo pairs, applied to rendered frames."""

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""A depth camera with the faults of real ones, beside a color camera, for any rendered frame.
+"""A depth camera with the faults of real ones, beside a color camera, applied to any rendered frame.
 
-What it does is what ``benchmarks.quality.depth_properties`` measured on recordings of a Kinect, an Xtion and
-two RealSense; docs/scenes.md has the numbers.
+The faults are those that ``benchmarks.quality.depth_properties`` measured on recordings of a Kinect, an Xtion
+and two RealSense cameras; docs/scenes.md has the numbers.
 """
 
 import math
@@ -18,17 +18,18 @@ from tricue.scenes.sensor.holes import HoleField, HoleShares
 from tricue.scenes.sensor.shadow import cast_shadow
 from tricue.scenes.sensor.surfaces import SurfaceFaults, smooth_noise
 
-BEYOND = 100.0  # meters, the depth of what is infinitely far, beyond every range
-REFERENCE_WIDTH = 640  # pixels, of the images in which lengths in pixels were measured
+BEYOND = 100.0  # meters, stands for infinite depth; beyond every range
+REFERENCE_WIDTH = 640  # pixels, of the images in which the faults were measured
 
 
 class DepthFaults(NamedTuple):
     """The faults of a depth camera.
 
-    near, far: meters, its range. step: 1 / z is rounded to multiples of it, per meter. noise: deviation at
-    1 m, meters; it grows as z squared. grain: sigma of the noise, pixels. baseline: see cast_shadow. surfaces
-    and holes: see there. shift: (x, y) pixels by which depth lies beside color. margin: share of each side of
-    the image that has no depth. delay: frames by which depth is later than color; negative, earlier.
+    near, far: its range, meters. step: 1 / z is rounded to multiples of it, per meter. noise: standard
+    deviation at 1 m, meters; it grows with z squared. grain: sigma of the noise, pixels. baseline: see
+    cast_shadow. surfaces, holes: see SurfaceFaults, HoleShares. shift: (x, y) pixels by which depth is
+    displaced from color. margin: share of the image at each side that has no depth. delay: frames by which
+    depth lags color; negative if it leads.
     """
 
     near: float
@@ -74,7 +75,7 @@ class DepthFaults(NamedTuple):
 
 
 class FaultyDepthCamera:
-    """Measures the frames of one scene, one after the other."""
+    """Measures the frames of one scene in order."""
 
     def __init__(self, intrinsics: Intrinsics, faults: DepthFaults, rng: np.random.Generator) -> None:
         self._intrinsics, self._faults, self._rng = intrinsics, faults, rng
@@ -83,7 +84,7 @@ class FaultyDepthCamera:
     def measure(self, depth: Array, gray: NDArray[np.uint8], shiny: Mask) -> NDArray[np.float32]:
         """The depth image (H, W), meters, NaN where nothing was measured.
 
-        depth: the exact z-buffer in the color image's pixels, infinite where nothing is. gray: the color
+        depth: the exact z-buffer in the color image's pixels, infinite where it is empty. gray: the color
         image's brightness. shiny: pixels that reflect the projector's light away.
         """
         faults, depth = self._faults, np.minimum(depth, BEYOND)
@@ -94,7 +95,7 @@ class FaultyDepthCamera:
         return self._register(seen)
 
     def _quantize(self, depth: Array) -> Array:
-        """Depth with noise in its inverse, which is then rounded, as disparities are."""
+        """Depth with noise added to its inverse, which is then rounded like a disparity."""
         faults = self._faults
         noise = faults.noise * smooth_noise(depth.shape, faults.grain, self._rng)
         levels = np.rint((1 / depth + noise) / faults.step)
@@ -102,7 +103,7 @@ class FaultyDepthCamera:
             return np.asarray(1 / (levels * faults.step))
 
     def _register(self, depth: Array) -> NDArray[np.float32]:
-        """The depth in the color image's pixels, as far off as calibration is, and without its margins."""
+        """The depth in the color image's pixels, displaced by calibration errors and without margins."""
         x, y = self._faults.shift
         height, width = depth.shape
         moved = imgproc.shift(depth.astype(np.float32), x, y, height, width, "nearest", value=math.nan)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Holes of a depth camera, in patches: on dark and shiny surfaces, along edges, and where it sees aslant."""
+"""A depth camera's holes, in patches: on dark and shiny surfaces, along edges, and on slanted surfaces."""
 
 from typing import NamedTuple
 
@@ -13,15 +13,15 @@ from tricue.scenes.rendering.depth_sensor import find_depth_edges
 from tricue.scenes.sensor.surfaces import smooth_noise
 
 MAX_DARK, MIN_BRIGHT = 60, 200  # levels of 255
-SLANT_STEP = 3  # pixels, over which the slope of a surface is taken
-MIN_SLANT, MAX_SLANT = 4.0, 12.0  # tangents of the angle to the line of sight: from which, and wholly lost
-LASTING = 0.7  # share of the patches' variance that stays from frame to frame
+SLANT_STEP = 3  # pixels over which the slope of a surface is measured
+MIN_SLANT, MAX_SLANT = 4.0, 12.0  # tangents of the slant at which holes begin, and at which all is lost
+LASTING = 0.7  # share of the patches' variance that is kept from frame to frame
 
 
 class HoleShares(NamedTuple):
-    """Shares of the pixels that have no depth, by the surface, and beside edges of depth.
+    """The shares of pixels without depth, by surface, and near depth edges.
 
-    reach: pixels from an edge that are beside it. grain: sigma of the patches, pixels.
+    reach: how many pixels from an edge count as near it. grain: sigma of the patches, pixels.
     """
 
     dark: float
@@ -43,7 +43,7 @@ class HoleField:
     def next_holes(self, depth: Array, gray: NDArray[np.uint8], shiny: Mask, intrinsics: Intrinsics) -> Mask:
         """The next frame's holes (H, W).
 
-        depth: an exact z-buffer of finite depths. gray: its brightness. shiny: which pixels are.
+        depth: an exact z-buffer of finite depths. gray: its brightness. shiny: the shiny pixels.
         """
         shares = self._shares
         chance = np.select(
@@ -61,16 +61,16 @@ class HoleField:
 
 
 def _ranks(field: Array) -> Array:
-    """The share of the values that are smaller than each."""
+    """For each value, the share of values that are smaller."""
     ranks = np.empty(field.size)
     ranks[np.argsort(field, axis=None)] = np.arange(field.size) / field.size
     return ranks.reshape(field.shape)
 
 
 def _slant(depth: Array, camera: Intrinsics) -> Array:
-    """The change of depth per meter along the surface's image, (H, W); 0 at steps between surfaces.
+    """The slope (H, W) of the surface: change of depth per meter across the line of sight; 0 at depth steps.
 
-    A step is on one side of a pixel, a slope on both, so the smaller of both differences counts.
+    A step is on one side of a pixel, a slope on both, so the smaller of the two differences counts.
     """
     slopes = []
     for axis, focal in ((1, camera.fx), (0, camera.fy)):
@@ -80,6 +80,6 @@ def _slant(depth: Array, camera: Intrinsics) -> Array:
 
 
 def _shifted(values: Array, by: int, axis: int) -> Array:
-    """The values ``by`` pixels before, the image's border repeated."""
+    """The values ``by`` pixels before, with the image's border replicated."""
     index = np.clip(np.arange(values.shape[axis]) - by, 0, values.shape[axis] - 1)
     return np.take(values, index, axis)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A color camera in falling light: photons get few, its gain ends, and darkness is noise of a few levels."""
+"""A color camera in fading light: fewer photons, a limited gain, and noise of a few levels in darkness."""
 
 from typing import NamedTuple
 
@@ -12,10 +12,10 @@ LEVELS = 255
 
 
 class LowLightSensor(NamedTuple):
-    """A camera with automatic gain, and shot and read noise; typical numbers of a small sensor.
+    """A camera with automatic gain, shot noise and read noise; the numbers are typical of a small sensor.
 
-    full_well: electrons of the level 255 under the light 1. read_noise: electrons, standard deviation.
-    max_gain: most that the gain makes up for; brighter light is shut out by a shorter exposure.
+    full_well: electrons at level 255 under light 1. read_noise: standard deviation, electrons. max_gain: the
+    gain's limit in dim light; bright light only shortens the exposure.
     """
 
     full_well: float = 10_000.0
@@ -23,7 +23,7 @@ class LowLightSensor(NamedTuple):
     max_gain: float = 16.0
 
     def expose(self, picture: Picture, light: float, rng: np.random.Generator) -> NDArray[np.uint8]:
-        """The 8-bit image (H, W, 3) of a picture in levels under the light 1. light: 0 in darkness."""
+        """The 8-bit image (H, W, 3) of a picture with its levels under light 1. light: 0 in darkness."""
         exposed = min(light, 1.0)
         electrons = np.maximum(picture, 0) * np.float32(exposed * self.full_well / LEVELS)
         noise = np.sqrt(electrons + np.float32(self.read_noise**2))

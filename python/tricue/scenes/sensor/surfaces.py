@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a depth camera makes of surfaces and their edges: ragged, smeared, without thin things."""
+"""How a depth camera distorts surfaces: edges are ragged and smeared, thin things are lost."""
 
 from typing import NamedTuple
 
@@ -14,10 +14,11 @@ MIN_THIN_STEP = 0.05  # between a thin thing and what is behind it, as a share o
 
 
 class SurfaceFaults(NamedTuple):
-    """How a depth camera sees surfaces; lengths in pixels.
+    """How a depth camera distorts surfaces; lengths in pixels.
 
-    thin: near things up to this width are lost. ragged: deviation of edges from their place. smear: sigma of
-    a blur over edges. flying: share of the pixels at edges that measure a depth between both surfaces.
+    thin: near things up to this width are lost. ragged: standard deviation of the edges' displacement. smear:
+    sigma of a blur across edges. flying: share of the pixels at edges that measure a depth between both
+    surfaces.
     """
 
     thin: int
@@ -26,7 +27,7 @@ class SurfaceFaults(NamedTuple):
     flying: float
 
     def apply(self, depth: Array, rng: np.random.Generator) -> Array:
-        """The surfaces (H, W) that are measured, of an exact z-buffer of finite depths."""
+        """The measured surfaces (H, W), from an exact z-buffer of finite depths."""
         seen = _lose_thin_things(depth, self.thin)
         seen = _displace(seen, self.ragged, rng)
         if self.smear > 0:
@@ -42,7 +43,7 @@ def smooth_noise(shape: tuple[int, ...], grain: float, rng: np.random.Generator)
 
 def _lose_thin_things(depth: Array, width: int) -> Array:
     """A morphological closing: narrow near things get the depth of what is behind them."""
-    # The second anchor mirrors the first, without which an even square would move everything.
+    # The second anchor mirrors the first; otherwise an even square would shift everything.
     anchors = [(width + odd) // 2 for odd in (1, 0)]
     closed = imgproc.erode(imgproc.dilate(depth, width + 1, anchors[0]), width + 1, anchors[1])
     return np.where(closed - depth > MIN_THIN_STEP * depth, closed, depth)

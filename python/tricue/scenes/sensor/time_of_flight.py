@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""A time-of-flight camera that counts electrons: its light, that of the scene, and the ambiguity of phases.
+"""A time-of-flight camera that counts electrons: its own light, the scene's light, and phase ambiguity.
 
-It sends modulated light, and measures the phase of what comes back. From a surface of reflectance R in the
-distance r come A = signal R / r² electrons of it, and ambient R of the scene's light. Their shot noise gives
-a range a standard deviation of L / sqrt(8) sqrt(B) / (2 A), where B is their sum and L the unambiguous range,
-c / 2f: Lange and Seitz (2001), IEEE Journal of Quantum Electronics 37, 390-397. A surface farther than L has
-the phase of a nearer one, and is measured there.
+It sends modulated light and measures the phase of the reflection. A surface of reflectance R at distance r
+returns A = signal R / r² electrons of this light, and ambient R of the scene's light. Their shot noise gives
+the range a standard deviation of L / sqrt(8) sqrt(B) / (2 A), where B is their sum and L the unambiguous
+range, c / 2f: Lange and Seitz (2001), IEEE Journal of Quantum Electronics 37, 390-397. A surface farther than
+L has the phase of a nearer one, and appears at that distance.
 """
 
 from typing import NamedTuple
@@ -18,7 +18,7 @@ from tricue.scenes.arrays import Array, Mask
 from tricue.scenes.rendering.depth_sensor import FLYING_PIXEL_SHARE, add_flying_pixels, find_depth_edges
 
 SPEED_OF_LIGHT = 299_792_458.0  # meters per second
-BEYOND = 1000.0  # meters, of what is infinitely far: no light comes back from there
+BEYOND = 1000.0  # meters, stands for infinity: no light returns from there
 
 
 class TimeOfFlightImage(NamedTuple):
@@ -43,8 +43,9 @@ class TimeOfFlightCamera(NamedTuple):
     full_well: float = 500_000.0  # electrons; pixels with more are saturated, and missing
     min_amplitude: float = 100.0  # electrons; pixels with less are missing
     min_reflectance: float = 0.0
-    """Pixels whose amplitude tells less, at the depth that they seem to have, are missing; 0: none are. What
-    lies beyond the unambiguous range is darker than anything at its apparent depth."""
+    """Pixels are missing if their amplitude and apparent depth imply a lower reflectance; 0 keeps all.
+    Surfaces beyond the unambiguous range are darker than anything at their apparent depth.
+    """
 
     @property
     def unambiguous_range(self) -> float:
@@ -54,7 +55,7 @@ class TimeOfFlightCamera(NamedTuple):
     def measure(
         self, depth: Array, reflectance: Array, light: float, rng: np.random.Generator
     ) -> TimeOfFlightImage:
-        """The image of a z-buffer (H, W), meters; infinite where nothing is, which is missing.
+        """The image of a z-buffer (H, W), meters; infinite where it is empty, which counts as missing.
 
         reflectance: (H, W), 0 to 1. light: the scene's light, 1 indoors, 0 in darkness, 100 in the sun.
         """
@@ -69,7 +70,7 @@ class TimeOfFlightCamera(NamedTuple):
         measured = np.where(valid, distance, 1.0)
         measured += np.where(valid, self.deviation(np.where(valid, amplitude, 1.0), electrons), 0.0) * noise
         measured = np.mod(measured, self.unambiguous_range)
-        # The amplitude has the same noise as an intensity: that of all electrons.
+        # The amplitude's noise is that of all electrons, as for an intensity.
         amplitude = amplitude + np.sqrt(electrons) * rng.standard_normal(depth.shape)
         apparent = np.maximum(amplitude, 0) * np.square(measured) / self.signal
         measured /= lengths
@@ -80,7 +81,7 @@ class TimeOfFlightCamera(NamedTuple):
         )
 
     def deviation(self, amplitude: Array, electrons: Array) -> Array:
-        """The standard deviation of distances, meters, for an amplitude and all electrons with it."""
+        """The standard deviation of distances, meters, for an amplitude and the number of all electrons."""
         deviation: Array = self.unambiguous_range / np.sqrt(8) * np.sqrt(electrons) / (2 * amplitude)
         return deviation
 
@@ -88,7 +89,7 @@ class TimeOfFlightCamera(NamedTuple):
         return np.asarray((amplitude >= self.min_amplitude) & (electrons <= self.full_well))
 
     def _ray_lengths(self) -> Array:
-        """(H, W) the length of each pixel's ray up to the depth of 1: phases measure along rays."""
+        """The length (H, W) of each pixel's ray up to depth 1, because phases are measured along rays."""
         camera = self.intrinsics
         x = (np.arange(camera.width) - camera.cx) / camera.fx
         y = (np.arange(camera.height) - camera.cy) / camera.fy

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Stress scenes: a target in color, depth or stereo meets one difficulty after the other."""
+"""Stress scenes: a target in color, depth or stereo meets one difficulty after another."""

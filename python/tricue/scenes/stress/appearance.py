@@ -2,7 +2,7 @@
 """The appearance of things in a stress scene: the target, its look-alikes, the occluder, the room.
 
 Targets and walls are cut from different photographs of scikit-image; the occluder and the furniture have the
-textures of :mod:`tricue.scenes.textures`.
+textures of :mod:`tricue.scenes.rendering.textures`.
 """
 
 import math
@@ -31,7 +31,7 @@ Image = NDArray[np.uint8]
 TARGET_PHOTOGRAPHS = ("astronaut", "coffee", "cat", "motorcycle", "immunohistochemistry", "rocket")
 WALL_PHOTOGRAPHS = ("astronaut", "coffee", "cat", "motorcycle", "immunohistochemistry")
 TARGET_TEXELS = 144  # of a target's longer side
-SHUFFLE_BLOCKS = 4  # along each side, which the look-alike of the target's colors has in another order
+SHUFFLE_BLOCKS = 4  # along each side, shuffled to make the look-alike of the target's colors
 FLOOR_HEIGHT = 1.6  # meters below the camera, so that the target stays above the floor
 WALL_DISTANCES = 4.7, 6.0  # meters to the back wall
 MAX_WINDOW_TRIES = 24
@@ -39,13 +39,13 @@ MIN_TARGET_CONTRAST, MIN_TARGET_DETAIL, MIN_WALL_DISTANCE = 28.0, 7.0, 0.6
 
 
 class StressCards(NamedTuple):
-    """The moving cards. All have the target's size in meters, but the occluder, which is 1 by 1."""
+    """The moving cards. All have the target's size in meters except the occluder, which is 1 by 1."""
 
     target: Card
     same_colors: Card  # the target's colors in another structure
     same_structure: Card  # the target's structure in other colors
     occluder: Card
-    photograph: str  # that the target is cut from
+    photograph: str  # from which the target is cut
 
 
 class StressRoom(NamedTuple):
@@ -54,7 +54,7 @@ class StressRoom(NamedTuple):
     cards: tuple[tuple[Card, CardPose], ...]
 
     def draw(self, camera: CardCamera, canvas: CardImage, rotation: Array) -> None:
-        """Draw the room, after its rotation (3, 3) about the left camera."""
+        """Draw the room, rotated (3, 3) about the left camera."""
         for card, pose in self.cards:
             camera.draw(canvas, card, pose.rotated(rotation))
 
@@ -95,7 +95,7 @@ def choose_other(names: tuple[str, ...], taken: tuple[str, ...], rng: np.random.
 def _sample_window(aspect: float, wall: str, rng: np.random.Generator) -> tuple[Image, str]:
     """A random part of a photograph, and the photograph's name.
 
-    It is the first of MAX_WINDOW_TRIES with contrast, detail, and other colors than the wall; else the last.
+    It is the first of MAX_WINDOW_TRIES with contrast, detail, and colors unlike the wall's; else the last.
     """
     load = cache(photographs.load_photograph)
     behind = _histogram(load(wall))
@@ -129,13 +129,13 @@ def _is_distinct(part: Image, behind: Array) -> bool:
 
 
 def _histogram(picture: Image) -> Array:
-    """The share (512,) of the pixels that fall in each of 8x8x8 bins of colors."""
+    """The share (512,) of the pixels in each of 8x8x8 color bins."""
     bins = (picture >> 5).reshape(-1, 3) @ np.array([64, 8, 1])
     return np.asarray(np.bincount(bins, minlength=512) / len(bins))
 
 
 def _shuffle_blocks(picture: Image, rng: np.random.Generator) -> Image:
-    """The same colors in another structure: blocks in another order, each rotated by 180 degrees."""
+    """The same colors in another structure: the blocks are shuffled and rotated by 180 degrees."""
     rows, columns = (side // SHUFFLE_BLOCKS for side in picture.shape[:2])
     blocks = picture.reshape(SHUFFLE_BLOCKS, rows, SHUFFLE_BLOCKS, columns, 3).swapaxes(1, 2)
     order = np.roll(rng.permutation(SHUFFLE_BLOCKS**2), 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Flat textured cards before a pinhole camera, drawn from far to near by homographies.
+"""Flat textured cards in front of a pinhole camera, drawn from far to near by homographies.
 
 Color, depth and labels come from one geometry, so that they agree to a fraction of a pixel. Camera frame: x
 right, y down, z forward, meters.
@@ -85,7 +85,7 @@ class CardCamera(NamedTuple):
     offset: float = 0.0
 
     def draw(self, canvas: CardImage, card: Card, pose: CardPose, label: int = NO_CARD) -> None:
-        """Draw a card over what is there; cards have to be drawn from far to near.
+        """Draw a card over what is there; cards must be drawn from far to near.
 
         A pixel gets the depth and the label of the card that covers at least half of it; colors are blended.
         """
@@ -99,7 +99,7 @@ class CardCamera(NamedTuple):
         canvas.labels[place][seen] = label
 
     def mask(self, card: Card, pose: CardPose) -> Mask:
-        """The pixels (H, W) that a card covers when nothing hides it."""
+        """The pixels (H, W) that a card would cover if nothing hid it."""
         mask = np.zeros((self.intrinsics.height, self.intrinsics.width), bool)
         place = self._place(pose.points(card))
         if place is not None:
@@ -141,7 +141,7 @@ class CardCamera(NamedTuple):
         return np.asarray(normal @ (pose.center - [self.offset, 0, 0]) / share, np.float32)
 
     def _place(self, points: Array) -> tuple[slice, slice] | None:
-        """The rows and columns that a card with these corners may cover; None without any."""
+        """The rows and columns that a card with these corners may cover; None if there are none."""
         if points[:, 2].min() < MIN_CARD_DEPTH:
             return None
         x, y = self.intrinsics.project(points - [self.offset, 0, 0]).T
@@ -163,7 +163,7 @@ def superellipse(power: float) -> Array:
 
 
 def face_camera(center: Array, roll: float, yaw: float) -> CardPose:
-    """The pose of a card that faces the camera, but for a roll in the image and a yaw, radians."""
+    """The pose of a card that faces the camera except for a roll in the image and a yaw, radians."""
     cos, sin = np.cos(roll), np.sin(roll)
     turn = np.array([[np.cos(yaw), 0, np.sin(yaw)], [0, 1, 0], [-np.sin(yaw), 0, np.cos(yaw)]])
     return CardPose(center, turn @ [cos, sin, 0], turn @ [-sin, cos, 0])

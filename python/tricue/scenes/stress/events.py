@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The events of a stress scene, and the paths of all cards, frame by frame.
 
-Paths are pixels in the image and meters along z, for trackers follow the target's motion in the image. The
+Paths are in pixels in the image and in meters along z, since trackers follow motion in the image. The
 camera's pan moves only the room; its shake moves all cards.
 """
 
@@ -21,12 +21,12 @@ MAX_ROLL, MAX_YAW = np.radians(10), np.radians(12)
 MIN_GAIN, MAX_GAIN = 0.4, 1.3  # of the light
 BLACK_FRAMES, OTHER_ROOM_FRAMES = 8, 24
 EVENT_LEAD_FRAMES = 20  # from an event's start until the target may be gone
-MIN_OCCLUDER_DEPTH = 0.55  # meters; the depth camera measures from 0.5 on
+MIN_OCCLUDER_DEPTH = 0.55  # meters; the depth camera's range begins at 0.5
 
 
 @dataclass
 class CardPath:
-    """The path of a card over N frames. Only events change it, before anything is drawn."""
+    """The path of a card over N frames. Events change it before anything is drawn."""
 
     card: Card
     pixels: Array  # (N, 2) of the center in the image, OpenCV's coordinates
@@ -64,7 +64,7 @@ class StressMotion:
     light: Array  # (N, 3) gain of each channel
     black: NDArray[np.bool_]  # (N,) frames without light
     in_other_room: NDArray[np.bool_]  # (N,) frames in another room
-    away: Mapping[str, int]  # frames outside of the image, "leaving", and behind the occluder, "hidden"
+    away: Mapping[str, int]  # number of frames out of the image, "leaving", and behind the occluder, "hidden"
     spans: dict[str, range] = field(default_factory=dict)  # the frames of each event
 
     def __len__(self) -> int:
@@ -136,7 +136,7 @@ def _cross_edge(motion: StressMotion, frame: int, edge: Array, step: int, pace: 
 
 
 def hide_target(motion: StressMotion, span: range, rng: np.random.Generator) -> None:
-    """The occluder comes fast, moves with the target, hides it, and leaves."""
+    """The occluder comes fast, hides the target while moving with it, and leaves."""
     path, camera, occluder = motion.target, motion.camera, motion.occluder
     first = span.start + EVENT_LEAD_FRAMES
     after = first + motion.away["hidden"]
@@ -149,7 +149,7 @@ def hide_target(motion: StressMotion, span: range, rng: np.random.Generator) -> 
     scale = 2 * depth / camera.fx
     size = (half + margin) * scale * 1.02, (1.6 * tall + margin) * scale
     occluder.card = occluder.card._replace(size=size)
-    # In the frames before and after, a third of half the target is visible beside the occluder.
+    # In the frames before and after, part of the target is visible beside the occluder.
     before, behind = (half + margin - 0.7 * halves[index, 0] + 2 for index in (0, -1))
     near, far, pace = 0.6 * margin, 2.5 * camera.width, 0.35 * half
     slow = int(np.ceil(far / pace))
@@ -202,7 +202,7 @@ def change_light(motion: StressMotion, span: range, rng: np.random.Generator) ->
 
 
 def shake_camera(motion: StressMotion, span: range, rng: np.random.Generator) -> None:
-    """The camera pans to one side and back, and shakes; pan and shake move the room, the shake all cards."""
+    """The camera pans to one side and back, and shakes; both move the room, only the shake moves the cards."""
     count, camera = len(span), motion.camera
     envelope = np.sin(np.pi * (np.arange(count) + 0.5) / count)
     pan = rng.choice([-1, 1]) * np.radians(rng.uniform(8, 14)) * envelope**2

@@ -23,11 +23,11 @@ FRAME_COUNTS = {
     "all": 300,
 }
 AWAY_FRAMES = {"leaving": 30, "hidden": 20}
-"""The frames outside of the image, and behind the occluder, unless a scene has others."""
+"""The default numbers of frames out of the image, and behind the occluder."""
 EVENT_LENGTHS = {"camera": 40, "light": 45, "leaving": 70, "lookalike": 65, "hidden": 42, "blank": 32}
-"""The frames that each event takes in a scene with all of them; they leave six quiet ones at the start."""
+"""The number of frames of each event in a scene with all of them, which starts with six quiet frames."""
 QUIET_FRAMES = 12  # at the start of a scene with one event
-SCALE_FRAMES = 120  # in which the size changes 1:4
+SCALE_FRAMES = 120  # over which the size changes 1:4
 MAX_SPEED, MAX_FAST_SPEED = 0.08, 0.5  # of the target, in its widths per frame
 
 
@@ -41,8 +41,8 @@ def plan_motion(
 ) -> StressMotion:
     """The motion and the events of a scene.
 
-    kind: one of FRAME_COUNTS. away: in place of AWAY_FRAMES of that kind, which makes the scene longer.
-    middle: the mean depth, meters.
+    kind: one of FRAME_COUNTS. away: replaces that kind's AWAY_FRAMES, and changes the scene's length
+    accordingly. middle: the mean depth, meters.
     """
     frames, away_frames = FRAME_COUNTS[kind], AWAY_FRAMES
     if away is not None:
@@ -90,7 +90,7 @@ def _spans(kind: str, frames: int, rng: np.random.Generator) -> dict[str, range]
 
 
 def _depth(kind: str, frames: int, middle: float, rng: np.random.Generator) -> Array:
-    """The target's depth (N,), meters: 1:4 and back, or varying by a tenth."""
+    """The target's depth (N,), meters: changing 1:4 and back, or varying by a tenth."""
     time = np.arange(frames)
     if kind in ("scale", "all"):
         phase = np.pi * (rng.integers(2) if kind == "scale" else rng.random() * 2)

@@ -28,7 +28,7 @@ from tricue.scenes.stress.stage import StressStage
 STRESS_KINDS = tuple(FRAME_COUNTS)
 STRESS_CHANNELS = ("color", "rgbd", "stereo", "depth")
 MIN_IMAGE_SIDE = 80  # pixels along each side of an image
-MIN_AWAY_FRAMES = 2  # the one it is gone in first, and the one it returns after
+MIN_AWAY_FRAMES = 2  # the first one without the target, and the last one
 EXPOSURE_SAMPLES = 5  # whose mean makes a motion-blurred image
 
 
@@ -60,7 +60,7 @@ class StressScene:
     light: Array
     """(N, 3) gain of each channel, BGR; 1 leaves the textures' levels unchanged."""
     spans: dict[str, range]
-    """The frames of each event, by name, including what leads to it and from it."""
+    """The frames of each event, by name, including the lead-in and the lead-out."""
     intrinsics: Intrinsics
     rig: StereoRig | None
     """The stereo rig; None in scenes without a right image."""
@@ -133,7 +133,7 @@ class _StressCameras(NamedTuple):
     seed: int
 
     def record(self, stage: StressStage, canvases: Sequence[CardImage]) -> Iterator[Frame]:
-        """The frames. canvases: the left camera's, at each frame's time."""
+        """The frames. canvases: the left camera's, one per frame."""
         noises = [np.random.default_rng([self.seed, 2, camera]) for camera in range(3)]
         sensor = replace(DEPTH_SENSORS["rgbd"], intrinsics=stage.motion.camera)
         cameras = CardCamera(stage.motion.camera), CardCamera(stage.motion.camera, stage.rig.baseline)
@@ -160,7 +160,7 @@ class _StressCameras(NamedTuple):
         rng: np.random.Generator,
         sharp: CardImage | None = None,
     ) -> NDArray[np.uint8]:
-        """A color image. sharp: the canvas in the middle of the exposure, if it is there already."""
+        """A color image. sharp: the canvas in the middle of the exposure, if already rendered."""
         motion = stage.motion
         if motion.black[index]:
             color = np.zeros((camera.intrinsics.height, camera.intrinsics.width, 3), np.float32)

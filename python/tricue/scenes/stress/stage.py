@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The stage of a stress scene: all that is drawn, and the truth of each frame."""
+"""The stage of a stress scene: everything that is drawn, and the truth of each frame."""
 
 from typing import NamedTuple
 
@@ -35,12 +35,12 @@ class StressTruth(NamedTuple):
 
 
 class StressStage(NamedTuple):
-    """All that is drawn: the cards' motion, the rooms, and the cameras."""
+    """Everything that is drawn: the moving cards, the rooms, and the cameras."""
 
     motion: StressMotion
     rooms: tuple[StressRoom, StressRoom]  # the target's room, and the other one
     rig: StereoRig
-    straight: dict[tuple[float, bool], CardImage]  # cached rooms of a camera that looks straight ahead
+    straight: dict[tuple[float, bool], CardImage]  # cached room images of a camera that looks straight ahead
 
     @classmethod
     def build(cls, kind: str, seed: int, size: tuple[int, int], away: int | None = None) -> "StressStage":
@@ -110,7 +110,7 @@ class StressStage(NamedTuple):
         return np.concatenate([outline.min(axis=0), np.ptp(outline, axis=0)])
 
     def _count_pixels(self, index: int) -> float:
-        """The target's number of pixels when nothing hides it, including those beyond the image."""
+        """The target's number of pixels if nothing hid it, including those beyond the image."""
         camera, target = CardCamera(self.motion.camera), self.motion.target
         pose = target.pose(camera.intrinsics, index)
         count = float(camera.mask(target.card, pose).sum())
