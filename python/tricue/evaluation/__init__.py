@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""How well a tracker does: runs over data sets, metrics, baselines, others' trackers and results, reports."""
+"""Evaluation of trackers: runs over data sets, metrics, baselines, others' trackers and results, reports."""

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Baselines: OpenCV's trackers, a scripted particle filter, and a box that never moves.
 
-All run in the same loop as tricue's trackers. Where a baseline reports failure, its last box is kept with the
+All run in the same loop as tricue's trackers. If a baseline reports failure, its last box is kept, with the
 status LOST.
 """
 
@@ -24,7 +24,7 @@ NAMES = (
     *("CSRT", "KCF", "KCF-0.1", "MIL", "MOSSE", "MedianFlow"),  # of cv2, if the installed version has them
     *("CamShift", "meanShift", "script-pf", "still-box"),
 )
-CONTRIB = "opencv-contrib-python-headless"  # the package whose cv2 has them all
+CONTRIB = "opencv-contrib-python-headless"  # the package whose cv2 has all of them
 _IN_CONTRIB = ("CSRT", "KCF", "KCF-0.1", "MIL", "MOSSE", "MedianFlow", "Boosting", "TLD")
 Maker = Callable[[int], AnyTracker]
 """Makes a tracker from a seed."""
@@ -56,7 +56,7 @@ class OpenCvTracker:
     def update(self, frame: Frame) -> Track:
         try:
             found, box = self._tracker.update(bgr(frame))
-        except cv2.error:  # some raise when their box has left the image
+        except cv2.error:  # some raise when their box leaves the image
             found = False
         if not found or min(box[2:]) <= 0:
             return Track(self._box, 0.0, Status.LOST)
@@ -89,7 +89,7 @@ class HueShift:
 
 
 class ScriptedParticleFilter:
-    """A particle filter as users write it in twenty lines: HS histograms by cv2, the rest by NumPy."""
+    """A particle filter that a user may write in twenty lines: cv2's HS histograms, the rest in NumPy."""
 
     def __init__(self, seed: int = 0, particles: int = 100) -> None:
         self._rng, self._count = np.random.default_rng(seed), particles
@@ -138,7 +138,7 @@ def crop(image: Any, box: Box) -> Any:
 
 
 def _opencv_makers() -> dict[str, Callable[[], Any]]:
-    """How to make each cv2 tracker; parameters are created here, because cv2's first ones take long."""
+    """Functions that make cv2's trackers; parameters are created here, because cv2's first ones are slow."""
     legacy = getattr(cv2, "legacy", None)
     makers: dict[str, Callable[[], Any]] = {}
     csrt, kcf = getattr(cv2, "TrackerCSRT", None), getattr(cv2, "TrackerKCF", None)
@@ -168,7 +168,7 @@ def missing_reason(name: str) -> str:
 
 
 def seed(value: int) -> None:
-    """Seed the random numbers of OpenCV's trackers: its own generator and, for MIL, the C library's
+    """Seed the random numbers of OpenCV's trackers: OpenCV's own generator and, for MIL, the C library's
     ``rand``.
     """
     cv2.setRNGSeed(value)
@@ -177,7 +177,7 @@ def seed(value: int) -> None:
 
 
 def available() -> dict[str, Maker]:
-    """The baselines that the installed cv2 has, by name: each makes a tracker from a seed, which few use."""
+    """Makers of the baselines that the installed cv2 has, by name; few use their seed."""
 
     def opencv(make: Callable[[], Any]) -> Maker:
         return lambda seed: OpenCvTracker(make)

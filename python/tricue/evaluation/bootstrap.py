@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Bootstrap intervals of means over sequences (Efron 1979), and tests of paired differences.
 
-Whole recordings are drawn: seeds and starts of a sequence are averaged before, and sequences of one
-recording, such as its several targets, stay together. Percentile intervals of few values are too narrow;
-they are widened as by Hesterberg (2015, "What teachers should know about the bootstrap"), so that they are as
-wide as Student's t requires. With fewer than MIN_CLUSTERS recordings there is no interval and no test: for
-five differences with the same sign the exact test still gives a p-value of 1/16.
+Whole recordings are resampled: seeds and starts of a sequence are averaged first, and the sequences of one
+recording, such as its several targets, stay together. Percentile intervals of few values are too narrow; they
+are widened to match Student's t, following Hesterberg (2015, "What teachers should know about the
+bootstrap"). With fewer than MIN_CLUSTERS recordings there is no interval and no test: even with five
+differences of the same sign, the exact p-value is only 1/16.
 """
 
 import math
@@ -44,12 +44,12 @@ class Interval(NamedTuple):
 
 
 def mean_interval(values: ArrayLike, clusters: Sequence[str], least: int = MIN_CLUSTERS) -> Interval:
-    """The mean of some values and its LEVEL interval; the same for the same arguments.
+    """The mean of values and its LEVEL interval; deterministic.
 
-    values: (N,). clusters: (N,) the name of each value's cluster: values of one cluster, such as those of
-    sequences of the same recording, depend on each other, so whole clusters are drawn. least: the number of
-    clusters, 2 or more, below which the ends are NaN. ValueError unless there is a name for each value, and
-    one value or more.
+    values: (N,). clusters: (N,) the name of each value's cluster. Values of one cluster, such as the
+    sequences of one recording, depend on each other, so whole clusters are resampled. least: the number of
+    clusters, 2 or more, below which the ends are NaN. ValueError unless each value has a name and there is at
+    least one value.
     """
     sums, counts = _by_cluster(values, clusters)
     mean, size = float(sums.sum() / counts.sum()), len(sums)
@@ -63,40 +63,40 @@ def mean_interval(values: ArrayLike, clusters: Sequence[str], least: int = MIN_C
 
 
 def sign_flip_p(differences: ArrayLike, clusters: Sequence[str]) -> float:
-    """The two-sided p-value of "these paired differences have a mean of 0", by Fisher's randomization test.
+    """The two-sided p-value of the hypothesis that paired differences have mean 0: Fisher's randomization
+    test.
 
-    If two trackers are alike, each recording's difference could as well have the other sign: the p-value is
-    the share of the sign combinations with which the mean is as far from 0 or farther. For MAX_EXACT
-    recordings or fewer all are tried, else SIGN_DRAWS are drawn from a fixed seed. NaN with fewer than
-    MIN_CLUSTERS.
+    If two trackers are alike, each recording's difference could as well have the opposite sign. The p-value
+    is the share of sign combinations whose mean is at least as far from 0. For up to MAX_EXACT recordings all
+    are tried, else SIGN_DRAWS are drawn with a fixed seed. NaN with fewer than MIN_CLUSTERS.
     """
     sums, _ = _by_cluster(differences, clusters)
     size = len(sums)
     if size < MIN_CLUSTERS:
         return math.nan
     signs = _signs(size)
-    drawn = int(size > MAX_EXACT)  # then the actual signs count, too
+    drawn = int(size > MAX_EXACT)  # then the actual signs count as another draw
     observed = abs(float(sums.sum()))
     as_far = np.abs(signs @ sums) >= observed - 1e-12 * np.abs(sums).sum()
     return float((as_far.sum() + drawn) / (len(signs) + drawn))
 
 
 def least_p(size: int) -> float:
-    """The smallest p-value that :func:`sign_flip_p` can give for so many recordings: if all differences are
-    the same, only equal signs are as far from 0. NaN with fewer than MIN_CLUSTERS.
+    """The smallest p-value that :func:`sign_flip_p` can give for this number of recordings: if all
+    differences are equal, only equal signs are as far from 0. NaN with fewer than MIN_CLUSTERS.
     """
     return sign_flip_p(np.ones(size), [str(each) for each in range(size)]) if size else math.nan
 
 
 def separable(sizes: Sequence[int]) -> bool:
-    """Whether any of several tests, each of so many recordings, can show a difference: whether its smallest
-    possible p-value is below 1 - LEVEL by Holm's method.
+    """Whether any of several tests can show a difference: whether its smallest possible p-value is below 1 -
+    LEVEL by Holm's method. sizes: the number of recordings of each.
     """
     return any(len(sizes) * least_p(size) < 1 - LEVEL for size in {*sizes})
 
 
 def holm(p_values: Sequence[float]) -> list[float]:
-    """The p-values adjusted for their number (Holm 1979), in their order; NaN stays and doesn't count."""
+    """The p-values adjusted for their number (Holm 1979), in the same order; NaN stays and isn't counted."""
     known = sorted((p, index) for index, p in enumerate(p_values) if not math.isnan(p))
     factors = range(len(known), 0, -1)
     rising = accumulate((min(1.0, factor * p) for factor, (p, _) in zip(factors, known, strict=True)), max)
@@ -108,14 +108,14 @@ def holm(p_values: Sequence[float]) -> list[float]:
 
 @lru_cache(maxsize=4)
 def _drawn(size: int) -> Array:
-    """(DRAWS, size) how often each of the clusters is in each draw."""
+    """How often each cluster is in each draw, (DRAWS, size)."""
     indices = np.random.default_rng(SEED).integers(size, size=(DRAWS, size))
     return np.array([np.bincount(each, minlength=size) for each in indices], dtype=np.float64)
 
 
 @lru_cache(maxsize=4)
 def _signs(size: int) -> Array:
-    """(N, size) all signs of so many differences, or SIGN_DRAWS draws of them."""
+    """All sign combinations of ``size`` differences, or SIGN_DRAWS draws of them, (N, size)."""
     if size <= MAX_EXACT:
         bits = (np.arange(2**size)[:, None] >> np.arange(size)) & 1
     else:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Two evaluations of the same sequences: what got better or worse, by tracker and sequence.
+"""Compares two evaluations of the same sequences: what got better or worse, by tracker and sequence.
 
-What was evaluated is read from the folders' evaluation.json. Values are paired by sequence, group, protocol.
+It reads the folders' evaluation.json. Values are paired by sequence, group and protocol.
 """
 
 import json
@@ -23,7 +23,8 @@ Rows = Sequence[Mapping[str, Any]]
 @dataclass(frozen=True, slots=True)
 class Change:
     """One tracker on a group of sequences with one protocol. difference: of the means, new minus old, over
-    the sequences that both have. by_sequence: the old and new number of each. better: 1 if higher is better.
+    the sequences in both. by_sequence: old and new number of each. better: 1 if higher is better, -1 if
+    lower.
     """
 
     group: str
@@ -34,7 +35,7 @@ class Change:
     new: float
     difference: Interval
     adjusted: float
-    """The p-value of the sign-flip test, by Holm's method for all changes; NaN if there are too few."""
+    """The p-value of the sign-flip test, adjusted for all changes by Holm's method; NaN if too few."""
     by_sequence: Mapping[str, tuple[float, float]]
     better: int
 
@@ -49,7 +50,7 @@ class Change:
 
     @property
     def gain(self) -> float:
-        """The difference, above 0 if the new one is better."""
+        """The difference, positive if the new one is better."""
         return self.better * self.difference.mean
 
     def worst_first(self) -> list[tuple[str, float, float]]:
@@ -60,8 +61,8 @@ class Change:
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """All changes of one number. notes: why no change can be shown, and which trackers and sequences only one
-    of the two evaluations has.
+    """All changes of one number. notes: why no change can be shown, and the trackers and sequences that only
+    one of the two evaluations has.
     """
 
     number: str
@@ -72,7 +73,7 @@ class Comparison:
 def compare_folders(old: Path, new: Path, number: str = "auc") -> Comparison:
     """Compare two folders of ``tricue evaluate``, by one of the numbers of differences.BETTER.
 
-    ValueError or OSError for a folder that holds no evaluation, and if they have no run in common.
+    ValueError or OSError for a folder without an evaluation, and if they have no run in common.
     """
     if number not in BETTER:
         raise ValueError(f"--number: expected one of {', '.join(BETTER)}, got {number!r}")
@@ -138,7 +139,7 @@ def _read(folder: Path) -> dict[str, Any]:
 
 
 def _values(content: Mapping[str, Any], number: str) -> dict[tuple[str, str, str], dict[str, float]]:
-    """By group, protocol and tracker, and by sequence: the mean over seeds and starts."""
+    """The means over seeds and starts: by group, protocol and tracker, then by sequence."""
     found: dict[tuple[str, str, str], dict[str, list[float]]] = {}
     for protocol in content.get("protocols", [ONE_PASS]):
         kinds = {order.name for order in orders(protocol)}

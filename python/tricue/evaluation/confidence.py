@@ -24,7 +24,7 @@ class FalselyTracked(NamedTuple):
     of_lost: float
     """Share of the lost frames."""
     of_all: float
-    """The same frames, as a share of all whose truth is known."""
+    """The same frames, as a share of all frames with known truth."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,7 +32,7 @@ class Reliability:
     """The mean overlap at each score: B bins of equal width over the scores [0, 1]."""
 
     edges: Array
-    """(B + 1,) rising from 0 to 1; a score on an inner edge belongs to the upper bin."""
+    """(B + 1,) from 0 to 1; a score on an inner edge belongs to the upper bin."""
     counts: NDArray[np.int64]
     """(B,) frames in each bin."""
     scores: Array
@@ -49,11 +49,11 @@ def lost(overlaps: ArrayLike, absent: ArrayLike | None = None, threshold: float 
 
 
 def auroc(overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None = None) -> float:
-    """The chance that a frame on the target scores above a lost one, ties counted half, in [0, 1].
+    """The probability that a frame on the target scores above a lost one, with ties counted half.
 
     The area under the ROC curve of "lost" by falling score, by the rank sum of Mann and Whitney (1947). 0.5
-    is chance; at 1 a threshold on the score separates both kinds. NaN unless there are frames of both. Scores
-    may be any numbers, as only their order counts; NaN is the lowest.
+    is chance; at 1 a threshold on the score separates both kinds. NaN unless there are frames of both kinds.
+    Scores may be any numbers, since only their order counts; NaN is the lowest.
     """
     overlap, score, gone = _frames(overlaps, scores, absent)
     bad = lost(overlap, gone)
@@ -66,8 +66,8 @@ def auroc(overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None = Non
 
 
 def tracked(overlaps: ArrayLike, reported_present: ArrayLike, absent: ArrayLike | None = None) -> float:
-    """How often a tracker reported the target as present, (M,) bool: the share of the frames whose truth is
-    known, NaN without any.
+    """How often a tracker reported the target as present, (M,) bool: the share of the frames with known
+    truth, NaN without any.
     """
     overlap = np.asarray(overlaps, dtype=np.float64)
     present = _flags(reported_present, "reported_present", overlap.shape)
@@ -110,7 +110,7 @@ def reliability(
 
 
 def _frames(overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None) -> tuple[Array, Array, Flags]:
-    """Overlaps, scores and absence of the frames whose truth is known."""
+    """Overlaps, scores and absence of the frames with known truth."""
     overlap, score = np.asarray(overlaps, dtype=np.float64), np.asarray(scores, dtype=np.float64)
     if overlap.ndim != 1:
         raise ValueError(f"overlaps: expected an array of shape (M,), got {overlap.shape}")
@@ -122,13 +122,13 @@ def _frames(overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None) ->
 
 
 def _known(overlap: Array, bad: Flags) -> Flags:
-    """The frames whose truth is known. bad: those that are lost, or without the target."""
+    """The frames with known truth. bad: those that are lost, or without the target."""
     known: Flags = bad | ~np.isnan(overlap)
     return known
 
 
 def _ranks(values: Array) -> Array:
-    """Ranks from 1 on, equal values sharing their mean rank."""
+    """Ranks from 1; equal values get their mean rank."""
     _, group, counts = np.unique(values, return_inverse=True, return_counts=True)
     last = np.cumsum(counts)
     ranks: Array = (last - (counts - 1) / 2)[group]

@@ -31,24 +31,24 @@ FORMAT_RATES = {"KITTI tracking": 10.0}
 STEREO_CALIBRATION = "calibration.yml"
 """File name of OpenCV's calibration of a stereo pair, searched beside its images."""
 CLIPPED_FORMATS = ("VOT", "VOT RGB-D", "KITTI tracking")
-"""Formats whose boxes end at the image's edge: both the true and the tracked ones are clipped to the image
-before they are compared, as the VOT toolkit does.
+"""Formats whose boxes end at the image's edge: both true and tracked boxes are clipped to the image before
+they are compared, as in the VOT toolkit.
 """
 NUMBERED_FORMATS = ("OTB", "VOT", "VOT RGB-D", "images", "stereo pair")
-"""Formats whose images are named by consecutive numbers, as are LaSOT's and GOT-10k's, which are "images"."""
+"""Formats whose images have consecutive numbers as names. LaSOT and GOT-10k are "images"."""
 
-CAMERA_KEYS = {"fx", "fy", "cx", "cy"}  # of a camera's table in TOML
+CAMERA_KEYS = {"fx", "fy", "cx", "cy"}  # of a camera's TOML table
 OPTIONAL_CAMERA_KEYS = {"width", "height", "pose", "rotation", "translation"}
 
 
 @dataclass(frozen=True)
 class ReadOptions:
-    """How to read a data set's files, for values that they don't contain.
+    """Values that a data set's files don't contain, needed to read them.
 
     depth_scale: meters per unit of depth, if the format doesn't define it. fps: frames/s of images without
-    times. unit: meters per unit of OpenCV's stereo calibrations. truth: the channel, "color" or
-    "depth", in whose pixels the true boxes are given. None means color, or depth if it isn't registered to
-    color and positions were measured in it.
+    times. unit: meters per unit of OpenCV's stereo calibrations. truth: the channel, "color" or "depth", in
+    whose pixels the true boxes are. None means color, or depth if depth isn't registered to color and
+    positions were measured in it.
     """
 
     depth_scale: float | None = None
@@ -88,7 +88,7 @@ class Entry:
 
 @dataclass(frozen=True)
 class OpenedSequence:
-    """An entry whose files were opened; frames are read on demand."""
+    """An entry with its files opened; frames are read on demand."""
 
     entry: Entry
     source: Source
@@ -100,7 +100,7 @@ class OpenedSequence:
 
     @cached_property
     def channel(self) -> str:
-        """The channel in whose pixels the true boxes are given."""
+        """The channel in whose pixels the true boxes are."""
         if self.entry.reading.truth is not None:
             return self.entry.reading.truth
         if "color" not in self.source.channels:
@@ -120,7 +120,7 @@ class OpenedSequence:
 
     @cached_property
     def registered(self) -> bool:
-        """Whether depth and color pixels coincide, as they don't for two different cameras."""
+        """Whether depth and color pixels coincide; they don't for two different cameras."""
         path = self.source.calibration
         if path is None or path.suffix.lower() != ".toml":
             return True
@@ -137,7 +137,7 @@ class OpenedSequence:
 
     @cached_property
     def size(self) -> tuple[int, int]:
-        """Width and height of the images in whose pixels the boxes are given."""
+        """Width and height of the images in whose pixels the boxes are."""
         return self.source.channels[self.channel].size
 
     @property
@@ -164,8 +164,8 @@ class OpenedSequence:
         return np.empty((0, 4)) if known is None else known
 
     def check(self) -> None:
-        """ValueError if there is no frame to start in, or none after it, or if an image is missing between
-        others, so that all later true boxes would be assigned to the wrong images.
+        """ValueError if there is no frame to start in or none after it, or if an image is missing between
+        others, which would assign all later true boxes to the wrong images.
         """
         start, length = self.start, self.source.length
         if length is not None and length < start + 2:
@@ -178,27 +178,27 @@ class OpenedSequence:
 
     @property
     def start(self) -> int:
-        """The first frame with a true box, in which trackers start. ValueError if there is none."""
+        """The first frame with a true box, where trackers start. ValueError if there is none."""
         known = np.flatnonzero(~np.isnan(self.boxes).any(axis=1))
         if not known.size:
             raise ValueError(f"{self.entry.place}: expected a true box in one frame or more, got none")
         return int(known[0])
 
     def truth(self, frames: int) -> NDArray[np.float64]:
-        """(frames, 4) true boxes to compare results with, NaN where the target is absent, its box unknown, or
-        wholly outside an image to which boxes are clipped.
+        """True boxes (frames, 4) to compare results with; NaN where the target is absent, its box is unknown,
+        or boxes are clipped and it is wholly outside the image.
         """
         boxes: NDArray[np.float64] = _fit_to_frames(self.boxes, frames, np.nan)
         return self.clip(boxes)
 
     def clip(self, boxes: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(M, 4) boxes as they are compared: clipped to the image in formats that do so, and then NaN for one
-        outside of it.
+        """Boxes (M, 4) as they are compared: clipped to the image in formats that do so, and then NaN if
+        outside it.
         """
         if not self.clipped:
             return boxes
         low, high = boxes[:, :2], boxes[:, :2] + boxes[:, 2:]
-        crossing = ~((low >= 0) & (high <= self.size)).all(axis=1)  # the others keep their bits
+        crossing = ~((low >= 0) & (high <= self.size)).all(axis=1)  # the others stay exact
         low, high = np.clip(low, 0, self.size), np.clip(high, 0, self.size)
         found: NDArray[np.float64] = boxes.copy()
         found[crossing] = np.concatenate([low, high - low], axis=1)[crossing]
@@ -250,7 +250,7 @@ def find_entries(root: Path, reading: ReadOptions = ReadOptions()) -> list[Entry
 
 
 def short_names(entries: Sequence[Entry]) -> dict[str, str]:
-    """By name, the fewest last parts of each entry's name with which no other name ends; for a target at
+    """By name, the shortest ending of each entry's name, in whole parts, that is unique; for a target at
     least its sequence's name and its own, such as "Jogging/2".
     """
     parts = {each.name: each.name.split("/") for each in entries}
@@ -274,8 +274,8 @@ def _relative_name(root: Path, place: Path) -> str:
 
 
 def _check_numbers(place: Path, images: Images, boxes: int) -> None:
-    """ValueError names the first missing image if there are as many true boxes as there would be images with
-    the missing ones. Images with only, say, every other number have as many boxes as images.
+    """ValueError names the first missing image if the number of true boxes equals that of images including
+    the missing ones. If images have, say, only every other number, the boxes are as many as the images.
     """
     matches = [re.fullmatch(r"(.*?)(\d+)", path.stem) for path in images.paths]
     named = [match for match in matches if match]
@@ -295,21 +295,21 @@ def _check_numbers(place: Path, images: Images, boxes: int) -> None:
 
 
 def _image_name(number: int, others: Sequence[re.Match[str]]) -> str:
-    """The number as in the names of other images: with leading zeros, if they have such."""
+    """The number as in the names of other images, with leading zeros if they have them."""
     width = min(len(match[2]) for match in others)
     return f"{number:0{width}d}"
 
 
 def _depth_scale_of(entry: Entry, scale: float | None) -> float | None:
-    """The depth scale; None if the format defines it or there is no depth, so that none may be given.
+    """The depth scale; None if the format defines it or there is no depth, because then none may be given.
 
-    The scale of a robot's recording is overridden.
+    A robot recording's own scale is overridden.
     """
     if scale is None:
         return None
     try:
         source = open_source(entry.place, target=entry.target)
-    except ValueError:  # of depth images alone, which need it
+    except ValueError:  # depth images alone need it
         return scale
     if "depth" in source.channels:
         return scale if is_recording(entry.place) else None

@@ -21,8 +21,8 @@ BETTER: Mapping[str, int] = {
     "accuracy": 1,
     "position_error": -1,
 }
-"""The numbers of a row that are means over sequences: 1 if higher is better, -1 if lower. F and AUROC are of
-all frames of a group together, so that they have no interval over sequences.
+"""The numbers of a row that are means over sequences: 1 if higher is better, -1 if lower. F and AUROC pool
+all frames of a group, so they have no interval over sequences.
 """
 
 
@@ -36,7 +36,7 @@ def comparison(evaluation: Evaluation, group: str, key: str = "auc", protocol: s
 
 
 def protocols_of(evaluation: Evaluation, group: str) -> Sequence[str]:
-    """The protocols by which anything ran on the group."""
+    """The protocols with any run on the group."""
     return [
         name
         for name in evaluation.options.orders

@@ -18,6 +18,6 @@ class RemainingTime:
         self._start = clock()
 
     def update(self, task: Task) -> float:
-        """Count a task as done; the estimated remaining seconds."""
+        """Count a task as done; return the estimated remaining seconds."""
         self._done += self._weight(task)
         return (self._clock() - self._start) * (self._total - self._done) / self._done

@@ -36,7 +36,7 @@ from tricue.evaluation.tasks import Task, perform
 from tricue.evaluation.tracker_spec import TrackerSpec
 from tricue.evaluation.trackers import missing_note, require_unique, tracker_specs
 
-RUNS = "runs"  # the folder of finished runs in an evaluation's
+RUNS = "runs"  # the folder of finished runs in an evaluation's folder
 
 
 @dataclass(frozen=True)
@@ -45,9 +45,9 @@ class Options:
 
     trackers: names of ours, of the baselines and of others, such as ``mine.py:Mine``; None for all that are
     installed. settings: parameters that aren't the defaults, by tracker name. seeds: runs of each tracker
-    that draws random numbers. restarts: whether to run each with restarts, too. reading: how the data set's
+    that draws random numbers. restarts: whether to also run each with restarts. reading: how the data set's
     files are read. results: folders of others' results, NAME=FOLDER. time_limit: seconds for an update of a
-    tracker that isn't ours. protocols: names of those that are run in addition to one pass, see
+    tracker that isn't ours. protocols: names of those to run in addition to one pass, see
     :mod:`tricue.evaluation.protocols`.
     """
 
@@ -79,8 +79,8 @@ class RunResult(NamedTuple):
 @dataclass(frozen=True, repr=False)
 class Evaluation:
     """The outcome of an evaluation. left_out: why a tracker didn't run on a sequence, by both names. failed:
-    the errors of sequences or tasks that couldn't be read, by name. notes: lines about trackers and results.
-    attributes: what the sequences show, by name, where it was measured.
+    the errors of unreadable sequences and of failed tasks, by name. notes: lines about trackers and results.
+    attributes: of the sequences, by name, if they were measured.
     """
 
     options: Options
@@ -109,8 +109,8 @@ class Evaluation:
 
     @property
     def unstarted(self) -> dict[str, dict[str, list[str]]]:
-        """The trackers that started on no sequence, as they couldn't be made or refused to: by the tracker's
-        name, the sequences by reason.
+        """The trackers that started on no sequence, because they couldn't be created or failed at their
+        start: by tracker name, the sequences by reason.
         """
         found: dict[str, dict[str, list[str]]] = {}
         started = {each.row.tracker for each in self.results if not _start_error(each.scored)}
@@ -122,7 +122,7 @@ class Evaluation:
         return found
 
     def of(self, group: str, tracker: str, protocol: str = ONE_PASS) -> list[RunResult]:
-        """The results of one tracker on the sequences of a group, by one protocol."""
+        """The results of one tracker on a group's sequences, with one protocol."""
         kinds = self.options.orders[protocol]
         return [
             each
@@ -160,11 +160,11 @@ def evaluate(
     on_progress: Callable[["ProgressUpdate"], None] = lambda _: None,
     work: Perform = perform,
 ) -> Evaluation:
-    """Run what ``folder`` lacks of the data set at ``root``, and score all runs.
+    """Run on the data set at ``root`` what ``folder`` doesn't have yet, and score all runs.
 
-    jobs, scheduler: as :func:`tricue.evaluation.schedule.run_tasks` takes them. fresh: whether to run all
-    again. on_progress: called after each run. ValueError or OSError, before the first run, for a data set, a
-    folder or options that can't be used.
+    jobs, scheduler: as :func:`tricue.evaluation.schedule.run_tasks` takes them. fresh: whether to run
+    everything again. on_progress: called after each run. ValueError or OSError, before the first run, for an
+    unusable data set, folder or option.
     """
     plan = _Plan(Path(root), options)
     store = Store(Path(folder) / RUNS)
@@ -212,7 +212,7 @@ class _Plan:
         self.tasks = [task for opened in self.opened.values() for task in self._list_tasks(opened)]
 
     def _open_all(self, entries: Sequence[Entry]) -> Iterator[tuple[str, OpenedSequence]]:
-        """The sequences that can be read; if none can, the first one's error is raised."""
+        """Yield the readable sequences; if there is none, raise the first one's error."""
         for entry in entries:
             opened = _try_open(entry)
             if isinstance(opened, OpenedSequence):
@@ -238,7 +238,7 @@ class _Plan:
         return tasks
 
     def _add_results(self, spec: ResultsSpec, opened: OpenedSequence) -> list[Task]:
-        """Score others' runs on a sequence, each as the run of one seed; return their finished tasks."""
+        """Score others' runs on a sequence, each as one seed's; return their finished tasks."""
         try:
             found = spec.read(opened, self.opened)
         except (OSError, ResultError) as error:
@@ -300,7 +300,7 @@ class _Plan:
 
     def _surplus_notes(self) -> Iterator[str]:
         """The sequences that have true boxes after their last frame."""
-        seen: dict[str, int] = {}  # frames of videos, whose length is known from runs alone
+        seen: dict[str, int] = {}  # frames of videos, whose length only runs show
         for task, scored in self.scored.items():
             if task.kind == ONE_PASS and not isinstance(task.tracker, ResultsSpec):
                 run, _ = scored
@@ -322,7 +322,7 @@ class _Plan:
 
 
 def _start_error(run: ScoredRun) -> str:
-    """Why a tracker didn't start; "" if it did, and perhaps failed later."""
+    """Why a tracker didn't start; "" if it did, even if it failed later."""
     first = f"frame {run.start}: "
     return run.error.removeprefix(first) if run.error.startswith(first) else ""
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Figures for papers: a file each, as wide as a column, with its fonts inside; by matplotlib.
+"""Figures for papers, drawn by matplotlib: one file each, one column wide, with embedded fonts.
 
 Colors are those of the report, which color-blind readers can distinguish; baselines also differ by dashes.
 """
@@ -20,12 +20,12 @@ from tricue.evaluation.significance import Comparison, Pair
 
 FOLDER = "figures"
 FORMATS = ("pdf", "svg", "png")
-WIDTH = 3.3  # inches, a column of two
+WIDTH = 3.3  # inches, the column width of a two-column page
 _HEIGHT = 2.5  # without a legend
 _LEGEND_LINE = 0.15
 _DPI = 300  # of PNG
 _STYLE: dict[str, Any] = {
-    "font.family": "DejaVu Sans",  # comes with matplotlib, so that figures are alike everywhere
+    "font.family": "DejaVu Sans",  # comes with matplotlib, so figures look the same everywhere
     "font.size": 7.5,
     "axes.spines.top": False,
     "axes.spines.right": False,
@@ -34,13 +34,13 @@ _STYLE: dict[str, Any] = {
     "grid.color": "#e4e4e4",
     "grid.linewidth": 0.5,
     "lines.solid_capstyle": "butt",
-    "pdf.fonttype": 42,  # TrueType, embedded; many publishers refuse Type 3
+    "pdf.fonttype": 42,  # TrueType, embedded; many publishers reject Type 3
     "svg.fonttype": "path",
     "svg.hashsalt": "tricue",
 }
-_SCALE = 0.6  # of the report's lines and points, which are larger
+_SCALE = 0.6  # of the line widths and point sizes of the report
 MAX_TRACKERS = 6  # in the figure by attribute
-MAX_NAMED_CELLS = 8  # trackers with which the matrix still has room for numbers
+MAX_NAMED_CELLS = 8  # trackers up to which the matrix has room for numbers
 
 
 def check_formats(formats: Sequence[str]) -> None:
@@ -51,8 +51,8 @@ def check_formats(formats: Sequence[str]) -> None:
 
 
 def write_figures(evaluation: Evaluation, folder: Path, formats: Sequence[str]) -> list[Path]:
-    """Write each figure of each group as folder/GROUP-NAME.FORMAT; their paths. The same evaluation gives the
-    same bytes, but for the times of other runs.
+    """Write each figure of each group as folder/GROUP-NAME.FORMAT; return their paths. The same evaluation
+    gives the same bytes, except for measured times.
     """
     check_formats(formats)
     styles = {
@@ -120,7 +120,7 @@ def _with_legend(plot: Plot, styles: Mapping[str, LineStyle]) -> Callable[[Any],
 
 
 def _legend(axes: Any, styles: Sequence[LineStyle], texts: Sequence[str], marker: str = "") -> None:
-    """Beneath the axes, in two columns."""
+    """Draw it beneath the axes, in two columns."""
     from matplotlib.lines import Line2D
 
     handles = []
@@ -143,8 +143,8 @@ def _legend(axes: Any, styles: Sequence[LineStyle], texts: Sequence[str], marker
 
 
 def _matrix(found: Comparison) -> Callable[[Any], None]:
-    """Differences of the mean AUC, row minus column. Colored: different with all pairs in mind; pale: the
-    pair's own interval excludes 0; white: nothing shown.
+    """Differences of the mean AUC, row minus column. Colored: different, adjusted for all pairs; pale: only
+    the pair's own interval excludes 0; white: neither.
     """
     names = by_number({name: each.mean for name, each in found.means.items()})
 

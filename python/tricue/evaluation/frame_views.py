@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a tracker gets of a frame: the channels that it uses, or depth as a picture."""
+"""Views of a frame for a tracker: the channels that it uses, or depth as a picture."""
 
 from collections.abc import Callable
 
@@ -7,11 +7,11 @@ from tricue.camera.frame import Frame
 from tricue.draw.depth_pictures import depth_picture, depth_range
 
 FrameView = Callable[[Frame], Frame]
-"""Selects the channels of a frame that a tracker gets; its time isn't measured."""
+"""Selects the channels of a frame that a tracker gets; not part of the measured time."""
 
 
 def depth_as_picture() -> FrameView:
-    """Renders depth as a picture in the color channel, with the depth range of the first frame."""
+    """A view that renders depth as a picture in the color channel, in the first frame's depth range."""
     depth_limits: list[tuple[float, float]] = []
 
     def view(frame: Frame) -> Frame:
@@ -25,6 +25,6 @@ def depth_as_picture() -> FrameView:
 
 
 def select_channels(names: frozenset[str], frame: Frame) -> Frame:
-    """The frame with these channels only."""
+    """The frame with only these channels."""
     channels = {name: getattr(frame, name) for name in names}
     return Frame(**channels, timestamp=frame.timestamp)

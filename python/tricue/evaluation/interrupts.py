@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Ctrl-C with several processes: a terminal sends it to all, and none may print where it was."""
+"""Ctrl-C with several processes: a terminal sends it to all, and none may print a traceback."""
 
 import signal
 import threading
@@ -10,13 +10,13 @@ from multiprocessing.resource_tracker import ensure_running
 
 @contextmanager
 def interrupts_later() -> Iterator[None]:
-    """Ctrl-C comes to this process afterwards, and never to one that is started here."""
+    """Deliver Ctrl-C to this process after the block, and never to a process that is started in it."""
     if not hasattr(signal, "pthread_sigmask"):  # on Windows
         yield
         return
     ensure_running()  # Python 3.11 delivers the signal again when it starts this helper
     with _deferred():
-        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # inherited by what is started
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # inherited by children
         try:
             yield
         finally:
@@ -25,7 +25,7 @@ def interrupts_later() -> Iterator[None]:
 
 @contextmanager
 def _deferred() -> Iterator[None]:
-    """Ctrl-C raises at the end: libraries' threads, which don't block it, would let it in."""
+    """Let Ctrl-C raise only at the end: libraries' threads don't block it, so it would come through."""
     main = threading.current_thread() is threading.main_thread()
     if not main or signal.getsignal(signal.SIGINT) in (signal.SIG_IGN, None):
         yield
@@ -46,7 +46,7 @@ def _deferred() -> Iterator[None]:
 
 
 def end_when_interrupted() -> None:
-    """In a process that was started so: Ctrl-C ends it without a word, from now on, unless it is ignored."""
+    """In a process started that way, let Ctrl-C end it silently from now on, unless it is ignored."""
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
     if hasattr(signal, "pthread_sigmask"):

@@ -41,8 +41,8 @@ _BOLD = (
 
 
 def write_latex(evaluation: Evaluation, path: Path) -> Path:
-    """Write the file: a table per group of sequences, by protocol where there are several, and by attribute
-    where these were measured; its path.
+    """Write the file: for each group of sequences a table, one by protocol if there are several, and one by
+    attribute if measured. Returns its path.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     parts = ["% Needs \\usepackage{booktabs}. Written by tricue evaluate.", *_tables(evaluation)]
@@ -51,7 +51,7 @@ def write_latex(evaluation: Evaluation, path: Path) -> Path:
 
 
 def escape(text: str) -> str:
-    """Any text as LaTeX shows it."""
+    """Text, escaped for LaTeX."""
     return "".join(_ESCAPES.get(letter, letter) for letter in text)
 
 
@@ -106,7 +106,7 @@ def _by_attribute(evaluation: Evaluation, group: str, lines: Sequence[dict[str, 
 
 
 def _cell(found: Comparison, tracker: str, key: str) -> str:
-    """The mean, bold if among the best; of AUC with its interval."""
+    """The mean, bold if among the best; for AUC with its interval."""
     interval = found.means.get(tracker)
     if interval is None or math.isnan(interval.mean):
         return "--"

@@ -18,27 +18,27 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 FOUND_OVERLAP = 0.5
-"""The overlap from which OxUvA counts the target as found (section 4)."""
+"""The overlap from which on OxUvA counts the target as found (section 4)."""
 RESOLUTION = 100
-"""Thresholds of the VOT toolkit."""
+"""Number of thresholds, as in the VOT toolkit."""
 
 
 class Rates(NamedTuple):
-    """Shares in [0, 1]; NaN where there are no such frames."""
+    """Shares in [0, 1]; NaN if there are no such frames."""
 
     true_positive: float
-    """Of the visible frames: reported as present, with an overlap of at least FOUND_OVERLAP."""
+    """Share of the visible frames reported as present with an overlap of at least FOUND_OVERLAP."""
     true_negative: float
-    """Of the absent frames: reported as absent."""
+    """Share of the absent frames reported as absent."""
 
     @property
     def geometric_mean(self) -> float:
-        """Of both, OxUvA's one number for a tracker that decides."""
+        """The geometric mean of both, OxUvA's single number for a tracker."""
         return float(np.sqrt(self.true_positive * self.true_negative))
 
 
 class Frames(NamedTuple):
-    """A sequence as the VOT toolkit counts it: arrays of one length, a frame each."""
+    """A sequence as the VOT toolkit counts it: arrays with one value per frame."""
 
     overlaps: Array
     scores: Array
@@ -47,13 +47,13 @@ class Frames(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PrecisionRecall:
-    """A point per threshold, thresholds falling from inf to -inf: arrays of one length, values in [0, 1]."""
+    """Arrays with one point per threshold, in [0, 1]; thresholds fall from inf to -inf."""
 
     thresholds: Array
     precision: Array
-    """Mean overlap of the frames with a score of at least the threshold; 1 where there are none."""
+    """Mean overlap of the frames with a score of at least the threshold; 1 if there are none."""
     recall: Array
-    """Sum of those overlaps over the number of visible frames."""
+    """Sum of those overlaps divided by the number of visible frames."""
 
     @property
     def f(self) -> Array:
@@ -63,7 +63,7 @@ class PrecisionRecall:
 
     @property
     def best(self) -> "Best":
-        """The threshold with the highest F; of several, the highest one."""
+        """The threshold with the highest F; among equals the highest."""
         index = int(np.argmax(self.f))
         return Best(*(float(each[index]) for each in (self.precision, self.recall, self.f, self.thresholds)))
 
@@ -95,8 +95,8 @@ def vot_frames(boxes: ArrayLike, truth: ArrayLike, scores: ArrayLike, absent: Ar
     """A result as the VOT toolkit counts it: boxes and truth are (M, 4), scores and absent (M,).
 
     The first frame, in which the tracker is started, has overlap 0 and score 0 but counts as visible. In an
-    absent frame a box has overlap 0, and no box overlap 1, as "two empty regions are identical". Frames whose
-    truth is unknown are left out; the toolkit's format can't tell them from absent ones.
+    absent frame a box has overlap 0, and no box has overlap 1, since "two empty regions are identical".
+    Frames with unknown truth are left out; the toolkit's format can't distinguish them from absent ones.
     """
     overlap = overlaps(boxes, truth)
     score = _values(scores, "scores", len(overlap)).copy()
@@ -109,7 +109,7 @@ def vot_frames(boxes: ArrayLike, truth: ArrayLike, scores: ArrayLike, absent: Ar
 
 
 def precision_recall(sequences: Sequence[Frames], resolution: int = RESOLUTION) -> PrecisionRecall:
-    """The tracker's curve: one set of thresholds for all sequences, and the mean of the sequences' curves.
+    """The tracker's curve: the mean of the sequences' curves, with one set of thresholds for all.
 
     ValueError for a sequence without a visible frame, whose recall isn't defined.
     """
@@ -122,9 +122,10 @@ def precision_recall(sequences: Sequence[Frames], resolution: int = RESOLUTION) 
 
 
 def thresholds(scores: ArrayLike, resolution: int = RESOLUTION) -> Array:
-    """Thresholds from inf to -inf that cut the sorted scores into equal shares, ``resolution`` at most.
+    """At most ``resolution`` thresholds, from inf to -inf, that cut the sorted scores into equal shares.
 
-    The toolkit's ``determine_thresholds``: NaN scores are left out, and few scores are all taken.
+    The toolkit's ``determine_thresholds``: NaN scores are left out; if there are few scores, all are
+    thresholds.
     """
     if resolution < 3:
         raise ValueError(f"resolution: expected 3 or more, got {resolution}")

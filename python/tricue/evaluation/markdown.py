@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""An evaluation as printed tables, in Markdown: by tracker, by protocol, by sequence."""
+"""An evaluation as Markdown tables for printing: by tracker, by protocol, by sequence."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -32,12 +32,12 @@ _PRINTED_COLUMNS = {
 }
 """Columns of the printed table; one without any number is left out."""
 MAX_SEQUENCE_COLUMNS = 12  # sequences in a printed table
-_LONG_TERM_COLUMNS = ("f_score", "true_positive")  # meaningful only if targets are absent
+_LONG_TERM_COLUMNS = ("f_score", "true_positive")  # meaningful only if targets are sometimes absent
 
 
 def markdown(evaluation: Evaluation) -> str:
     """Tables per group of sequences: the summary with intervals of the AUC, the AUC by protocol if there are
-    several, and the AUC of each sequence unless there are too many; and a sentence on what they tell.
+    several, and the AUC of each sequence unless there are too many; and a sentence on what they show.
     """
     lines, speeds_by_tracker = (
         summary(evaluation),
@@ -62,7 +62,7 @@ def markdown(evaluation: Evaluation) -> str:
 
 
 def telling(found: Comparison) -> str:
-    """What a table of a group can tell."""
+    """A sentence on what a group's table can show."""
     if not found.telling:
         count = "one recording" if found.recordings == 1 else f"{found.recordings} recordings"
         return (
@@ -80,13 +80,13 @@ def telling(found: Comparison) -> str:
 
 
 def unmarked(pairs: int) -> str:
-    """Why none is marked as among the best, although there are intervals."""
+    """Why no tracker is marked as among the best although there are intervals."""
     count = "1 pair" if pairs == 1 else f"{pairs} pairs"
     return f"None is marked: of so few recordings no p of {count} can be under 0.05 by Holm."
 
 
 def interval_text(found: Comparison, tracker: str) -> str:
-    """The ends of a tracker's interval, with a * if it is among the best; "-" where nothing can be told."""
+    """The ends of a tracker's interval, with a * if it is among the best; "-" without an interval."""
     _, low, high = found.means[tracker]
     if math.isnan(low):
         return "-"
@@ -94,7 +94,7 @@ def interval_text(found: Comparison, tracker: str) -> str:
 
 
 def _protocol_table(group: str, compared: Mapping[str, Comparison]) -> str:
-    """AUC with its interval by protocol."""
+    """AUC with its interval, by protocol."""
     rows = [[f"{group}: AUC", *compared], ["---"] * (len(compared) + 1)]
     for tracker in dict.fromkeys(name for each in compared.values() for name in each.means):
         cells = []

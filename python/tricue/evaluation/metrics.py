@@ -5,8 +5,8 @@ That is Wu, Lim and Yang 2013, and for the normalized precision Mueller et al. 2
 
 Boxes are (M, 4) arrays (x, y, width, height) in pixels, a row per frame. A row of NaN in the truth means a
 frame without truth; such frames are excluded from all summaries. A row of NaN in the result means that the
-tracker gave no box; it counts as a miss. Curves and thresholds are those of got10k's toolkit to the last
-bit, so that frames that lie on a threshold fall on the same side.
+tracker gave no box; it counts as a miss. Curves and thresholds equal those of the got10k toolkit to the last
+bit, so that frames exactly on a threshold fall on the same side.
 """
 
 from collections.abc import Callable
@@ -48,7 +48,7 @@ def overlaps(boxes: ArrayLike, truth: ArrayLike) -> Array:
     high = np.minimum(found[:, :2] + found[:, 2:], true[:, :2] + true[:, 2:])
     common = np.prod(np.maximum(high - low, 0.0), axis=1)
     union = np.prod(found[:, 2:], axis=1) + np.prod(true[:, 2:], axis=1) - common
-    # got10k adds an epsilon to the union, which is rounded away from 4 square pixels on.
+    # got10k adds an epsilon to the union, which rounds away for unions of 4 square pixels or more.
     return _missing(np.minimum(common / union, 1.0), found, true, 0.0)
 
 
@@ -59,7 +59,7 @@ def center_errors(boxes: ArrayLike, truth: ArrayLike) -> Array:
 
 
 def normalized_center_errors(boxes: ArrayLike, truth: ArrayLike) -> Array:
-    """As center_errors, the offset along x over the true width and along y over the true height, no unit.
+    """As center_errors, with the offset along x divided by the true width, along y by the true height.
 
     P_norm of Mueller et al. 2018 (eq. 2).
     """
@@ -70,8 +70,8 @@ def normalized_center_errors(boxes: ArrayLike, truth: ArrayLike) -> Array:
 def position_errors(found: ArrayLike, true: ArrayLike) -> Array:
     """Distance between positions in the camera frame, row by row, (M,), meters; both arguments are (M, 3).
 
-    Where the truth has a depth only (x or y is NaN), the error along z. NaN where the truth has no depth or
-    the tracker gave no position.
+    If the truth has only a depth (x or y is NaN), the error along z. NaN if the truth has no depth or the
+    tracker gave no position.
     """
     estimated, known = _positions(found, "found"), _positions(true, "true")
     if estimated.shape != known.shape:
@@ -106,7 +106,7 @@ def score(boxes: ArrayLike, truth: ArrayLike) -> Score:
 
 
 def _centers(boxes: Array) -> Array:
-    """The (M, 2) centers of boxes of whole pixels: half a pixel off the corners' middle, as in OTB's code."""
+    """The centers (M, 2) of boxes of whole pixels, half a pixel off the corners' middle, as in OTB's code."""
     center: Array = boxes[:, :2] + (boxes[:, 2:] - 1) / 2
     return center
 

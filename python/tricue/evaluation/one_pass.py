@@ -45,13 +45,13 @@ class Run:
     covariances: NDArray[np.float64]
     """(M, 3, 3) of the positions, square meters; NaN where the tracker gave none."""
     seconds: NDArray[np.float64]
-    """(U,) one per update, M - 1 in one pass; without init and decoding. Fewer if the tracker failed, none
-    where no time is known.
+    """(U,) one per update, M - 1 in one pass, without init and decoding; fewer if the tracker failed, none if
+    no time is known.
     """
 
     @property
     def frames_per_second(self) -> float:
-        """Updates per second of update time; NaN without any time."""
+        """Updates per second of update time; NaN if no time is known."""
         return self.seconds.size / float(self.seconds.sum()) if self.seconds.any() else float("nan")
 
     @property
@@ -71,7 +71,7 @@ class Run:
 def run(tracker: AnyTracker, frames: Iterable[Frame], box: Box, start: int = 0) -> Run:
     """Track through ``frames``, from ``box`` in frame ``start``, with OpenCV limited to one thread.
 
-    Frames are taken one by one and not kept; those before the start have no box. ValueError if no frame
+    Frames are read one at a time and not kept; those before the start have no box. ValueError if no frame
     follows the start.
     """
     log = RunLog()
@@ -102,7 +102,7 @@ class RunLog:
         return track
 
     def update(self, tracker: AnyTracker, frame: Frame) -> Track:
-        """Update the tracker and measure the time, which doesn't count once it has failed."""
+        """Update the tracker and measure the time, which isn't counted once the tracker has failed."""
         start = perf_counter()
         track = tracker.update(frame)
         seconds = perf_counter() - start

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""Protocols: in which order a tracker sees the frames of a sequence, and on which box it starts.
+"""Protocols: the order in which a tracker sees a sequence's frames, and the box on which it starts.
 
-"one-pass" goes from the first true box to the end. "backward" does the same from the last one. "starts" are
-eight runs, from 0, 1/4, 1/2 and 3/4 of the sequence to its end, and the same on the reversed sequence
-(temporal robustness in OTB, Wu, Lim, Yang 2013; "anchors" in VOT since 2020). "every-N" sees every N-th frame
-alone, as a slow camera or computer would. "noisy-N" starts N times on a box beside the true one (spatial
-robustness in OTB). "restarts" starts again after each failure (:mod:`tricue.evaluation.restarts`).
+"one-pass" goes from the first true box to the end. "backward" runs from the last one to the beginning.
+"starts" are eight runs, from 0, 1/4, 1/2 and 3/4 of the sequence to its end, and the same on the reversed
+sequence (temporal robustness in OTB, Wu, Lim, Yang 2013; "anchors" in VOT since 2020). "every-N" uses only
+every N-th frame, like a slow camera or computer. "noisy-N" starts N times on a box beside the true one
+(spatial robustness in OTB). "restarts" starts again after each failure (:mod:`tricue.evaluation.restarts`).
 
-A run starts on the first of its frames with a true box; except with "one-pass" and "restarts" it ends with
-the labels. A run may belong to several protocols, and is run once.
+A run starts on the first of its frames with a true box; except for "one-pass" and "restarts" it ends with the
+last label. A run that belongs to several protocols is run only once.
 """
 
 import hashlib
@@ -28,16 +28,16 @@ from tricue.data.source import Source
 from tricue.evaluation.dataset import OpenedSequence
 
 ONE_PASS, RESTARTS, BACKWARD, STARTS = "one-pass", "restarts", "backward", "starts"
-EVERY, NOISY = "every", "noisy"  # of a number, as in every-3
+EVERY, NOISY = "every", "noisy"  # followed by a number, as in every-3
 START_SHARES = (0.0, 0.25, 0.5, 0.75)
 NOISE = 0.1
-"""Noise of the first box: how far its center is moved, in units of its size, and how much sides change."""
-BLOCK_PIXELS = 50_000_000  # decoded at once of a reversed sequence
+"""Noise of the first box: how far its center moves, in units of its size, and how much its sides change."""
+BLOCK_PIXELS = 50_000_000  # of a reversed sequence, decoded at once
 
 
 class Order(NamedTuple):
-    """The frames of a run. start: the share of the sequence that it skips at the beginning. step: it sees
-    every step-th frame. noise: 0 for the true first box, else the number of the draw that moves it.
+    """The frames of a run. start: the share of the sequence skipped at the beginning. step: every step-th
+    frame is used. noise: 0 for the true first box, else the number of the random draw that moves it.
     """
 
     start: float = 0.0
@@ -75,8 +75,8 @@ class Order(NamedTuple):
         return way[int(self.start * frames) :: self.step]
 
     def seen(self, opened: OpenedSequence) -> NDArray[np.intp]:
-        """The same for a sequence's labeled frames, from the first with a true box on; none unless two are
-        left.
+        """The same for a sequence's labeled frames, starting with the first true box; empty if fewer than two
+        are left.
         """
         boxes = opened.boxes[: opened.source.length]
         numbers = self.numbers(len(boxes))
@@ -86,7 +86,7 @@ class Order(NamedTuple):
 
 
 def orders(protocol: str) -> tuple[Order, ...]:
-    """The runs of a protocol. ValueError for an unknown one; restarts is none of these."""
+    """The runs of a protocol. ValueError for an unknown one, and for restarts."""
     if protocol == ONE_PASS:
         return (Order(),)
     if protocol == BACKWARD:
@@ -103,8 +103,8 @@ def orders(protocol: str) -> tuple[Order, ...]:
 
 
 def jittered(box: Box, sequence: str, draw: int) -> Box:
-    """The box beside a true one on which a noisy run starts: its center is moved by NOISE of its size in any
-    direction, each side is at most NOISE longer or shorter. The same for every tracker and machine.
+    """The box near a true one on which a noisy run starts: its center moves by NOISE of its size in a random
+    direction, and each side is at most NOISE longer or shorter. It is the same for all trackers and machines.
     """
     digest = hashlib.sha256(f"{sequence}\n{draw}".encode()).digest()
     angle, wide, high = (
@@ -122,7 +122,7 @@ def jittered(box: Box, sequence: str, draw: int) -> Box:
 def read_frames(source: Source, numbers: NDArray[np.intp]) -> Iterator[Frame]:
     """The frames with these numbers, all forward or all backward, then with :func:`forward_times`' times.
 
-    For a reversed sequence BLOCK_PIXELS are decoded at once, so that memory doesn't grow with its length.
+    A reversed sequence is decoded in blocks of BLOCK_PIXELS, so that memory doesn't grow with its length.
     """
     wanted = numbers.tolist()
     if wanted == sorted(wanted):
@@ -133,7 +133,7 @@ def read_frames(source: Source, numbers: NDArray[np.intp]) -> Iterator[Frame]:
 
 
 def forward_times(frames: Iterable[Frame]) -> Iterator[Frame]:
-    """Frames that go backward, with the seconds since the first one as times; unknown ones stay so."""
+    """Frames in reverse order, with times in seconds from the first one; unknown times stay unknown."""
     first = None
     for index, frame in enumerate(frames):
         first = frame.timestamp if index == 0 else first

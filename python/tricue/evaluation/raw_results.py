@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""An evaluation's boxes as files that other people's tools read, and a manifest of what made them.
+"""An evaluation's boxes as files that other tools read, and a manifest of how they were made.
 
-OTB's form is a file of boxes a sequence, with times as the GOT-10k toolkit writes them; GOT-10k's is a file a
-repetition; VOT's, of its long-term experiment, has confidences, too. Sources: Wu, Lim, Yang, "Object Tracking
-Benchmark", PAMI 2015; Huang, Zhao, Huang, "GOT-10k", PAMI 2021; the VOT toolkit 0.7.
+OTB's form has one file of boxes per sequence, with times as the GOT-10k toolkit writes them; GOT-10k's has
+one file per repetition; VOT's, for its long-term experiment, also has confidences. Sources: Wu, Lim, Yang,
+"Object Tracking Benchmark", PAMI 2015; Huang, Zhao, Huang, "GOT-10k", PAMI 2021; the VOT toolkit 0.7.
 """
 
 import json
@@ -27,8 +27,8 @@ from tricue.evaluation.store import Store
 from tricue.evaluation.tasks import code_digest
 
 MANIFEST, FORMAT = "manifest.json", 1
-OTB, GOT10K, VOT = "otb", "got10k", "vot"  # the forms' folders
-EXPERIMENT = "longterm"  # VOT's name of one pass with confidences
+OTB, GOT10K, VOT = "otb", "got10k", "vot"  # the folders of the three forms
+EXPERIMENT = "longterm"  # VOT's name for one pass with confidences
 VOT_UNKNOWN, VOT_START = "0", "1"
 CONVENTIONS = {
     "boxes": "x,y,width,height in pixels; (0, 0) is the top-left corner of the image: files that count"
@@ -46,7 +46,7 @@ class _Repetition:
     """One run of a tracker on a sequence, and where it started."""
 
     number: int
-    """From 1 on."""
+    """From 1."""
     run: Run
     start: int
 
@@ -56,14 +56,14 @@ class _Repetition:
 
     @property
     def times(self) -> NDArray[np.float64]:
-        """(M,) seconds by frame."""
+        """Seconds per frame, (M,)."""
         times = np.zeros(len(self.run.boxes))
         times[self.start + 1 : self.start + 1 + len(self.run.seconds)] = self.run.seconds
         return times
 
 
 def check_folder(folder: Path) -> None:
-    """ValueError if the folder has other files than raw results, which are replaced."""
+    """ValueError if the folder has files other than raw results; those are replaced."""
     if folder.exists() and not (folder.is_dir() and (_is_ours(folder) or not any(folder.iterdir()))):
         raise ValueError(f"{folder}: expected a new or empty folder, or one of raw results to replace")
 
@@ -71,9 +71,9 @@ def check_folder(folder: Path) -> None:
 def write_raw(
     evaluation: Evaluation, finished: Path, folder: Path, about: Mapping[str, Any], terms: str = ""
 ) -> Path:
-    """Write the one-pass runs into a folder in the three forms; the path of the manifest.
+    """Write the one-pass runs into a folder in the three forms; return the manifest's path.
 
-    finished: the evaluation's folder; what isn't a run of it, such as others' results, is left out. about:
+    finished: the evaluation's folder; results that aren't its runs, such as others', are left out. about:
     versions, machine and parameters, as ``tables.settings`` gives them. terms: the results' license.
     ValueError as :func:`check_folder`.
     """
@@ -95,7 +95,7 @@ def write_raw(
         "format": FORMAT,
         "license": terms or "not stated",
         "conventions": CONVENTIONS,
-        **{name: value for name, value in about.items() if name != "dataset"},  # whose path is the user's
+        **{name: value for name, value in about.items() if name != "dataset"},  # whose path is private
         "commit": commit() or None,
         "code": code_digest(),
         "trackers": {file: name for name, file in trackers.items()},
@@ -120,9 +120,7 @@ def write_raw(
 
 
 def file_names(names: Mapping[str, str]) -> dict[str, str]:
-    """A file name of its own for each name: the short one that it is given with, or all of it where two names
-    have the same short one.
-    """
+    """A unique file name for each name: its given short name, or the full name if two share a short one."""
     short = [_plain(each) for each in names.values()]
     found: dict[str, str] = {}
     for name, wished in zip(names, short, strict=True):
@@ -136,7 +134,7 @@ def file_names(names: Mapping[str, str]) -> dict[str, str]:
 
 
 def _plain(name: str) -> str:
-    """What is a file's name on any system, without blanks."""
+    """A valid file name on any system, without spaces."""
     return re.sub(r'[\s\\:*?"<>|%]', "_", name.replace("/", "-")).lstrip(".-") or "_"
 
 

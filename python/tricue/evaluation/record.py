@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The result of one run as a JSON file, which restores it bit for bit."""
+"""The result of one run as a JSON file, restored bit for bit."""
 
 import json
 from dataclasses import dataclass
@@ -17,8 +17,8 @@ FORMAT = 1  # of the file
 @dataclass(frozen=True, slots=True, eq=False)
 class Record:
     """A run over M frames. starts: the frames in which the tracker was started. error: the message of the
-    error that ended the tracker, or ""; its boxes are NaN from there on. frames: the numbers in the sequence
-    of the frames that the tracker saw, in that order; None for all of them.
+    error that ended the tracker, or ""; boxes are NaN from there on. frames: the sequence's frame numbers
+    that the tracker saw, in order; None for all.
     """
 
     run: Run
@@ -28,11 +28,11 @@ class Record:
 
     @property
     def numbers(self) -> NDArray[np.intp]:
-        """(M,) the numbers of its frames in the sequence."""
+        """The numbers (M,) of its frames in the sequence."""
         return np.array(range(len(self.run.scores)) if self.frames is None else self.frames, dtype=np.intp)
 
     def to_json(self, about: dict[str, Any]) -> str:
-        """The file's text. about: what was run, stored in the file, too."""
+        """The file's text. about: what was run, also stored in the file."""
         run = self.run
         return json.dumps(
             {

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Robustness by restarts: a tracker that lost its target is restarted, and the failures are counted.
+"""Robustness by restarts: a tracker that loses its target is restarted, and failures are counted.
 
 The supervised experiment of VOT (Kristan et al. 2016, "A novel performance evaluation methodology for single-
-target trackers"): a failure is a frame without any overlap; the next start is some frames later.
+target trackers"): a failure is a frame with no overlap; the next start is some frames later.
 """
 
 from collections.abc import Callable, Iterable
@@ -19,13 +19,13 @@ from tricue.evaluation.one_pass import AnyTracker, RunLog, one_thread
 from tricue.evaluation.record import Record
 
 RESTART_DELAY = 5  # frames from a failure to the next start
-BURN_IN = 10  # frames after a start that don't count for accuracy, because the true box helped there
+BURN_IN = 10  # frames after a start that don't count for accuracy, because the true box still helps
 _NO_BOX = np.full(4, np.nan)
 
 
 class Robustness(NamedTuple):
     """failures: how often the target was lost. frames: the number of frames in which it could be lost.
-    accuracy: the mean overlap without the frames after a start, NaN if there are none left.
+    accuracy: the mean overlap without the BURN_IN frames after each start, NaN if none are left.
     """
 
     failures: int
@@ -39,9 +39,9 @@ def run(
     truth: NDArray[np.float64],
     compared: NDArray[np.float64] | None = None,
 ) -> Record:
-    """Track with restarts. truth: (M, 4), on which trackers start. compared: (M, 4), what they have to
-    overlap, such as the truth's part in the image; None for all of it. In frames where it is NaN, and beyond
-    M, no tracker starts or fails. Boxes are NaN where no tracker runs.
+    """Track with restarts. truth: (M, 4), boxes on which trackers start. compared: (M, 4), boxes that they
+    must overlap, such as the truth's part in the image; by default the truth. Where it is NaN, and after M
+    frames, no tracker starts or fails. Boxes are NaN where no tracker runs.
     """
     compared = truth if compared is None else compared
     log, starts, resume = RunLog(), [], 0
@@ -64,9 +64,7 @@ def run(
 
 
 def robustness(record: Record, overlaps: NDArray[np.float64]) -> Robustness:
-    """The robustness of a run with restarts from its overlaps with the truth, (M,), NaN where it is
-    unknown.
-    """
+    """The robustness of a run with restarts, from its overlaps (M,) with the truth, NaN where unknown."""
     frames = np.arange(len(overlaps))
     last = np.searchsorted(record.starts, frames, side="right") - 1
     since = frames - np.array([*record.starts, -1])[last]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Others' results: folders of files as the toolkits of OTB, GOT-10k and VOT write them, read as runs.
+"""Others' results: folders of files in the formats of the OTB, GOT-10k and VOT toolkits, read as runs.
 
-Nothing is run for them; they are compared on the sequences that they have.
+Nothing is run for them; they are compared on the sequences that they cover.
 """
 
 import re
@@ -25,25 +25,25 @@ from tricue.track.base.traits import Channels, Traits
 Array = NDArray[np.float64]
 OTB, GOT10K, VOT = "otb", "got10k", "vot"
 FIRST_PIXELS = {"otb0": 0.0, "otb1": 1.0}
-"""Forms that say from where OTB's files count pixels."""
+"""Forms that state from which number OTB's files count pixels."""
 FORMS = (OTB, *FIRST_PIXELS, GOT10K, VOT)
 SUFFIXES = (".txt", ".csv")
-START, FAILURE = 1.0, 2.0  # VOT's codes in the place of a box; 0 is a frame without a tracker
-FIRST_PIXEL_TOLERANCE = 0.01  # pixels by which a first box may differ from the true one to tell the count
-_VOT_EXPERIMENTS = ("unsupervised", "longterm", "baseline", "supervised")  # the best one first
+START, FAILURE = 1.0, 2.0  # VOT's codes in place of a box; 0 is a frame without a tracker
+FIRST_PIXEL_TOLERANCE = 0.01  # pixels; a first box within this of the true one shows the count
+_VOT_EXPERIMENTS = ("unsupervised", "longterm", "baseline", "supervised")  # the preferred one first
 _REPETITION = re.compile(
     r"(.+)_(\d{3}|00000000)"
-)  # eight zeros: of several starts the one at the first frame
+)  # eight zeros: the start at the first frame, if there are several
 
 
 class ResultError(ValueError):
-    """A sequence has no result that fits; the message says why."""
+    """A sequence has no matching result; the message says why."""
 
 
 @dataclass(frozen=True)
 class ResultsSpec(TrackerSpec):
     """Others' results under a name. form: one of OTB, GOT10K and VOT. first_pixel: the first pixel's
-    coordinate in OTB's files; None: as in the file of true boxes.
+    coordinate in OTB's files; None: that of the file of true boxes.
     """
 
     folder: Path = Path()
@@ -57,12 +57,12 @@ class ResultsSpec(TrackerSpec):
 
     @property
     def traits(self) -> Traits:
-        """Nothing is known of the inputs."""
+        """Their inputs are unknown."""
         return Traits(channels=(Channels(frozenset()),))
 
     @property
     def random(self) -> bool:
-        """There are as many runs as files."""
+        """The number of runs is that of the files."""
         return False
 
     @property
@@ -71,7 +71,7 @@ class ResultsSpec(TrackerSpec):
         return f"{self.form} {self.folder}"
 
     def unsupported_reason(self, opened: SequenceInfo) -> str:
-        """Nothing is known before the files are read."""
+        """Unknown before the files are read."""
         return ""
 
     def read(self, opened: OpenedSequence, among: Collection[str] = ()) -> "Results":
@@ -86,8 +86,8 @@ class ResultsSpec(TrackerSpec):
 
 
 class Results(NamedTuple):
-    """Runs, a record each. supervised: whether they were started again after failures, as in VOT's supervised
-    experiment, so that they say nothing of one pass. first_pixel: the first pixel's coordinate in them.
+    """Runs, one record each. supervised: whether they were restarted after failures, as in VOT's supervised
+    experiment, and so aren't one-pass runs. first_pixel: the first pixel's coordinate in them.
     """
 
     records: list[Record]
@@ -102,7 +102,7 @@ class Results(NamedTuple):
 
 
 class _Files(NamedTuple):
-    """The files of a sequence. times: seconds a frame of each run, None if unknown."""
+    """The files of a sequence. times: seconds per frame for each run, None if unknown."""
 
     runs: list[Path]
     times: list[Array | None]
@@ -110,7 +110,7 @@ class _Files(NamedTuple):
 
 
 def results_spec(text: str) -> ResultsSpec:
-    """The results that NAME=FOLDER or NAME=FOLDER:form names; without a form it is detected.
+    """The results specified by NAME=FOLDER or NAME=FOLDER:form; by default the form is detected.
 
     ValueError says what is wrong with it, or that no file looks like a result.
     """
@@ -157,9 +157,9 @@ def _result_files(folder: Path) -> list[Path]:
 
 
 def sequence_names(entry: Entry, among: Collection[str] = ()) -> list[str]:
-    """How toolkits may name a sequence, the most specific name first; in lower case, with _ for blanks.
+    """The names that toolkits may give a sequence, most specific first, in lower case with _ for spaces.
 
-    among: the names of all sequences. Names that several of them would have are left out.
+    among: the names of all sequences. Names that would fit several of them are left out.
     """
     parts = entry.name.split("/")
     named = len(parts) - (1 if entry.target is None else 2)
@@ -206,7 +206,7 @@ def _is_supervised(path: Path) -> bool:
 
 
 def _code(line: str) -> float | None:
-    """VOT's code in the place of a box; None for a box."""
+    """VOT's code in place of a box; None for a box."""
     try:
         return float(line.strip())
     except ValueError:
@@ -214,7 +214,7 @@ def _code(line: str) -> float | None:
 
 
 def _read_times(folder: Path, name: str, runs: int) -> list[Array | None]:
-    """Seconds a frame of each run, from a file with a column a run."""
+    """Seconds per frame for each run, from a file with one column per run."""
     for path in (folder / f"{name}_time.txt", folder / "times" / f"{name}_time.txt"):
         if path.is_file():
             rows = [_numbers(line) for line in read_lines(path)]
@@ -239,7 +239,7 @@ def _read_run(
     lines = read_lines(path)
     if opened.source.length is None and len(lines) not in (rows, rows - start):  # a video
         frames = sum(1 for _ in opened.source)
-    # Some have no lines before the first true box, some none after the last row of the truth, as OTB's.
+    # Some have no lines before the first true box, some, as OTB's, none after the truth's last row.
     fitting = {rows - start: start, rows: 0} if rows < frames else {}
     skipped = {**fitting, frames - start: start, frames: 0}.get(len(lines))
     if skipped is None:
@@ -270,8 +270,8 @@ def _read_box(line: str, path: Path, number: int) -> Sequence[float]:
 
 
 def _first_pixel(spec: ResultsSpec, opened: OpenedSequence, boxes: Array) -> float:
-    """The first pixel's coordinate: the given one; the one that the first box, a true one, shows; or else, in
-    OTB's form, that of the file of true boxes.
+    """The first pixel's coordinate: the given one; else the one by which the first box equals the true one;
+    else, in OTB's form, that of the file of true boxes.
     """
     if spec.first_pixel is not None:
         return spec.first_pixel
@@ -291,7 +291,7 @@ def _record(
     times: Array | None,
     told: slice,
 ) -> Record:
-    """The run of some boxes. told: the frames that the file has lines for."""
+    """The run with these boxes. told: the frames for which the file has lines."""
     found: NDArray[np.bool_] = np.logical_not(np.isnan(boxes).any(axis=1))
     boxes[~found] = np.nan
     frames, lines = len(boxes), told.stop - told.start
@@ -317,13 +317,13 @@ def _record(
 
 
 def _read_scores(path: Path, scores: Array) -> Array:
-    """VOT's confidences; where there is none, 1 with a box and 0 without."""
+    """VOT's confidences; where missing, 1 with a box and 0 without."""
     told = _read_values(path, "confidence", len(scores))
     return scores if told is None else np.where(np.isfinite(told), told, scores)
 
 
 def _read_values(path: Path, name: str, frames: int) -> Array | None:
-    """A number a frame from a companion file, NaN where there is none; None without a file that fits. Some
+    """A number per frame from a companion file, NaN where missing; None without a matching file. Some files
     leave out the first frame.
     """
     place = path.with_name(f"{path.stem}_{name}.value")

@@ -25,7 +25,7 @@ class ScoredRun:
     """A run compared with the truth, over the N frames from its start on; arrays have length N.
 
     start: the frame, counted from the sequence's first. error: the error that ended the tracker, or "".
-    frames: their numbers in the sequence.
+    frames: the frames' numbers in the sequence.
     """
 
     start: int
@@ -57,29 +57,29 @@ class Row:
     iou: float
     """Mean overlap."""
     tracked: float
-    """Share of the frames with status TRACKED, right or wrong, of those whose truth is known."""
+    """Share of the frames with known truth that have status TRACKED, right or wrong."""
     true_positive: float
     true_negative: float
     f_score: float
-    """VOT long-term's, of this sequence alone."""
+    """F of VOT long-term, for this sequence alone."""
     auroc: float
     """Probability that a frame on the target scores above one with an overlap under 0.1."""
     ok_while_lost: float
-    """Share of the frames that are TRACKED with an overlap under 0.1, or no target."""
+    """Share of the frames that are TRACKED although the overlap is under 0.1 or the target absent."""
     position_error: float
-    """Median, meters."""
+    """Median error, meters."""
     failures: float
-    """Of the run with restarts; NaN without one."""
+    """Number of failures in the run with restarts; NaN without one."""
     accuracy: float
     """Mean overlap of the run with restarts."""
     trouble: str = ""
     run: str = ONE_PASS
-    """Its kind, such as "backward-from-25"."""
+    """The kind of run, such as "backward-from-25"."""
 
 
 @dataclass(frozen=True, slots=True)
 class Speed:
-    """How long the updates of a run took, without decoding."""
+    """The update times of a run, without decoding."""
 
     sequence: str
     tracker: str
@@ -113,7 +113,7 @@ def score_run(record: Record, opened: OpenedSequence) -> ScoredRun:
 
 
 def without_truth(run: ScoredRun) -> ScoredRun:
-    """The same run, but no frame counts."""
+    """The same run, with no frame counted."""
     unknown = {name: np.full_like(getattr(run, name), np.nan) for name in _OF_TRUTH}
     return dataclasses.replace(run, absent=np.zeros_like(run.absent), **unknown)
 
@@ -131,7 +131,7 @@ def make_row(
     robustness: restarts.Robustness | None = None,
     kind: str = ONE_PASS,
 ) -> Row:
-    """The numbers of a run, and of the run with restarts that belongs to one pass, if there is one."""
+    """The numbers of a run; for one pass also those of the run with restarts, if there is one."""
     score = metrics.score(run.boxes, run.truth)
     rates = long_term.rates(run.boxes, run.truth, run.tracked, run.absent)
     return Row(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A tracker whose errors are part of its run."""
+"""A tracker whose errors become part of its run."""
 
 from typing import Any
 
@@ -11,19 +11,19 @@ from tricue.track.base.track import Status, Track
 
 
 class SafeTracker:
-    """A tracker that never raises: after its first error, kept in ``error``, it returns tracks without a
-    box. error: one that happened before.
+    """A tracker that never raises: after its first error, kept in ``error``, it returns tracks without a box.
+    error: of an earlier failure, such as in creating it.
     """
 
     def __init__(self, tracker: AnyTracker | None, error: str = "") -> None:
         self.error = error
         self.updates = 0
-        """How many there were until the error: 0 if ``init`` failed."""
+        """Number of updates before the error: 0 if ``init`` failed."""
         self._tracker = tracker
 
     @property
     def update_seconds(self) -> float | None:
-        """Of the last update, where the tracker measures them itself."""
+        """The last update's seconds, if the tracker measures them itself."""
         return getattr(self._tracker, "update_seconds", None)
 
     def init(self, frame: Frame, box: Box) -> Track:

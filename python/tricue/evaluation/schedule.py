@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where tasks run: in this process, in several of this machine (joblib), on a Dask cluster. One code path."""
+"""Where tasks run: in this process, in several on this machine (joblib), or on a Dask cluster."""
 
 import time
 from collections.abc import Callable, Generator, Iterable, Sequence
@@ -15,8 +15,8 @@ from tricue.evaluation.record import Record
 from tricue.evaluation.tasks import Task
 
 Perform = Callable[[Task], Record]
-CONNECT_TIMEOUT = "10s"  # to a Dask scheduler
-GIVING_LIMIT = 2.0  # seconds, after which a pool is taken to be broken
+CONNECT_TIMEOUT = "10s"  # for a Dask scheduler
+GIVING_LIMIT = 2.0  # seconds after which a pool is assumed to be broken
 MISSING_EXTRA = "needs the extra: pip install 'tricue[{}]'"
 
 
@@ -33,8 +33,8 @@ def run_tasks(
 ) -> Generator[Finished, None, None]:
     """Run the tasks and yield them as they finish, in any order. Closing the iterator cancels the rest.
 
-    jobs: processes of this machine. scheduler: the address of a Dask scheduler, such as tcp://host:8786,
-    whose workers see the data set under the same path. A task that was on a lost worker runs on another.
+    jobs: processes on this machine. scheduler: the address of a Dask scheduler, such as tcp://host:8786,
+    whose workers see the data set under the same path. If a worker is lost, its task runs on another.
     ImportError names the missing extra; OSError if no scheduler answers.
     """
     if scheduler is not None:
@@ -56,7 +56,7 @@ def _run_here(tasks: Sequence[Task], perform: Perform) -> Generator[Finished, No
 
 
 def _run_in_processes(tasks: Sequence[Task], perform: Perform, jobs: int) -> Generator[Finished, None, None]:
-    """A killed process breaks its pool. Its tasks are then repeated, each alone, to find the cause."""
+    """A killed process breaks its pool. Its tasks are then repeated one at a time to find the cause."""
     try:
         from joblib.externals.loky import ProcessPoolExecutor  # unlike Python's it needs no main module
     except ImportError:
@@ -80,7 +80,7 @@ def _run_in_processes(tasks: Sequence[Task], perform: Perform, jobs: int) -> Gen
 def _run_in_pool(
     tasks: Sequence[Task], indices: Sequence[int], perform: Perform, executor: Any, jobs: int
 ) -> Generator[Finished, None, None]:
-    """Submit in order, as many at once as there are processes: the first unfinished ones are running."""
+    """Submit in order, as many as there are processes, so that the first unfinished ones are running."""
     left = iter(indices)
     running: set[Any] = set()
     pool = executor(jobs)
@@ -96,7 +96,7 @@ def _run_in_pool(
             done, running = wait(running, return_when=FIRST_COMPLETED)
             yield from (future.result() for future in done)
     finally:
-        # Running tasks aren't wanted. One call: a second, as by ``with``, would undo kill_workers.
+        # Running tasks aren't needed. Call it once: a second call, as by ``with``, would undo kill_workers.
         try:
             _wait_until_given(running)
         finally:
@@ -104,8 +104,8 @@ def _run_in_pool(
 
 
 def _wait_until_given(futures: Iterable[Any]) -> None:
-    """Until joblib's thread has given the tasks to processes, mostly at once: told to kill these before, it
-    would print a KeyError.
+    """Wait until joblib's thread has handed the tasks to processes, usually at once. If they were killed
+    before that, it would print a KeyError.
     """
     deadline = time.monotonic() + GIVING_LIMIT
     while not all(each.running() or each.done() for each in futures) and time.monotonic() < deadline:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Which trackers differ: means over sequences with intervals, and each pair's paired difference.
+"""Significance tests: means over sequences with intervals, and each pair's paired difference.
 
-A pair is compared on the sequences on which both ran. Its interval isn't adjusted: of twenty such intervals
-one excludes 0 by chance. P-values adjusted for the number of pairs say whether a pair counts as different.
+A pair is compared on the sequences on which both ran. Its interval isn't adjusted: one in twenty excludes 0
+by chance. A pair counts as different by its p-value, which is adjusted for the number of pairs.
 """
 
 import math
@@ -21,7 +21,7 @@ from tricue.evaluation.bootstrap import (
 )
 
 Values = Mapping[str, float]
-"""A number by sequence: the mean over the runs of one tracker on it; NaN where it is undefined."""
+"""One number per sequence: the mean over one tracker's runs on it; NaN where undefined."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +36,7 @@ class Pair:
     p: float
     """The p-value of this pair's sign-flip test alone; NaN if there are too few recordings."""
     adjusted: float
-    """The same by Holm's method, for all pairs of the comparison."""
+    """The same, adjusted for all pairs of the comparison by Holm's method."""
 
     @property
     def different(self) -> bool:
@@ -46,12 +46,12 @@ class Pair:
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """Several trackers by one number. means: by tracker. pairs: all that have a sequence in common."""
+    """Several trackers, compared by one number. means: by tracker. pairs: all with a sequence in common."""
 
     means: Mapping[str, Interval]
     pairs: Sequence[Pair]
     recordings: int
-    """How many independent recordings the sequences are of."""
+    """The number of independent recordings among the sequences."""
 
     @property
     def telling(self) -> bool:
@@ -73,8 +73,8 @@ class Comparison:
         return None
 
     def leaders(self, better: int = 1) -> frozenset[str]:
-        """The tracker with the best mean, and those that can't be distinguished from it; none where nothing
-        can be told. better: 1 if higher is better, -1 if lower.
+        """The tracker with the best mean, and those that can't be distinguished from it; none with too few
+        recordings. better: 1 if higher is better, -1 if lower.
         """
         known = {name: each.mean for name, each in self.means.items() if not math.isnan(each.mean)}
         if not self.separable or len(known) < 2:
@@ -85,8 +85,8 @@ class Comparison:
 
 
 def compare(values: Mapping[str, Values], recordings: Mapping[str, str]) -> Comparison:
-    """values: by tracker. recordings: the recording of each sequence; sequences of one recording are drawn
-    together, and a sequence that isn't in it is a recording of its own.
+    """Compare trackers. values: by tracker. recordings: the recording of each sequence; sequences of one
+    recording are resampled together, and a sequence not listed is a recording of its own.
     """
     known = {
         name: {sequence: value for sequence, value in each.items() if not math.isnan(value)}

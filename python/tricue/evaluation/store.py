@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A folder of finished runs, one file each, from which an evaluation continues."""
+"""A folder of finished runs, one file each, from which an evaluation resumes."""
 
 import json
 import os
@@ -18,7 +18,7 @@ class Store:
         self.folder = folder
 
     def prepare(self) -> None:
-        """Make the folder; OSError early if nothing can be written into it."""
+        """Create the folder; OSError, before any work, if it isn't writable."""
         self.folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=self.folder):
             pass
@@ -54,5 +54,5 @@ class Store:
 
 
 def _file_name(part: str) -> str:
-    """The part as a file's name on any system; other parts have other names."""
+    """The part as a valid file name on any system, unique for each part."""
     return re.sub(r'[%\\:*?"<>|]', lambda found: f"%{ord(found[0]):02X}", part)

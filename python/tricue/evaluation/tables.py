@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""An evaluation as tables in CSV and JSON: one line per run, one line per tracker.
+"""An evaluation as CSV and JSON tables: one line per run, one line per tracker.
 
 Accuracy and speed are in separate files: accuracy is the same on every machine, speed isn't.
 """
@@ -28,12 +28,12 @@ Line = dict[str, Any]
 
 ROWS, SUMMARY, SPEEDS, JSON = "rows.csv", "summary.csv", "speeds.csv", "evaluation.json"
 INTERVALS, SIGNIFICANCE = "intervals.csv", "significance.csv"
-ATTRIBUTES, BY_ATTRIBUTE = "attributes.csv", "by_attribute.csv"  # where attributes were measured
+ATTRIBUTES, BY_ATTRIBUTE = "attributes.csv", "by_attribute.csv"  # if attributes were measured
 
 
 def summary(evaluation: Evaluation, protocol: str = ONE_PASS) -> list[Line]:
-    """A line per group of sequences and tracker that ran on any of them: means over the sequences, each of
-    which is the mean over seeds and starts. F and AUROC are over all frames of the group.
+    """A line per group of sequences and tracker that ran on any of them: means over the sequences, each the
+    mean over seeds and starts. F and AUROC are over all frames of the group.
     """
     lines = []
     recordings = evaluation.recordings
@@ -77,7 +77,7 @@ def intervals(evaluation: Evaluation) -> list[Line]:
 
 def significance(evaluation: Evaluation) -> list[Line]:
     """A line per group, protocol and pair of trackers: the paired difference of the mean AUC, its interval,
-    the p-value of the pair, and the one adjusted for all pairs of the group.
+    the p-value of the pair, and the p-value adjusted for all pairs of the group.
     """
     return [
         {
@@ -102,8 +102,8 @@ def significance(evaluation: Evaluation) -> list[Line]:
 
 
 def speeds(evaluation: Evaluation) -> list[Line]:
-    """The same lines with medians over the runs: updates per second and percentiles of the update time. NaN
-    if no run has times.
+    """The lines of the summary, with medians over the runs: updates per second and percentiles of the update
+    time. NaN if no run has times.
     """
     lines = []
     for group, tracker, results in _compare(evaluation):
@@ -160,7 +160,7 @@ def write(evaluation: Evaluation, folder: Path, about: Line) -> list[Path]:
 
 
 def settings(evaluation: Evaluation, **how: Any) -> Line:
-    """What was run, with which versions, and where. how: further entries."""
+    """What was run, with which versions, and on which machine. how: further entries."""
     options = evaluation.options
     return {
         "tricue": tricue.__version__,
@@ -179,7 +179,7 @@ def settings(evaluation: Evaluation, **how: Any) -> Line:
 
 
 def processor() -> str:
-    """The processor's name, if the system tells it."""
+    """The processor's name, if the system reports it."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
         return next(line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
@@ -195,7 +195,7 @@ def _compare(evaluation: Evaluation, protocol: str = ONE_PASS) -> Iterator[tuple
 
 
 def _write_csv(path: Path, lines: Sequence[Line]) -> None:
-    """Numbers in full, so that equal runs give equal files; empty where there is none."""
+    """Write numbers in full precision, so that equal runs give equal files; missing ones are empty."""
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, list(lines[0]) if lines else [], lineterminator="\n")
         writer.writeheader()
@@ -203,14 +203,16 @@ def _write_csv(path: Path, lines: Sequence[Line]) -> None:
 
 
 def _cell(value: Any) -> Any:
-    """Empty for NaN. A name that a spreadsheet would run as a formula gets an apostrophe, which it hides."""
+    """Empty for NaN. A name that a spreadsheet would run as a formula gets an apostrophe, which stays
+    hidden.
+    """
     if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r")):
         return f"'{value}"
     return "" if isinstance(value, float) and math.isnan(value) else value
 
 
 def _finite(value: Any) -> Any:
-    """JSON knows neither NaN nor infinity."""
+    """None for NaN and infinity, which JSON doesn't have."""
     if isinstance(value, float):
         return value if math.isfinite(value) else None
     if isinstance(value, dict):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The unit of work: one tracker on one sequence from one seed, in one kind of run.
 
-A task contains all that its result depends on, so that it can run in any process and be found again.
+A task contains everything its result depends on, so that it can run in any process and be found again.
 """
 
 import hashlib
@@ -29,21 +29,21 @@ from tricue.evaluation.tracker_spec import Make, TrackerSpec
 _RESULT_SOURCES = (
     *("_core*.so", "_core*.pyd", "kernels.py", "reference/**/*.py", "track/**/*.py"),
     *("camera/**/*.py", "data/**/*.py", "imgproc.py", "errors.py"),
-    *("draw/canvas.py", "draw/depth_pictures.py"),  # the depth that baselines see
+    *("draw/canvas.py", "draw/depth_pictures.py"),  # depth as the baselines see it
     *(f"evaluation/{name}.py" for name in ("tasks", "dataset", "frame_views", "one_pass", "restarts")),
     *(f"evaluation/{name}.py" for name in ("tracker_spec", "safe_tracker", "baselines", "foreign/*")),
     *(f"evaluation/{name}.py" for name in ("metrics", "record")),
     *(f"evaluation/toolkits/{name}.py" for name in ("trax_client", "trax_server", "millimeters")),
 )
-"""What a run depends on: all that this module and ``foreign`` import, whose files are named here so that what
-only scores a run may change. ``protocols`` counts for its own runs (:meth:`Task.fingerprint`).
+"""Files on which a run depends: everything that this module and ``foreign`` import. They are listed so that
+code that only scores runs may change. ``protocols`` counts only for its own runs (:meth:`Task.fingerprint`).
 """
 
 
 @dataclass(frozen=True)
 class Task:
-    """kind: RESTARTS, started again after each failure, or the name of a :class:`protocols.Order`, such as
-    ONE_PASS, from the first true box to the end.
+    """A run to perform. kind: RESTARTS, restarted after each failure, or the name of a
+    :class:`protocols.Order`, such as ONE_PASS, from the first true box to the end.
     """
 
     tracker: TrackerSpec
@@ -57,11 +57,11 @@ class Task:
         return f"{self.kind}/{self.tracker.name}/{self.entry.name}/seed-{self.seed}"
 
     def fingerprint(self, digest: str, description: str) -> str:
-        """A hash of all that the result depends on. digest: the opened entry's; description: the tracker
+        """A hash of everything the result depends on. digest: the opened entry's; description: the tracker
         spec's.
         """
         known = () if self.kind in (ONE_PASS, RESTARTS) else (_digest_of(Path(protocols.__file__)),)
-        versions = cv2.__version__, np.__version__  # which decode images and draw random numbers
+        versions = cv2.__version__, np.__version__  # they decode images and draw random numbers
         parts = (self.name, digest, description, code_digest(), *versions, *known)
         return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
@@ -70,8 +70,8 @@ def perform(task: Task, ahead: int = 0) -> Record:
     """Run the task. Errors of the tracker are part of the record; ValueError or OSError if the sequence can't
     be read.
 
-    ahead: how many frames a second thread may read in advance. It doesn't change the result, only the times
-    a little.
+    ahead: how many frames a second thread may read in advance. It doesn't change the results, only, slightly,
+    the times.
     """
     opened = task.entry.open()
     ordered = task.kind not in (ONE_PASS, RESTARTS)
@@ -90,7 +90,7 @@ def _numbers(task: Task, opened: OpenedSequence) -> NDArray[np.intp]:
 
 
 def _run_one_pass(make: Make, task: Task, opened: OpenedSequence, frames: Iterable[Frame]) -> Record:
-    """Start in the first frame with a true box, which needn't be the first image."""
+    """Start in the first frame with a true box, which may not be the first image."""
     tracker, start = make(task.seed), opened.start
     run = one_pass.run(tracker, frames, Box(*opened.boxes[start].tolist()), start)
     return Record(run, (start,), _error([tracker], (start,)))
@@ -121,7 +121,7 @@ def _run_with_restarts(make: Make, task: Task, opened: OpenedSequence, frames: I
 def _error(
     trackers: Sequence[SafeTracker], starts: Sequence[int], numbers: NDArray[np.intp] | None = None
 ) -> str:
-    """The first error, with its frame; "" without any. starts: of each tracker, in the order of the run.
+    """The first error, with its frame; "" without any. starts: each tracker's first frame in the run.
     numbers: the frames of the run, None for all.
     """
     errors = (
@@ -141,7 +141,7 @@ def _digest_of(path: Path) -> str:
 
 @cache
 def code_digest() -> str:
-    """A hash of the code that determines the results: after a change of it, old results aren't reused."""
+    """A hash of the code that determines the results; after a change, old results aren't reused."""
     root, found = Path(tricue.__file__).parent, hashlib.sha256()
     for path in sorted({path for pattern in _RESULT_SOURCES for path in root.glob(pattern)}):
         found.update(path.relative_to(root).as_posix().encode() + path.read_bytes())

@@ -21,7 +21,7 @@ from tricue.track.base.traits import Channels, Traits
 Make = Callable[[int], SafeTracker]
 """Makes a tracker from a seed."""
 
-# Disparities of a target in a stereo pair between which trackers search.
+# The range of a target's disparity in which trackers search a stereo pair.
 MAX_DISPARITY_RATIO = 0.25  # of the image's width
 MIN_DISPARITY = 4.0  # pixels
 _RELATIVE_TIMES = {"CSRT": 60.0, "MIL": 60.0, "KCF": 10.0, "KCF-0.1": 10.0, "script-pf": 5.0}
@@ -32,8 +32,8 @@ BASELINE_TRAITS = Traits(channels=(Channels.of("color"),))
 class SequenceInfo(Protocol):
     """The inputs that a sequence offers to trackers, such as an ``OpenedSequence``.
 
-    Its channels, the one in whose pixels the boxes are given, whether depth is registered to color, and the
-    known cameras.
+    Its channels, the one in whose pixels the boxes are, whether depth is registered to color, and the known
+    cameras.
     """
 
     @property
@@ -75,7 +75,7 @@ class TrackerSpec:
 
     @property
     def relative_time(self) -> float:
-        """Roughly the time per frame relative to tricue's trackers; only used to order the tasks."""
+        """The approximate time per frame relative to tricue's trackers; used only to order the tasks."""
         return _RELATIVE_TIMES.get(self.name, 1.0)
 
     @property
@@ -112,7 +112,7 @@ class TrackerSpec:
 
     @contextmanager
     def session(self, opened: SequenceInfo) -> Iterator[Make]:
-        """Yields the function that makes the tracker for a sequence from a seed, for one run."""
+        """Yield the function that makes the tracker for a sequence from a seed, for one run."""
         yield partial(self.make, opened)
 
     def keywords(self, opened: SequenceInfo) -> dict[str, Any]:
@@ -120,11 +120,11 @@ class TrackerSpec:
         return _keywords(self.traits, opened) | dict(self.settings)
 
     def sees_a_picture(self, opened: SequenceInfo) -> bool:
-        """Whether it gets depth as a picture: baselines, if the true boxes are given in its pixels."""
+        """Whether it gets depth as a picture: baselines do, if the true boxes are in depth pixels."""
         return not self.ours and opened.channel == "depth"
 
     def outdated(self, error: str) -> bool:
-        """Whether a finished run that ended with this error has to be run again."""
+        """Whether a run that ended with this error must be repeated."""
         return False
 
     def view(self, opened: SequenceInfo) -> FrameView:
@@ -136,7 +136,7 @@ class TrackerSpec:
 
 
 def _usable_channels(opened: SequenceInfo) -> frozenset[str]:
-    """The channels registered to the one in whose pixels the true boxes are given."""
+    """The channels registered to the one in whose pixels the true boxes are."""
     if opened.channel == "depth":
         return frozenset({"depth"})
     channels = frozenset(opened.channels)
@@ -159,8 +159,6 @@ def _keywords(traits: Traits, opened: SequenceInfo) -> dict[str, Any]:
 
 
 def _search_range(rig: StereoRig) -> tuple[float, float]:
-    """The nearest and farthest distance to search, meters: those of the largest and the smallest
-    disparity.
-    """
+    """The nearest and farthest distances to search, meters: those of the largest and smallest disparities."""
     product = rig.intrinsics.fx * rig.baseline
     return product / (MAX_DISPARITY_RATIO * rig.intrinsics.width), product / MIN_DISPARITY

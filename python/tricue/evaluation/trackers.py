@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which trackers are evaluated: ours, baselines and others' by the names that users give."""
+"""The evaluated trackers, by the names that users give: tricue's, baselines and others'."""
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -19,8 +19,8 @@ def tracker_specs(
     """The specs of the given names, by default of all installed trackers. settings: parameters by tracker
     name. time_limit: seconds for an update of a tracker that isn't ours.
 
-    A baseline that the installed cv2 doesn't have can be chosen, but runs nowhere. ValueError for an unknown
-    name lists the known ones, and for parameters of a tracker that isn't chosen those that are; ValueError,
+    A baseline that the installed cv2 lacks can be chosen, but runs nowhere. ValueError lists the known names
+    for an unknown one, and the chosen ones for parameters of a tracker that isn't chosen. ValueError,
     TypeError or OSError say what is wrong with a tracker or its parameters.
     """
     known = [*registry.names(), *baselines.available()]
@@ -54,7 +54,7 @@ def tracker_specs(
 
 
 def require_unique(names: Iterable[str]) -> None:
-    """ValueError where two trackers have one name, or one that can't be a folder's."""
+    """ValueError if two trackers have the same name, or one has a name that can't be a folder's."""
     for name, count in Counter(names).items():
         if count > 1:
             raise ValueError(f"--trackers: expected different names, got {name!r} twice; NAME=... gives one")
@@ -63,7 +63,7 @@ def require_unique(names: Iterable[str]) -> None:
 
 
 def missing_note(chosen: Sequence[str] | None) -> str:
-    """Which baselines the installed cv2 lacks, where all were wanted; "" without any."""
+    """A note on the baselines that the installed cv2 lacks, if all were requested; "" if it has all."""
     missing = _missing() if chosen is None else []
     if not missing:
         return ""

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The attributes: what is measured in each frame, in which unit, and from which value on a frame has them.
+"""The attributes: what is measured in each frame, in which unit, and from which value a frame has them.
 
-OTB is Wu, Lim, Yang 2013 and 2015; LaSOT is Fan et al. 2019; UAV123 is Mueller, Smith, Ghanem 2016. Where a
-definition of theirs has a number, it is used; where theirs is an annotator's eye, what is measured instead is
-ours, and docs/evaluation.md says how well it agrees with the published labels.
+OTB is Wu, Lim, Yang 2013 and 2015; LaSOT is Fan et al. 2019; UAV123 is Mueller, Smith, Ghanem 2016. Their
+definitions are used where they have a number. Where they rely on an annotator's judgment, the measurement is
+ours; docs/evaluation.md says how well it agrees with the published labels.
 """
 
 from typing import Literal, NamedTuple
@@ -12,18 +12,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 ANY, FEW, MOST = 0.0, 0.05, 0.5
-"""Shares of the frames above which a sequence has an attribute: in any frame, as OTB's; in more than single
-ones, of which images tell some wrongly; or in most.
+"""Shares of the frames above which a sequence has an attribute: any frame, as in OTB; more than a few, since
+measurements from images are sometimes wrong; or most.
 """
 
 Source = Literal["truth", "images", "depth"]
 
 
 class Attribute(NamedTuple):
-    """key: in tables. title: in reports. meaning: the value in a frame. limit: the value from which on
-    a frame has the attribute; way: "above", "below", or "outside" of [1/limit, limit]. needs: what it is
-    measured from. share: the share of the frames in which it is known above which a sequence has it. source:
-    whose definition it is.
+    """key: its name in tables. title: its name in reports. meaning: of a frame's value. limit, way: a frame
+    has the attribute if its value is "above" or "below" the limit, or "outside" [1/limit, limit]. needs: what
+    it is measured from. share: a sequence has it if more than this share of the frames in which it is known
+    has it. source: of the definition.
     """
 
     key: str
@@ -37,7 +37,7 @@ class Attribute(NamedTuple):
     source: str
 
     def flags(self, values: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Which frames have it, (M,) from (M,); False where it isn't known."""
+        """Which frames have it, (M,) from (M,); False where unknown."""
         if self.way == "below":
             return np.asarray(values < self.limit)
         if self.way == "above":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The attribute that depth tells: how much of the target something nearer hides."""
+"""The attribute measured from depth: how much of the target nearer surfaces hide."""
 
 from collections.abc import Iterable
 
@@ -10,10 +10,10 @@ from tricue.camera.frame import Frame
 
 Array = NDArray[np.float64]
 
-NEARER = 0.9  # of the target's distance; what is nearer than that hides it
-WINDOW = 5  # frames before and after, over which the target's distance is a median
-MAX_PIXELS = 400  # of the box's inner half that are looked at
-MIN_PIXELS = 20  # with a measured depth
+NEARER = 0.9  # of the target's distance; nearer surfaces hide it
+WINDOW = 5  # frames before and after, over whose depths the median is the target's distance
+MAX_PIXELS = 400  # sampled in the inner half of the box
+MIN_PIXELS = 20  # with measured depth
 
 
 def depth_values(frames: Iterable[Frame], boxes: Array) -> dict[str, Array]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Attributes that the images tell: what a target and its surround look like in one frame after the other."""
+"""Attributes measured from images: the appearance of the target and its surround, frame by frame."""
 
 from collections.abc import Iterable
 
@@ -13,22 +13,22 @@ Array = NDArray[np.float64]
 Image = NDArray[np.uint8]
 
 CAMERA_WIDTH = 160  # pixels of the image in which the camera's motion is measured
-MAX_CAMERA_SHIFT = 0.25  # of the image's diagonal; a larger one is none, but images that don't match
-TEMPLATE_SIDE = 16  # pixels, the root of the area, of the box that is looked for elsewhere
-INNER = 0.8  # the part of the box that is looked for, with less of its background
-REACH = 2.5  # sizes of the box from its center, within which it is looked for
-BINS = 8  # of each of three colors
-COLORS = 24  # of the box, the most frequent ones, of which each is a share of MIN_COLOR or more
+MAX_CAMERA_SHIFT = 0.25  # of the image's diagonal; a larger shift is a wrong match
+TEMPLATE_SIDE = 16  # pixels, square root of the area, of the box that is searched for elsewhere
+INNER = 0.8  # the central part of the box that is searched for, to include less background
+REACH = 2.5  # box sizes from its center, within which it is searched for
+BINS = 8  # per color channel
+COLORS = 24  # the box's most frequent colors, each with a share of at least MIN_COLOR
 MIN_COLOR = 0.005
 SMOOTHING = 1.0  # pixels of Gaussian blur before the Laplacian, against noise and compression
-BLUR_REACH = 12  # frames before and after, with which a frame's sharpness is compared
-SHARP = 90  # percentile of their sharpness that stands for a sharp image
+BLUR_REACH = 12  # frames before and after, to compare a frame's sharpness with
+SHARP = 90  # percentile of their sharpness that counts as sharp
 IMAGE_KEYS = ("blur", "light", "look_alike", "clutter", "camera")
 
 
 def image_values(frames: Iterable[Frame], boxes: Array) -> dict[str, Array]:
-    """By attribute's key, (M,) each; boxes: (M, 4). NaN where there is no true box, where its part in the
-    image is under four pixels wide or high, and in frames without color.
+    """Values (M,) by attribute key; boxes: (M, 4). NaN without a true box, if the box's part in the image is
+    under four pixels wide or high, and in frames without color.
     """
     found = {key: np.full(len(boxes), np.nan) for key in IMAGE_KEYS}
     surround = np.full(len(boxes), np.nan)
@@ -45,7 +45,7 @@ def image_values(frames: Iterable[Frame], boxes: Array) -> dict[str, Array]:
             continue
         gray = np.asarray(cv2.cvtColor(inside, cv2.COLOR_BGR2GRAY), np.uint8)
         found["blur"][index] = _sharpness(gray)
-        found["light"][index] = gray.mean() + 1  # a black box stays above 0
+        found["light"][index] = gray.mean() + 1  # above 0 also for a black box
         surround[index] = _surround_gray(image, box)
         found["look_alike"][index] = _best_elsewhere(image, box)
         found["clutter"][index] = _common_colors(image, box)
@@ -80,8 +80,9 @@ def _surround_gray(image: Image, box: Array) -> float:
 
 
 def _common_change(inside: Array, around: Array) -> Array:
-    """The change since the first frame that both have: the smaller of both ratios, 1 if they go apart. What
-    turns or is covered changes the box alone, another background the surround alone, light changes both.
+    """The change since the first frame that the box and its surround have in common: the ratio nearer to 1,
+    or 1 if they change in opposite directions. A turn or an occlusion changes only the box, a new background
+    only the surround, light both.
     """
     known = np.flatnonzero(~np.isnan(inside) & ~np.isnan(around))
     if not known.size:
@@ -93,7 +94,7 @@ def _common_change(inside: Array, around: Array) -> Array:
 
 
 def _crop(image: Image, box: Array, scale: float = 1.0) -> Image | None:
-    """The part of the image in a box that is scaled around its center; None where that is under 4 pixels."""
+    """The part of the image in a box scaled about its center; None if a side is under 4 pixels."""
     left, top, right, bottom = _corners(image, box, scale)
     return image[top:bottom, left:right] if min(right - left, bottom - top) >= 4 else None
 
@@ -109,7 +110,7 @@ def _corners(image: Image, box: Array, scale: float) -> tuple[int, int, int, int
 
 
 def _sharpness(gray: NDArray[np.uint8]) -> float:
-    """The variance of the Laplacian over that of the gray values: neither light nor contrast count."""
+    """The variance of the Laplacian over that of the gray values; independent of brightness and contrast."""
     smooth = cv2.GaussianBlur(gray.astype(np.float32), (0, 0), SMOOTHING)
     return float(cv2.Laplacian(smooth, cv2.CV_32F).var() / max(float(smooth.var()), 1.0))
 
@@ -124,8 +125,8 @@ def _relative_sharpness(values: Array) -> Array:
 
 
 def _best_elsewhere(image: Image, box: Array) -> float:
-    """How much a place beside the box is like it at best: at each place the lower of the correlation of the
-    pixels and the intersection of the color histograms.
+    """The highest similarity of any place beside the box to the box. A place's similarity is the lower of the
+    pixels' correlation and the intersection of color histograms.
     """
     scale = TEMPLATE_SIDE / float(np.sqrt(box[2] * box[3]))
     left, top, right, bottom = _corners(image, box, 2 * REACH)
@@ -162,7 +163,7 @@ def _intersections(region: Image, target: Image) -> Array:
 
 
 def _common_colors(image: Image, box: Array) -> float:
-    """The Bhattacharyya coefficient of the histograms of the box and of what is around it."""
+    """The Bhattacharyya coefficient of the histograms of the box and of its surround."""
     outer = _crop(image, box, 2.0)
     inner = _crop(image, box)
     if outer is None or inner is None:

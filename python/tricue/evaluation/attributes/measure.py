@@ -23,12 +23,12 @@ from tricue.evaluation.dataset import OpenedSequence
 
 Array = NDArray[np.float64]
 
-FOLDER = "attributes"  # in an evaluation's
+FOLDER = "attributes"  # in an evaluation's folder
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SequenceAttributes:
-    """What a sequence shows. values: by attribute's key, (M,) of the labeled frames, NaN where unknown."""
+    """A sequence's attributes. values: (M,) for the labeled frames, by attribute key; NaN where unknown."""
 
     values: Mapping[str, Array]
 
@@ -38,7 +38,7 @@ class SequenceAttributes:
         return 0 if values is None else int((~np.isnan(values)).sum())
 
     def share(self, key: str) -> float:
-        """The share of these that have it; NaN without any."""
+        """The share of those frames that have it; NaN without any."""
         known = self.known(key)
         return float(BY_KEY[key].flags(self.values[key]).sum()) / known if known else math.nan
 
@@ -47,7 +47,7 @@ class SequenceAttributes:
         return self.share(key) > BY_KEY[key].share
 
     def flags(self, key: str, frames: NDArray[np.intp]) -> NDArray[np.bool_]:
-        """Which of some frames, by their numbers, have it; False beyond the labels."""
+        """Which of the frames with these numbers have it; False beyond the labels."""
         values = self.values.get(key)
         if values is None:
             return np.zeros(len(frames), np.bool_)
@@ -62,7 +62,7 @@ def measure(opened: OpenedSequence) -> SequenceAttributes:
     color = opened.channel == "color"
     found = truth_values(opened)
     if color and depth:
-        # each reads the frames: kept for both, they would all be in memory
+        # each reads the frames anew: keeping them for both would take all the memory
         found |= image_values(opened.source, boxes) | depth_values(opened.source, boxes)
     elif color:
         found |= image_values(opened.source, boxes)
@@ -76,10 +76,10 @@ def measure_all(
     folder: Path,
     on_progress: Callable[[int], None] = lambda _: None,
 ) -> dict[str, SequenceAttributes]:
-    """By sequence's name; what is in an evaluation's folder is read, what isn't is measured and stored.
+    """The attributes by sequence name: read from the evaluation's folder, or measured and stored there.
 
-    A sequence that can't be read is left out; OSError where its attributes can't be stored. on_progress:
-    called with the number of finished sequences.
+    A sequence that can't be read is left out; OSError if its attributes can't be stored. on_progress: called
+    with the number of finished sequences.
     """
     found = {}
     for done, each in enumerate(opened, 1):
@@ -98,14 +98,14 @@ def measure_all(
 
 
 def _stored(path: Path, fingerprint: str) -> SequenceAttributes | None:
-    """What an earlier evaluation has stored; None where there is nothing, or of another fingerprint."""
+    """What an earlier evaluation stored; None if there is nothing, or if its fingerprint differs."""
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
         if content["fingerprint"] == fingerprint:
             stored = content["values"].items()
             return SequenceAttributes({key: np.array(each, np.float64) for key, each in stored})
     except (OSError, ValueError, KeyError, TypeError):
-        pass  # missing, cut off, or of another version
+        pass  # missing, truncated, or of another version
     return None
 
 

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How trackers do where sequences have an attribute: over whole sequences as in OTB, and over frames as in
-VOT.
-"""
+"""Trackers' results by attribute: over whole sequences as in OTB, and over frames as in VOT."""
 
 import math
 from collections.abc import Sequence
@@ -19,7 +17,7 @@ Line = dict[str, Any]
 
 
 def sequence_lines(evaluation: Evaluation) -> list[Line]:
-    """A line per sequence and attribute that is known in any of its frames."""
+    """A line per sequence and attribute that is known in any of the sequence's frames."""
     return [
         {
             "group": opened.group,
@@ -37,10 +35,10 @@ def sequence_lines(evaluation: Evaluation) -> list[Line]:
 
 
 def tracker_lines(evaluation: Evaluation) -> list[Line]:
-    """A line per group, attribute that any of its sequences has, and tracker, of one pass.
+    """A line per group, attribute of any of its sequences, and tracker, for one pass.
 
-    auc, low, high: mean over the sequences that have it, and its interval; auc_without: over the others.
-    frames_auc: mean over the same sequences of the AUC over the frames that have it, alone.
+    auc, low, high: mean over the sequences that have it, and its interval. auc_without: mean over the others.
+    frames_auc: mean over the former sequences of the AUC over only the frames that have it.
     """
     return [
         _line(evaluation, group, attribute.key, spec.name, results, having)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Attributes that the true boxes and the file's frame rate tell: a value for each labeled frame."""
+"""Attributes measured from the true boxes and the frame rate: a value for each labeled frame."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,7 @@ Array = NDArray[np.float64]
 
 
 def truth_values(opened: OpenedSequence) -> dict[str, Array]:
-    """By attribute's key, (M,) each, NaN where there is no true box, or where it isn't known."""
+    """Values (M,) by attribute key; NaN without a true box, or where unknown."""
     boxes = opened.boxes[: opened.source.length]
     first = boxes[opened.start]
     area = boxes[:, 2] * boxes[:, 3]
@@ -30,7 +30,7 @@ def truth_values(opened: OpenedSequence) -> dict[str, Array]:
 
 
 def _outside(boxes: Array, opened: OpenedSequence) -> Array:
-    """The share of each box beyond the image; of clipped ones 1 where they end at its edge."""
+    """The share of each box outside the image; for clipped boxes 1 if they touch its edge."""
     low, high = boxes[:, :2], boxes[:, :2] + boxes[:, 2:]
     if opened.clipped:
         at_edge = (low <= 0).any(axis=1) | (high >= opened.size).any(axis=1)

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Trackers that are not ours: each runs in a process of its own."""
+"""Third-party trackers: each runs in a process of its own."""

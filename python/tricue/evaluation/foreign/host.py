@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Somebody else's tracker, in the process that runs it: looked at, made, asked for tracks."""
+"""A third-party tracker in its own process: inspects it, creates it, and gets its tracks."""
 
 import inspect
 import json
@@ -21,13 +21,13 @@ from tricue.track.base.adapter import check_track, is_of_cv2, takes_seed
 from tricue.track.base.track import Status, Track
 from tricue.track.base.traits import Channels, Traits
 
-CV2, TRAX = "cv2:", "trax:"  # what the places of cv2's trackers and of programs begin with
+CV2, TRAX = "cv2:", "trax:"  # prefixes of the places of cv2's trackers and of programs
 PlainTrack = tuple[tuple[float, ...], float, str, Any, Any]
-"""Box, score, status, position and covariance, which any process can read."""
+"""Box, score, status, position and covariance, in types that any process can unpickle."""
 
 
 class Description(NamedTuple):
-    """What is known of a tracker before it is made. version: what tells its code from another, as JSON."""
+    """What is known of a tracker before it is created. version: identifies its code, as JSON."""
 
     traits: Traits
     version: str
@@ -41,7 +41,7 @@ class Host:
         self._tracker: Any = None
 
     def describe(self, settings: Mapping[str, Any]) -> Description:
-        """Its traits and version. ValueError, TypeError, OSError or ImportError where there is none, or it
+        """Its traits and version. ValueError, TypeError, OSError or ImportError if it can't be found or
         doesn't take the settings.
         """
         if self._place.startswith(TRAX):
@@ -59,7 +59,7 @@ class Host:
         return Description(found.traits, json.dumps(version, default=str))
 
     def make(self, keywords: Mapping[str, Any], seed: int) -> None:
-        """Make the tracker, in place of the one before. All usual random numbers start from the seed."""
+        """Create the tracker, replacing the previous one, and seed all common random number generators."""
         self.close()
         random.seed(seed)
         np.random.seed(seed)  # noqa: NPY002 (theirs may draw from it)
@@ -76,7 +76,7 @@ class Host:
         track = self._tracker.update(frame)
         seconds = time.perf_counter() - start
         if self._place.startswith(TRAX):
-            seconds = self._tracker.update_seconds  # without the images' writing
+            seconds = self._tracker.update_seconds  # without the time to write images
         return _to_plain(track, "update"), seconds
 
     def close(self) -> None:
@@ -93,14 +93,14 @@ class Host:
         if self._place.startswith(CV2):
             return baselines.OpenCvTracker(cv2_maker(self._place))
         made = registry.create(self._place, seed=seed, **keywords)
-        if is_of_cv2(inner := getattr(made, "tracker", None)):  # of a function that makes one of cv2's
+        if is_of_cv2(inner := getattr(made, "tracker", None)):  # from a function that makes one of cv2's
             return baselines.OpenCvTracker(lambda: inner)
         return made
 
 
 def cv2_maker(place: str) -> Callable[[], Any]:
-    """How to make a tracker of cv2, such as ``cv2:TrackerMIL`` or ``cv2:legacy.TrackerMOSSE``. ValueError
-    where the installed one doesn't have it says which package does.
+    """The function that creates a cv2 tracker, such as ``cv2:TrackerMIL`` or ``cv2:legacy.TrackerMOSSE``. If
+    the installed cv2 doesn't have it, ValueError says which package does.
     """
     name = place.removeprefix(CV2)
     found: Any = cv2
@@ -116,7 +116,7 @@ def _check_settings(made: Any, settings: Mapping[str, Any]) -> None:
     if made.Params is not None:
         made.Params(**settings)
     elif settings:
-        with suppress(ValueError):  # nothing is known of some compiled ones
+        with suppress(ValueError):  # some compiled ones have no signature
             seed = {"seed": 0} if takes_seed(made._cls) else {}
             inspect.signature(made._cls).bind(**seed, **settings)
 
@@ -132,7 +132,7 @@ def _to_plain(track: Any, method: str) -> PlainTrack:
 
 
 def _finite_or_nan(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """With NaN, unknown, for infinity, as which a division by 0 may come."""
+    """The values with NaN (unknown) in place of infinity, which may come from a division by 0."""
     return np.where(np.isfinite(values), values, np.nan)
 
 

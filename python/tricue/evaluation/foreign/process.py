@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The process of somebody else's tracker, seen from here: asked within a time limit, ended for sure."""
+"""The parent's side of a third-party tracker's process: requests with a time limit, and a reliable end."""
 
 import os
 import pickle
@@ -19,19 +19,19 @@ from tricue.evaluation.foreign.host import from_plain
 from tricue.evaluation.foreign.worker import PATIENCE
 from tricue.track.base.track import Track
 
-LOADING_LIMIT = 60.0  # seconds to start a process and make a tracker in it, where the limit is shorter
-MAX_OUTPUT = 2000  # bytes of what a tracker prints that are kept, the last ones
-MAX_LINE = 200  # characters of it that are told
+LOADING_LIMIT = 60.0  # seconds, at least, to start a process and create a tracker in it
+MAX_OUTPUT = 2000  # bytes of a tracker's output that are kept, the last ones
+MAX_LINE = 200  # characters of it in an error message
 
 
 class WorkerError(RuntimeError):
-    """A request failed: what the tracker raised, or how its process ended."""
+    """A failed request: what the tracker raised, or how its process ended."""
 
 
 class WorkerProcess:
-    """A process for one tracker, which ends with this object, with the process that made it, or by a request
-    that takes longer than ``limit`` seconds, or LOADING_LIMIT where something is loaded. place: as
-    :class:`Host` takes it.
+    """A process for one tracker. It ends with this object, with the process that created it, or when a
+    request takes longer than ``limit`` seconds (when loading, at least LOADING_LIMIT). place: as for
+    :class:`Host`.
     """
 
     def __init__(self, place: str, limit: float) -> None:
@@ -48,7 +48,7 @@ class WorkerProcess:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
-            start_new_session=True,  # Ctrl-C is for the evaluation, which then ends the whole group
+            start_new_session=True,  # Ctrl-C goes to the evaluation, which then ends the whole group
             env={**os.environ, "PYTHONHASHSEED": "0"},
         )
         assert self._process.stderr is not None
@@ -56,13 +56,11 @@ class WorkerProcess:
         self.close = weakref.finalize(self, _end, self._process)
 
     def load(self, method: str, *arguments: Any) -> Any:
-        """As :meth:`ask`, with the time that imports and models may take."""
+        """As :meth:`ask`, with enough time for imports and models to load."""
         return self._ask(max(self.limit, LOADING_LIMIT), not_loaded, method, *arguments)
 
     def ask(self, method: str, *arguments: Any) -> Any:
-        """The value that a method of ``Host`` returns; WorkerError for what it raises, and at the end of the
-        process.
-        """
+        """The value that a method of ``Host`` returns; WorkerError if it raises or the process ends."""
         return self._ask(self.limit, no_answer, method, *arguments)
 
     def _ask(self, limit: float, late: Callable[[float], str], method: str, *arguments: Any) -> Any:
@@ -85,7 +83,7 @@ class WorkerProcess:
         finally:
             timer.cancel()
             timer.join()
-        if too_slow.is_set():  # it has ended the process since the answer came
+        if too_slow.is_set():  # the time limit ended the process just after the answer
             self._how_it_ended()
             self.end = late(limit)
             raise WorkerError(self.end)
@@ -94,7 +92,7 @@ class WorkerProcess:
         return value
 
     def _how_it_ended(self) -> str:
-        _kill(self._process)  # what it has started may still be there
+        _kill(self._process)  # its children may still run
         code = self._process.wait()
         self.close()
         if code < 0:
@@ -108,17 +106,17 @@ class WorkerProcess:
 
 
 def no_answer(limit: float) -> str:
-    """The message of a time limit that ended a process."""
+    """The message for a process that a time limit ended."""
     return f"no answer within {limit:g} s (--time-limit)"
 
 
 def not_loaded(limit: float) -> str:
-    """The same of one that ended while something was loaded."""
+    """The message for one that ended while it was loading."""
     return f"not loaded within {limit:g} s (--time-limit)"
 
 
 def ended_by_another_limit(error: str, limit: float) -> bool:
-    """Whether an error is one of these messages, but none of this time limit."""
+    """Whether an error is one of these messages for a different time limit."""
     present = no_answer(limit), not_loaded(max(limit, LOADING_LIMIT))
     return _LATE.search(error) is not None and not error.endswith(present)
 
@@ -127,9 +125,9 @@ _LATE = re.compile(r"(?:no answer|not loaded) within \S+ s \(--time-limit\)$")
 
 
 class RemoteTracker:
-    """A tracker in a process, with the interface of those here. update_seconds: measured there.
+    """A tracker in another process, with the interface of a local one. update_seconds: measured there.
 
-    WorkerError for whatever goes wrong.
+    Every error is a WorkerError.
     """
 
     def __init__(self, process: WorkerProcess, keywords: Mapping[str, Any], seed: int) -> None:
@@ -173,7 +171,7 @@ def _kill_late(process: "subprocess.Popen[bytes]", too_slow: threading.Event) ->
 
 
 def _kill(process: "subprocess.Popen[bytes]") -> None:
-    """End a process at once, with what it has started."""
+    """End a process and its children at once."""
     if sys.platform == "win32":
         process.kill()
         return
@@ -182,7 +180,7 @@ def _kill(process: "subprocess.Popen[bytes]") -> None:
 
 
 def _end(process: "subprocess.Popen[bytes]") -> None:
-    """End a process: in good order, as it does once its input is closed, or else at once."""
+    """End a process: cleanly, by closing its input, or else at once."""
     assert process.stdin is not None
     assert process.stdout is not None
     with suppress(OSError):

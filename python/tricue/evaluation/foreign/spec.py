@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Specs of trackers that are not ours: a class of a module or file, one of cv2's, a TraX program."""
+"""Specs of third-party trackers: a class in a module or file, one of cv2's, a TraX program."""
 
 import re
 from collections.abc import Iterator, Mapping
@@ -28,9 +28,7 @@ _NAMED = re.compile(r"([^=:/\\]+)=(.+:.+)", re.DOTALL)
 
 @dataclass(frozen=True)
 class ForeignSpec(TrackerSpec):
-    """A tracker that runs in a process of its own. place: where it is, see :class:`Host`. time_limit: seconds
-    for an update.
-    """
+    """A tracker that runs in its own process. place: see :class:`Host`. time_limit: seconds for an update."""
 
     place: str = ""
     time_limit: float = DEFAULT_TIME_LIMIT
@@ -43,17 +41,17 @@ class ForeignSpec(TrackerSpec):
 
     @property
     def traits(self) -> Traits:
-        """Its inputs and capabilities, as its class or program says."""
+        """Its inputs and capabilities, as its class or program declares them."""
         return self.described.traits
 
     @property
     def random(self) -> bool:
-        """Whether its class says so, or takes a seed."""
+        """Whether its class says that it is random, or takes a seed."""
         return self.traits.random
 
     @property
     def relative_time(self) -> float:
-        """Taken to be slow, so that it starts first."""
+        """It is assumed to be slow, so that it starts first."""
         return 60.0
 
     @property
@@ -67,15 +65,15 @@ class ForeignSpec(TrackerSpec):
 
     @contextmanager
     def session(self, opened: SequenceInfo) -> Iterator[Make]:
-        """Yields the function that makes it, all in one process. Once that has ended, nothing is started any
-        more.
+        """Yield the function that creates it, always in the same process. If that has ended, no new one is
+        started.
         """
         process = WorkerProcess(self.place, self.time_limit)
         with closing(process):
             yield lambda seed: self._made(process, opened, seed)
 
     def outdated(self, error: str) -> bool:
-        """Whether it was ended by another time limit than this."""
+        """Whether a different time limit ended it."""
         return ended_by_another_limit(error, self.time_limit)
 
     def _made(self, process: WorkerProcess, opened: SequenceInfo, seed: int) -> SafeTracker:
@@ -86,7 +84,7 @@ class ForeignSpec(TrackerSpec):
             return SafeTracker(None, str(error))
 
     def sees_a_picture(self, opened: SequenceInfo) -> bool:
-        """Whether it gets depth as a picture: one that takes only color, on a depth image's boxes."""
+        """Whether it gets depth as a picture: if it takes only color and the boxes are in the depth image."""
         return (
             opened.channel == "depth"
             and self.traits.best({"depth"}) is None
@@ -97,7 +95,7 @@ class ForeignSpec(TrackerSpec):
 def foreign_spec(text: str, settings: Mapping[str, Any], time_limit: float) -> ForeignSpec:
     """The spec of a place, such as ``mine.py:Mine``, or of NAME=place; settings: its parameters.
 
-    Its process is started once, to look at it. ValueError says what is wrong.
+    Starts its process once, to inspect it. ValueError says what is wrong.
     """
     name, place = split_name(text)
     with closing(WorkerProcess(place, time_limit)) as process:
@@ -110,12 +108,12 @@ def foreign_spec(text: str, settings: Mapping[str, Any], time_limit: float) -> F
 
 
 def is_foreign(text: str) -> bool:
-    """Whether a name is that of a place, or of another package's tracker."""
+    """Whether a name is a place, or the name of another package's tracker."""
     return ":" in text or (text in registry.names() and not registry.is_built_in(text))
 
 
 def split_name(text: str) -> tuple[str, str]:
-    """The name and the place of a tracker; files with their whole paths. ValueError for a program without a
+    """A tracker's name and place, with absolute paths of files. ValueError for a program without a
     command.
     """
     match = _NAMED.fullmatch(text)

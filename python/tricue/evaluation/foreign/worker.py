@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The process that runs somebody else's tracker: the other end of a ``WorkerProcess``.
+"""The process that runs a third-party tracker: the other end of a ``WorkerProcess``.
 
-What the tracker prints goes to standard error, never between the answers.
+The tracker's output goes to standard error, so that it never mixes with the answers.
 """
 
 import faulthandler
@@ -22,16 +22,16 @@ from tricue.errors import BoxError, one_line
 from tricue.evaluation.foreign.host import Host
 from tricue.evaluation.toolkits.trax_client import TraxError
 
-PATIENCE = 2.0  # seconds to end in good order
-GRACE = 5.0  # seconds after the time limit until the process ends itself, should nobody end it
+PATIENCE = 2.0  # seconds to end cleanly
+GRACE = 5.0  # seconds after the time limit until the process ends itself, if its parent doesn't
 
 
 def main(place: str, limit: float) -> None:
     """Answer requests until standard input ends.
 
-    place: of the tracker, see :class:`Host`. limit: seconds for a request, which the other end watches. A
-    request is a method's name and its arguments; the answer whether that succeeded, and what came of it, an
-    error's line where it didn't.
+    place: of the tracker, see :class:`Host`. limit: seconds for a request, enforced by the other end. A
+    request is a method's name and arguments; the answer is whether it succeeded, and the result or an error's
+    line.
     """
     requests, answers = _take_streams()
     waiting: SimpleQueue[Any] = SimpleQueue()
@@ -40,7 +40,7 @@ def main(place: str, limit: float) -> None:
     cv2.setNumThreads(1)
     host = Host(place)
     while (request := waiting.get()) is not None:
-        # This ends even a process that hangs outside of Python and whose parent was killed.
+        # This ends even a process that hangs outside Python and whose parent was killed.
         faulthandler.dump_traceback_later(limit + GRACE, exit=True)
         answer = _answer(host, *request)
         faulthandler.cancel_dump_traceback_later()
@@ -50,7 +50,7 @@ def main(place: str, limit: float) -> None:
 
 
 def _take_streams() -> tuple[BinaryIO, BinaryIO]:
-    """Standard input and output for requests and answers; the tracker gets an empty one, and stderr."""
+    """Standard input and output for requests and answers; the tracker gets empty input, and stderr."""
     requests, answers = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
     sys.stdout.flush()
@@ -59,8 +59,8 @@ def _take_streams() -> tuple[BinaryIO, BinaryIO]:
 
 
 def _read(requests: BinaryIO, waiting: "SimpleQueue[Any]") -> None:
-    """Hand requests on. At their end, which is also that of a killed parent, end this process and all that it
-    has started.
+    """Pass requests on. When they end, also because the parent was killed, end this process and its
+    children.
     """
     with suppress(EOFError, OSError, pickle.UnpicklingError):
         while True:
@@ -73,7 +73,7 @@ def _read(requests: BinaryIO, waiting: "SimpleQueue[Any]") -> None:
 
 
 def _offer_to_the_memory_killer() -> None:
-    """Where memory runs out, Linux shall end this process first."""
+    """If memory runs out, let Linux kill this process first."""
     with suppress(OSError):
         Path("/proc/self/oom_score_adj").write_text("1000", encoding="ascii")
 
@@ -88,7 +88,7 @@ def _answer(host: Host, method: str, *arguments: Any) -> tuple[bool, Any]:
 
 
 def _describe(error: BaseException) -> str:
-    """An error in one line, with its type where its message doesn't stand for itself."""
+    """An error in one line, with its type if the message alone isn't clear."""
     message = one_line(error)
     speaking = isinstance(error, (BoxError, ImportError, OSError, TraxError, cv2.error))
     speaking = speaking or type(error) is ValueError

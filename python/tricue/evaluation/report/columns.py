@@ -9,7 +9,7 @@ from tricue.evaluation.report.markup import number
 
 
 class Column(NamedTuple):
-    """key: in the lines of tables.summary or tables.speeds. better: 1 if higher is better, -1 if lower."""
+    """key: as in the lines of tables.summary or tables.speeds. better: 1 if higher is better, -1 if lower."""
 
     key: str
     heading: str
@@ -75,7 +75,7 @@ _LONG_TERM = ("f_score", "true_positive", "true_negative")  # need frames withou
 
 
 def with_numbers(lines: Sequence[dict[str, Any]]) -> list[Column]:
-    """The columns that have a number in these lines."""
+    """The columns that have any number in these lines."""
     absent = any(not math.isnan(line["true_negative"]) for line in lines)
     return [
         each

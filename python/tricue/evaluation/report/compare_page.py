@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The comparison of two evaluations as one HTML file that loads nothing else."""
+"""The comparison of two evaluations as one self-contained HTML file."""
 
 from pathlib import Path
 
@@ -12,7 +12,7 @@ POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 _HEADINGS = {column.key: column.heading for column in COLUMNS}
 _SHADES = {"better": "higher", "worse": "lower"}
 MAX_LISTED = 12
-"""Sequences of each tracker that are listed, those that got worse most."""
+"""Listed sequences per tracker, those that got worse most."""
 
 
 def write_compare_page(found: Comparison, old: Path, new: Path, path: Path) -> Path:

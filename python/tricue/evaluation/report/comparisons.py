@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Parts of the report that compare: trackers by protocol, in pairs, and by attribute."""
+"""Comparisons in the report: trackers by protocol, in pairs, and by attribute."""
 
 import math
 from collections.abc import Mapping
@@ -24,12 +24,12 @@ def interval(low: float, high: float, digits: int = 2) -> Html | None:
 
 
 def told(found: Comparison) -> Html:
-    """What the table above it can tell."""
+    """A sentence on what the table above it can show."""
     return tag("p", telling(found).replace("*:", "Marked:"), class_="note")
 
 
 def protocol_table(evaluation: Evaluation, group: str, styles: Mapping[str, LineStyle]) -> Html | None:
-    """AUC by protocol, with intervals, those among the best marked; None with one protocol alone."""
+    """AUC by protocol, with intervals, those among the best marked; None with only one protocol."""
     names = protocols_of(evaluation, group)
     if len(names) < 2:
         return None
@@ -45,7 +45,7 @@ def protocol_table(evaluation: Evaluation, group: str, styles: Mapping[str, Line
 
 
 def matrix(evaluation: Evaluation, group: str) -> Html | None:
-    """Each pair's difference of the mean AUC with its interval; None where nothing can be told."""
+    """Each pair's difference of the mean AUC with its interval; None with too few recordings or trackers."""
     found = comparison(evaluation, group)
     names = by_number({name: each.mean for name, each in found.means.items()})
     if not found.telling or len(names) < 2:
@@ -72,7 +72,7 @@ def matrix(evaluation: Evaluation, group: str) -> Html | None:
 
 
 def attribute_table(evaluation: Evaluation, group: str) -> Html | None:
-    """AUC on the sequences with each attribute by tracker; None where none were measured."""
+    """AUC on the sequences with each attribute, by tracker; None if no attributes were measured."""
     lines = [line for line in tracker_lines(evaluation) if line["group"] == group]
     if not lines:
         return None

@@ -39,7 +39,7 @@ def norm_precision(results: Sequence[RunResult]) -> Array:
 
 
 def reliability(results: Sequence[RunResult]) -> confidence.Reliability:
-    """Over the frames of all the runs."""
+    """Reliability over the frames of all the runs."""
     overlaps, scores, absent = (
         np.concatenate([getattr(each.scored, name) for each in results])
         for name in ("overlaps", "scores", "absent")

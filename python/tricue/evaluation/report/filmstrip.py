@@ -22,19 +22,19 @@ Picture = NDArray[np.uint8]
 
 _MAX_SIDE, _JPEG_QUALITY = 240, 70  # pixels; percent
 _TRUTH = LineStyle("#ffffff", "4 4", 1.4)
-_EDGES = {_TRUTH: LineStyle("#000000", "", 2.2)}  # under the line, so that it is visible on any background
+_EDGES = {_TRUTH: LineStyle("#000000", "", 2.2)}  # under the line, to be visible on any background
 _EDGE = LineStyle("#ffffff", "", 3.8)
 
 
 def filmstrip(
     opened: OpenedSequence, tracker: str, results: Mapping[str, RunResult], styles: Mapping[str, LineStyle]
 ) -> Html:
-    """The first and the worst frames of ``tracker``, one of the ``results``, whose boxes are all drawn."""
+    """The first and the worst frames of ``tracker``, with the boxes of all ``results``."""
     main = results[tracker]
     chosen, start = worst_frames(main.scored), main.scored.start
     try:
         frames = list(opened.source.frames([start + index for index in chosen]))
-    except (ValueError, OSError) as error:  # the numbers are complete without pictures
+    except (ValueError, OSError) as error:  # the report is complete without pictures
         return tag("p", f"The images of this sequence can't be read: {one_line(error)}", class_="note")
     pictures = _pictures(frames, opened.channel)
     figures = [
@@ -50,7 +50,7 @@ def filmstrip(
 
 
 def _pictures(frames: list[Frame], channel: str) -> list[Any]:
-    """The images in whose pixels the boxes are; depth in the range of the first one."""
+    """The images in whose pixels the boxes are; depth is shown in the first one's range."""
     if channel != "depth":
         return [frame.color for frame in frames]
     depths = [frame.depth for frame in frames if frame.depth is not None]
@@ -65,7 +65,7 @@ def _picture(
     styles: Mapping[str, LineStyle],
     label: str,
 ) -> Html:
-    """The image as JPEG, the boxes over it as SVG, sharp at any size."""
+    """The image as JPEG, with the boxes over it as SVG, sharp at any size."""
     height, width = picture.shape[:2]
     first = next(iter(results.values())).scored
     boxes = [(each.scored.boxes[index], styles[name], name) for name, each in reversed(list(results.items()))]

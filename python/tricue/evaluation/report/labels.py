@@ -4,13 +4,13 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-# Shares of the axes' width or height; letters as wide as in the widest common fonts.
+# Shares of the axes' width or height; letters are as wide as in the widest common fonts.
 _LETTER, _CAPITAL, _LINE, _POINT = 0.020, 0.026, 0.062, 0.028
 _STEPS = (0.0, 0.03, -0.03, 0.06, -0.06, 0.09, -0.09, 0.12, -0.12)  # up or down from the point
 
 
 class Label(NamedTuple):
-    """(x, y): its end beside the point, shares of the axes from the lower left. side: which end that is."""
+    """(x, y): its end beside the point, as shares of the axes from the lower left. side: which end."""
 
     x: float
     y: float
@@ -32,7 +32,7 @@ class _Area(NamedTuple):
 def place(points: Sequence[tuple[float, float]], names: Sequence[str]) -> list[Label]:
     """A label for each point (x, y), shares of the axes: to its right or left, at the first free position.
 
-    Where none is free, the label is at the point's height.
+    If none is free, the label is at the point's height.
     """
     taken = [_Area(x - _POINT, x + _POINT, y - _POINT, y + _POINT) for x, y in points]
     placed = []

@@ -9,7 +9,7 @@ _VOID = ("img", "meta", "link", "br")
 
 
 class Html(str):
-    """Text that is HTML already."""
+    """Text that already is HTML."""
 
     __slots__ = ()
 
@@ -17,20 +17,20 @@ class Html(str):
 def tag(name: str, /, *children: Any, **attributes: Any) -> Html:
     """An element. Children: HTML, text, which is escaped, or lists of both; None is left out.
 
-    Attributes: a trailing underscore is cut off, others become hyphens (class_, aria_label); True stands
-    alone, None and False are left out.
+    Attributes: a trailing underscore is dropped, others become hyphens (class_, aria_label). True gives an
+    attribute without a value; None and False are left out.
     """
     start = f"<{name}{''.join(_attribute(key, value) for key, value in attributes.items())}>"
     return Html(start) if name in _VOID else Html(f"{start}{joined(*children)}</{name}>")
 
 
 def joined(*parts: Any) -> Html:
-    """The parts, one after the other, as children of :func:`tag`."""
+    """The parts in sequence; they are like the children of :func:`tag`."""
     return Html("".join(_inner(part) for part in parts))
 
 
 def scrolled(child: Html, label: str, class_: str = "scroll") -> Html:
-    """Content that may be wider than the page, in a frame that scrolls, also by keyboard; label: its name."""
+    """Content that may be wider than the page, in a frame that scrolls, also by keyboard. label: its name."""
     return tag("div", child, class_=class_, tabindex=0, role="region", aria_label=label)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The report of an evaluation as one HTML file that loads nothing else."""
+"""The report of an evaluation as one self-contained HTML file."""
 
 import base64
 import hashlib
@@ -39,9 +39,9 @@ _ATTRIBUTE_FILES = {tables.ATTRIBUTES: "attributes", tables.BY_ATTRIBUTE: "resul
 
 
 def write_report(evaluation: Evaluation, folder: Path, about: Mapping[str, Any]) -> Path:
-    """Write report.html into a folder, beside the files of tables.write, to which it links; its path.
+    """Write report.html into a folder, beside the files of tables.write, to which it links; return its path.
 
-    about: tables.settings. The same evaluation gives the same bytes. ImportError where matplotlib is missing.
+    about: tables.settings. The same evaluation gives the same bytes. ImportError without matplotlib.
     """
     svg.require()
     folder.mkdir(parents=True, exist_ok=True)
@@ -69,7 +69,7 @@ def _page(evaluation: Evaluation, about: Mapping[str, Any]) -> str:
 
 
 def _metas() -> Html:
-    """The policy lets the browser load nothing, and run only the script that sorts tables."""
+    """The security policy lets the browser load nothing, and run only the script that sorts tables."""
     digest = base64.b64encode(hashlib.sha256(_script().encode()).digest()).decode()
     policy = f"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{digest}'"
     return joined(
@@ -177,7 +177,7 @@ def _group(
 
 
 def _order(total: int) -> Html:
-    """How the list is sorted, and what its pictures show."""
+    """A text on how the list is sorted and what its pictures show."""
     words = (
         "By the AUC of tricue's best tracker on each. The pictures show its first and its worst frames, with"
         " the boxes of tricue's trackers and of the two best baselines."

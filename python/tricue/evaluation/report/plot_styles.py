@@ -2,7 +2,7 @@
 """Line styles of trackers in tables, plots and pictures: tricue's solid, the baselines' dashed.
 
 The colors are Okabe and Ito's, which color-blind readers can distinguish. Those too light for a contrast of 3
-on white are darker, and violet and gray replace yellow.
+on white are darkened; violet and gray replace yellow.
 """
 
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ _DASHES = ("6 3", "2 2", "8 2 2 2")
 
 
 class LineStyle(NamedTuple):
-    """A line. dashes: lengths in points of strokes and gaps, "" for a solid one."""
+    """A line. dashes: lengths of strokes and gaps in points, "" for a solid line."""
 
     color: str
     dashes: str

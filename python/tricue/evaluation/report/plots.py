@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Plots of a group of sequences: what each shows, and how it is drawn into a report's page."""
+"""Plots of a group of sequences: what each shows, and how it is drawn into the report."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -24,7 +24,7 @@ _MIN_BIN_FRAMES = 20  # for a point of the reliability plot
 
 
 class Group(NamedTuple):
-    """A group of sequences with its results; lines: of the summary and the speeds, merged."""
+    """A group of sequences with its results. lines: the summary's and the speeds' lines, merged."""
 
     name: str
     lines: Sequence[Line]
@@ -41,8 +41,8 @@ class Group(NamedTuple):
 
 
 class Plot(NamedTuple):
-    """A plot. key: unique in its group. draw: fills axes. numbers: of the trackers, for a legend, with digits
-    after the point; labeled: whether the names are in the plot, so that it needs no legend.
+    """A plot. key: unique in its group. draw: fills axes. numbers: the trackers' numbers for a legend, with
+    ``digits`` decimals. labeled: whether the names are in the plot, so that it needs no legend.
     """
 
     key: str
@@ -55,7 +55,7 @@ class Plot(NamedTuple):
 
 
 class _Kind(NamedTuple):
-    """A plot of curves. key: a curve's number in the summary. mark: where on the x axis that number is."""
+    """A plot of curves. key: a curve's number in the summary. mark: where that number is on the x axis."""
 
     key: str
     title: str
@@ -108,7 +108,7 @@ def plots(group: Group, styles: Mapping[str, LineStyle]) -> Html:
 
 
 def _curves(group: Group, styles: Mapping[str, LineStyle], kind: _Kind) -> Plot | None:
-    """A curve per tracker, where the truth is known; None without any."""
+    """One curve per tracker with known truth; None if there is none."""
     found = {name: kind.curve(results) for name, results in group.results.items()}
     found = {name: curve for name, curve in found.items() if not np.isnan(curve).any()}
     if not found:
@@ -155,7 +155,7 @@ def _speed(group: Group, styles: Mapping[str, LineStyle]) -> Plot | None:
 
 
 def _robustness(group: Group, styles: Mapping[str, LineStyle]) -> Plot | None:
-    """VOT's accuracy and robustness, of the runs with restarts; None without them."""
+    """VOT's accuracy and robustness from the runs with restarts; None without them."""
     points = {
         line["tracker"]: (line["failures"], line["accuracy"])
         for line in group.lines
@@ -207,7 +207,7 @@ def _points(
     ours: Sequence[str],
     styles: Mapping[str, LineStyle],
 ) -> None:
-    """Points with names beside them. shares: where the points are, as shares of the axes."""
+    """Draw points with names beside them. shares: the points' positions, as shares of the axes."""
     for (name, (x, y)), label in zip(points.items(), place(shares, list(points)), strict=True):
         mine = name in ours
         axes.plot(x, y, "o" if mine else "D", color=styles[name].color, markersize=9 if mine else 5)
@@ -238,7 +238,7 @@ def _line(axes: Any, x: NDArray[np.float64], y: NDArray[np.float64], style: Line
 
 
 def dash_pattern(style: LineStyle) -> Any:
-    """A style's dashes as matplotlib takes them, in units of the line's width."""
+    """A style's dashes for matplotlib, in units of the line's width."""
     return (0, tuple(float(each) / style.width for each in style.dashes.split()))
 
 

@@ -15,16 +15,16 @@ from tricue.evaluation.report.plot_styles import LineStyle, swatch
 from tricue.evaluation.report.timeline import timeline
 
 MAX_PICTURED = 40
-"""Sequences with pictures, the worst ones."""
-_OPEN = 3  # sequences that are unfolded at first
+"""Number of sequences with pictures, the worst ones."""
+_OPEN = 3  # sequences that are initially unfolded
 _DRAWN_BASELINES = 2  # the best ones, whose boxes are in the pictures
 
 
 class RankedSequence(NamedTuple):
     """A sequence with its runs.
 
-    results: of the first seed by tracker, best tracker first. aucs: means over seeds. leader: tricue's best
-    tracker on it, or the best baseline where none of tricue's ran; "" without any run.
+    results: the first seed's, by tracker, best first. aucs: means over seeds. leader: tricue's best tracker
+    on it, or the best baseline if none of tricue's ran; "" without any run.
     """
 
     opened: OpenedSequence
@@ -34,12 +34,12 @@ class RankedSequence(NamedTuple):
 
     @property
     def auc(self) -> float:
-        """The leader's; -1 where nothing ran."""
+        """The leader's AUC; -1 if nothing ran."""
         return self.aucs.get(self.leader, -1.0)
 
 
 def worst_first(evaluation: Evaluation) -> list[RankedSequence]:
-    """All sequences, by the AUC of the leader on each; last those where it is NaN, as nothing is known."""
+    """All sequences, sorted by their leader's AUC; those where it is NaN, unknown, come last."""
     by_sequence: dict[str, dict[str, list[RunResult]]] = {each.entry.name: {} for each in evaluation.opened}
     for each in evaluation.one_pass:
         by_sequence[each.row.sequence].setdefault(each.row.tracker, []).append(each)
@@ -55,7 +55,7 @@ def sequences(
     styles: Mapping[str, LineStyle],
     several_seeds: bool,
 ) -> Html:
-    """The sequences of one group. pictured: names of those with pictures."""
+    """A group's sequences as HTML. pictured: names of those with pictures."""
     baselines = _best_baselines(ranked, ours)
     items = []
     for index, each in enumerate(ranked):
@@ -84,7 +84,7 @@ def _ranked(opened: OpenedSequence, runs: Mapping[str, list[RunResult]], ours: s
 
 
 def _best_baselines(ranked: list[RankedSequence], ours: set[str]) -> set[str]:
-    """Of the group, by their mean AUC."""
+    """The group's best baselines by mean AUC."""
     found: dict[str, list[float]] = {}
     for each in ranked:
         for name, auc in each.aucs.items():

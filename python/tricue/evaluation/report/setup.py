@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The setup of an evaluation: parameters, versions, machine; and what could not be run."""
+"""The setup of an evaluation: parameters, versions, machine; and what couldn't be run."""
 
 import dataclasses
 import shlex
@@ -14,7 +14,7 @@ from tricue.track.base.registry import tracker_class
 
 _VERSIONS = ("tricue", "opencv", "numpy", "python", "machine")
 _READING = {"depth_scale": "--depth-scale", "fps": "--fps", "unit": "--unit", "truth": "--truth"}
-_MAX_NAMES = 12  # in a sentence; more are folded
+_MAX_NAMES = 12  # in a sentence; longer lists are folded
 
 
 def troubles(evaluation: Evaluation) -> Html | None:
@@ -101,7 +101,7 @@ def command(options: Options, dataset: str) -> str:
 
 
 def _parameters(tracker: str, values: Mapping[str, Any], changed: Mapping[str, Any]) -> Html:
-    params = tracker_class(tracker).Params  # None of a third party's class: nothing is known of its settings
+    params = tracker_class(tracker).Params  # None for a third-party class, whose parameters are unknown
     fields = {} if params is None else {field.name: field for field in dataclasses.fields(params)}
     rows = []
     for name, value in values.items():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The table of a group of sequences: a line per tracker, with intervals; marked are the best numbers, and
+"""The table of a group of sequences: a line per tracker, with intervals. The best numbers are marked, and
 those that can't be distinguished from them.
 """
 
@@ -28,7 +28,7 @@ def summary_table(
     compared: Mapping[str, Comparison],
 ) -> Html:
     """lines: the summary's and the speeds' lines of the group, merged. total: the group's sequences.
-    compared: by column; columns of times aren't compared, of these the best is marked.
+    compared: the comparison by column; in columns of times, which aren't compared, only the best is marked.
     """
     columns = with_numbers(lines)
     whole = {line["tracker"] for line in lines if line["sequences"] == total}
@@ -61,7 +61,7 @@ def summary_table(
 def _marked(
     column: Column, lines: Sequence[Line], whole: set[str], compared: Mapping[str, Comparison]
 ) -> frozenset[str]:
-    """The trackers that ran on all sequences whose numbers are marked."""
+    """The trackers whose numbers are marked, of those that ran on all sequences."""
     if column.key in compared:
         return compared[column.key].leaders(column.better) & whole
     if column.key not in TIMES or len(whole) < 2:
@@ -102,7 +102,7 @@ def _cell(column: Column, line: Line, marked: frozenset[str], compared: Mapping[
 
 
 def _partial(lines: Sequence[Line], total: int) -> Html | None:
-    """Means over different sequences are not comparable."""
+    """A note, if some trackers ran on fewer sequences: means over different sequences aren't comparable."""
     few = [
         f"{line['tracker']} ({line['sequences']} of {total})" for line in lines if line["sequences"] < total
     ]

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Matplotlib figures as SVG inside an HTML page (matplotlib, ``evaluate`` extra).
 
-Ids are unique in the page; there are no URLs, and no styles that affect the rest of the page. The same figure
-gives the same text.
+Ids are unique in the page; there are no URLs and no styles that affect the rest of the page. Equal figures
+give equal text.
 """
 
 import io
@@ -26,11 +26,11 @@ _STYLE: dict[str, Any] = {
     "ytick.color": "#444444",
     "svg.fonttype": "none",  # text stays text, in the page's font
 }
-_SIZE = (4.6, 3.4)  # inches; 331 points, which fit the width of a phone
+_SIZE = (4.6, 3.4)  # inches; 331 points wide, which fits a phone
 
 
 def require() -> None:
-    """Raise ImportError that names the extra where matplotlib is missing."""
+    """Raise ImportError, which names the extra, if matplotlib is missing."""
     try:
         import matplotlib.figure  # noqa: F401
     except ImportError:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A run as a thin picture, time to the right: the overlap as a shade, the status below."""
+"""A run as a thin picture, with time to the right: the overlap as a shade, the status below."""
 
 import base64
 
@@ -13,9 +13,9 @@ from tricue.evaluation.rows import ScoredRun
 Array = NDArray[np.float64]
 
 MAX_COLUMNS = 160
-"""Of the picture; in longer runs each column has the worst of several frames."""
+"""Columns of the picture; in longer runs each column shows the worst of several frames."""
 SHADES = ("#7a1020", "#c9452f", "#f0a04b", "#f7e0a3", "#b7dfc4", "#8fcbaa")
-"""Of overlaps from 0 to 1: darker is worse, so that lightness distinguishes them too."""
+"""Colors of overlaps from 0 to 1; darker is worse, so that lightness distinguishes them, too."""
 ABSENT_COLOR, UNKNOWN, NOT_TRACKED, TRACKED = "#b9c4d6", "#ffffff", "#3b4a63", "#ffffff"
 _ROWS, _STATUS_ROWS = 6, 2  # of the picture, which the page stretches
 

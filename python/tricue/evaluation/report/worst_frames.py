@@ -7,16 +7,16 @@ from numpy.typing import NDArray
 from tricue.evaluation.rows import ScoredRun
 
 MAX_WORST_FRAMES = 4
-"""Of a run, besides the first one."""
+"""Per run, besides the first frame."""
 _SPACINGS = 8
-"""Two of them are at least the run's length over this apart."""
+"""Two of them are at least this fraction, 1 / _SPACINGS, of the run's length apart."""
 
 
 def worst_frames(run: ScoredRun) -> list[int]:
-    """The first frame and at most MAX_WORST_FRAMES worst ones, ascending, counted from the run's start.
+    """The first frame and at most MAX_WORST_FRAMES worst ones, in order, counted from the run's start.
 
-    The worst frames have the lowest overlaps, of equal ones the earliest. A frame without the target counts
-    as overlap 0 if its status is TRACKED. They are an eighth of the run apart, so that one loss doesn't take
+    The worst frames have the lowest overlaps; among equals the earliest. A frame without the target counts as
+    overlap 0 if its status is TRACKED. They are an eighth of the run apart, so that one loss doesn't take up
     all pictures.
     """
     overlaps = _ranked_overlaps(run)

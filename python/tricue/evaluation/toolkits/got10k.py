@@ -28,14 +28,14 @@ except ImportError as error:
 class Got10kTracker(_Got10kTracker):  # type: ignore[misc]  # got10k has no types
     """Wraps a tracker with ``init`` and ``update`` as in ``got10k.trackers.Tracker``.
 
-    Boxes are (4,) arrays x, y, width, height, passed on as they are, while tricue counts pixels from 0. OTB's
-    files count from 1; got10k neither shifts them nor tells a tracker which experiment runs. So in
-    ``ExperimentOTB`` a tracker starts one pixel right of and below the true box, and its boxes are compared
-    with the truth in that convention.
+    Boxes are (4,) arrays x, y, width, height, passed on unchanged, while tricue counts pixels from 0. OTB's
+    files count from 1; got10k neither shifts them nor informs trackers which experiment runs. So in
+    ``ExperimentOTB`` a tracker starts one pixel to the right of and below the true box, and its boxes are
+    compared with the truth in the same convention.
     """
 
     def __init__(self, tracker: Tracker, name: str) -> None:
-        # Ours are seeded: got10k needn't repeat them.
+        # tricue's trackers are seeded, so got10k needn't repeat runs.
         super().__init__(name=name, is_deterministic=True)
         self.tracker = tracker
         self._box = Box(0, 0, 0, 0)
@@ -48,7 +48,7 @@ class Got10kTracker(_Got10kTracker):  # type: ignore[misc]  # got10k has no type
     def update(self, image: Image) -> NDArray[np.float64]:
         """The box in the next image, (4,), not rounded.
 
-        Of a lost target without a box it is the last one: with NaN the sequence's mean would be NaN.
+        For a lost target without a box it is the last box, because NaN would make the sequence's mean NaN.
         """
         self._box = with_known_numbers(self.tracker.update(_bgr(image)), self._box).box
         return np.array(self._box, dtype=np.float64)
@@ -57,7 +57,7 @@ class Got10kTracker(_Got10kTracker):  # type: ignore[misc]  # got10k has no type
 def as_got10k(tracker: Tracker, name: str | None = None) -> Got10kTracker:
     """The tracker with the interface of got10k's; TypeError for anything but a tracker.
 
-    ``name`` names got10k's folders of results; without it the tracker's class does.
+    name: of got10k's result folders; by default the tracker's class name.
     """
     if not all(callable(getattr(tracker, each, None)) for each in ("init", "update")):
         raise TypeError(f"tracker: expected a tricue tracker, got {type(tracker).__name__}")
@@ -65,5 +65,5 @@ def as_got10k(tracker: Tracker, name: str | None = None) -> Got10kTracker:
 
 
 def _bgr(image: Image) -> NDArray[np.uint8]:
-    """A PIL image of any mode as our (H, W, 3) uint8 BGR; a gray one has three equal channels."""
+    """A PIL image of any mode as (H, W, 3) uint8 BGR; a gray one gets three equal channels."""
     return np.ascontiguousarray(np.asarray(image.convert("RGB"))[:, :, ::-1])

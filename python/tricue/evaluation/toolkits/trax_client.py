@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""TraX programs as trackers: any program that the VOT toolkit can run, started here with a command.
+"""TraX programs as trackers: any program that the VOT toolkit can run, started by a command.
 
 The library is vot-trax (``pip install tricue[vot]``).
 """
@@ -26,19 +26,19 @@ from tricue.track.base.track import Status, Track
 
 PATIENCE = 2.0  # seconds that a program gets to quit
 CHANNELS = ("color", "depth")
-MAX_HASHED = 1 << 28  # bytes of a file that tells a program's version
+MAX_HASHED = 1 << 28  # bytes; larger files aren't hashed for a program's version
 
 
 class TraxError(RuntimeError):
-    """A program that doesn't do what was asked for; the message says all."""
+    """A program that doesn't do what was requested; the message is complete."""
 
 
 class TraxProgram:
     """A program behind the TraX protocol on standard input and output, with the interface of a tracker.
 
-    It gets images as files, BMP for color and PNG in millimeters for depth, or in memory if it asks for that
-    alone. Its time is from the request to the answer, its reading of the files included. It is started anew
-    at each ``init``. ValueError for a command that can't be run, TraxError with the program's reason.
+    It gets images as files, BMP for color and PNG in millimeters for depth, or in memory if it accepts only
+    that. Its time is from request to answer, including its reading of files. It is restarted at each
+    ``init``. ValueError for a command that can't be run, TraxError with the program's reason.
     """
 
     def __init__(self, command: str) -> None:
@@ -47,7 +47,7 @@ class TraxProgram:
         self._box = Box(0, 0, 0, 0)
         self._connection: _Connection | None = None
         self.update_seconds = 0.0
-        """Of the last update."""
+        """The time of the last update."""
 
     def init(self, frame: Frame, box: Box) -> Track:
         """Start the program, and its tracker on the box."""
@@ -94,9 +94,9 @@ class TraxProgram:
         return images
 
     def _track(self, state: Any, last: Box) -> Track:
-        """The track of an answer: a region that is empty, or no region, says that the target is lost.
+        """The track of an answer; an empty or missing region means that the target is lost.
 
-        Its score is the confidence; where that is no finite number, 1 with a box and 0 without.
+        Its score is the confidence; if that isn't a finite number, 1 with a box and 0 without.
         """
         region, properties = state
         box = bounding_box(region)
@@ -109,7 +109,7 @@ class TraxProgram:
 
 
 class _Connection:
-    """A program that runs, and the protocol's client. What it asks for is in channels and formats."""
+    """A running program and the protocol's client. channels, formats: what the program requests."""
 
     def __init__(self, words: list[str]) -> None:
         try:
@@ -128,7 +128,7 @@ class _Connection:
         assert self._process.stdout is not None
         streams = self._process.stdin.fileno(), self._process.stdout.fileno()
         try:
-            self._client = Client(stream=streams, log=lambda _: None)  # without a log it breaks
+            self._client = Client(stream=streams, log=lambda _: None)  # it crashes without a log
         except trax.TraxException as error:
             self._end()
             raise TraxError(f"{words[0]} doesn't speak TraX: {error}") from None
@@ -136,18 +136,18 @@ class _Connection:
         self.formats = tuple(self._client.image_formats)
 
     def initialize(self, images: dict[str, Any], box: Box) -> Any:
-        """Start on a box: the region and properties that come back."""
+        """Start on a box; return the region and properties of the reply."""
         import trax
 
         regions: list[Any] = [(trax.Rectangle.create(*box), {})]
         return self._state(lambda: self._client.initialize(images, regions, {}))
 
     def frame(self, images: dict[str, Any]) -> Any:
-        """Send a frame: the region and properties that come back."""
+        """Send a frame; return the region and properties of the reply."""
         return self._state(lambda: self._client.frame(images, {}, []))
 
     def close(self) -> None:
-        """Tell the program to quit, and see that it does."""
+        """Make the program quit."""
         with suppress(self._error, OSError):
             self._client.quit()
         self._end()
@@ -162,7 +162,7 @@ class _Connection:
         return states[0]
 
     def _reason(self, error: Exception) -> str:
-        """What the client says, and how the program ended where it did."""
+        """The client's message, and how the program ended, if it did."""
         try:
             code = self._process.wait(PATIENCE)
         except subprocess.TimeoutExpired:
@@ -184,7 +184,7 @@ class _Connection:
 
 
 def program_channels(command: str) -> frozenset[str]:
-    """The channels that a program asks for; it is started for that. ValueError if it can't get them."""
+    """The channels that a program requests; this starts it. ValueError if it can't get them."""
     connection = _Connection(command_words(command))
     channels = connection.channels
     connection.close()
@@ -194,7 +194,7 @@ def program_channels(command: str) -> frozenset[str]:
 
 
 def program_version(command: str) -> dict[str, Any]:
-    """What tells a program's version from another: its words, and hashes of the files that they name."""
+    """What identifies a program's version: its command's words, and hashes of the files that they name."""
     words = command_words(command)
     files = [Path(found) for word in words if (found := shutil.which(word) or word) and Path(found).is_file()]
     hashed = [hashlib.sha256(path.read_bytes()).hexdigest() for path in files if _is_small(path)]
@@ -213,7 +213,7 @@ def command_words(command: str) -> list[str]:
 
 
 def _number(text: str | None) -> float:
-    """The number that a property says, NaN without one."""
+    """A property's number, NaN if it isn't one."""
     try:
         return math.nan if text is None else float(text)
     except ValueError:

@@ -26,11 +26,11 @@ from tricue.track.base.registry import create, tracker_class, traits
 from tricue.track.base.track import Track, Tracker
 
 MIN_BOX_SIZE = 2.0  # pixels, width and height of an initial box
-DECIMALS = 4  # of the protocol's boxes, which its library keeps as float32
+DECIMALS = 4  # of boxes in the protocol, whose library stores float32
 READERS: dict[str, ImageReader] = {"color": read_color, "depth": DepthReader(METERS_PER_MILLIMETER)}
 MISSING_EXTRA = "the TraX protocol needs an extra: pip install tricue[vot]"
 
-EMPTY_BOX = Box(0.0, 0.0, 0.0, 0.0)  # VOT's convention for a target that isn't there
+EMPTY_BOX = Box(0.0, 0.0, 0.0, 0.0)  # VOT's convention for an absent target
 
 Errors = (OSError, RuntimeError, TypeError, ValueError)
 
@@ -67,8 +67,8 @@ class TraxTracker:
 
     @property
     def channels(self) -> tuple[str, ...]:
-        """The channels that the tracker gets: the fewest that it needs, or the most that it can use if the
-        depth camera is known.
+        """The channels that the tracker gets: the fewest that it needs, or, if the depth camera is known, the
+        most that it can use.
         """
         return select_channels(self.name, self.values, self.calibration is not None)
 
@@ -85,8 +85,8 @@ class TraxTracker:
 def select_channels(
     name: str, values: Mapping[str, Any] | None = None, calibrated: bool = False
 ) -> tuple[str, ...]:
-    """The channels of VOT that a tracker needs with parameters, or, where the depth camera is calibrated, the
-    most that it can use. ValueError for one that VOT can't run.
+    """The fewest VOT channels that a tracker needs with these parameters, or, if the depth camera is
+    calibrated, the most that it can use. ValueError for one that VOT can't run.
     """
     kind, its = tracker_class(name), traits(name)
     fitting = its.channels if kind.Params is None else its.fitting(kind.Params(**(values or {})))
@@ -110,7 +110,7 @@ class TraxSession:
         self._answer: Answer | None = None
 
     def start(self, frame: Frame, box: Box) -> Answer:
-        """Start again on the box, enlarged to MIN_BOX_SIZE. Errors of the frame are raised."""
+        """Start anew on the box, enlarged to MIN_BOX_SIZE. Errors in the frame are raised."""
         tracker = self._make(frame)
         try:
             track = tracker.init(frame, widen_box(box))
@@ -122,7 +122,7 @@ class TraxSession:
         return self._answer
 
     def follow(self, frame: Frame) -> Answer:
-        """The next frame; RuntimeError before ``start``."""
+        """The answer for the next frame; RuntimeError before ``start``."""
         if self._answer is None:
             raise RuntimeError("expected initialize before the next frame")
         if self._tracker is not None:
@@ -131,8 +131,8 @@ class TraxSession:
 
 
 def make_answer(track: Track, last: Box) -> Answer:
-    """The box and score of a track. A box that isn't finite is replaced by the last one: VOT's toolkit would
-    end the whole evaluation at a NaN.
+    """The box and score of a track. A box that isn't finite is replaced by the last one: a NaN would make the
+    VOT toolkit abort the whole evaluation.
     """
     if not _finite(track.box):
         return Answer(last, 0.0)
@@ -152,7 +152,7 @@ def _finite(box: Box) -> bool:
 def serve(tracker: TraxTracker) -> None:
     """Answer a client on standard input and output until it quits.
 
-    An error is sent to the client as the reason to quit, and raised; it names the files of the frame.
+    An error is sent to the client as the reason for quitting, and raised; it names the frame's files.
     ImportError without vot-trax.
     """
     try:
@@ -200,7 +200,7 @@ def _reply(request: Any, session: TraxSession) -> Any:
 
 
 def bounding_box(region: Any) -> Box:
-    """The bounding box of a trax region, with the digits that were sent; NaN for an empty region."""
+    """The bounding box of a trax region, rounded to the digits sent; NaN for an empty region."""
     if region.type == "rectangle":
         return Box(*(round(number, DECIMALS) for number in region.bounds()))
     if region.type == "polygon":

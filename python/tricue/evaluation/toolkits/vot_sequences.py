@@ -18,17 +18,21 @@ from tricue.data.streams import Images, Stream, read_color
 from tricue.evaluation.dataset import Entry, OpenedSequence
 from tricue.evaluation.toolkits.millimeters import to_millimeters
 
-ANCHOR_INTERVAL = 50  # frames from one start of the multistart experiment to the next, as in VOT2020
+ANCHOR_INTERVAL = 50  # frames between starts of the multistart experiment, as in VOT2020
 ABSENT = "nan,nan,nan,nan"
-_SUFFIXES = {".jpg": ".jpg", ".jpeg": ".jpg", ".png": ".png"}  # the toolkit's name of images that it reads
+_SUFFIXES = {
+    ".jpg": ".jpg",
+    ".jpeg": ".jpg",
+    ".png": ".png",
+}  # the suffixes that the toolkit uses
 _LINKABLE_READERS = {"color": read_color, "depth": DepthReader(METERS_PER_MILLIMETER)}
 
 
 def vot_channels(source: Source) -> tuple[tuple[str, ...], str]:
     """The channels, color or depth, that VOT can use, and a note about one that is left out.
 
-    VOT knows one image's pixels. Of depth that isn't registered to color the channel in whose pixels the true
-    boxes are given is left, and depth is left out if its size isn't the color images'.
+    VOT assumes that all channels have the same pixels. If depth isn't registered to color, only the channel
+    in whose pixels the true boxes are is used. Depth is left out if its size differs from the color images'.
     """
     there = tuple(name for name in ("color", "depth") if name in source.channels)
     opened = OpenedSequence(Entry(source.name, Path()), source)
@@ -44,10 +48,10 @@ def vot_channels(source: Source) -> tuple[tuple[str, ...], str]:
 
 
 def write_sequence(source: Source, folder: Path) -> int:
-    """Write the channels of :func:`vot_channels`, the true boxes, anchors and tags; the number of frames.
+    """Write the channels of :func:`vot_channels`, true boxes, anchors and tags; return the number of frames.
 
-    Images that the toolkit and tricue read alike are linked, or copied if links aren't possible. Others
-    become PNG, depth in 16-bit millimeters. The folder must not exist; it is removed after an error.
+    Images that the toolkit and tricue read identically are linked, or copied if links aren't possible. Others
+    become PNG files, depth in 16-bit millimeters. The folder must not exist; it is removed after an error.
     ValueError for fewer than two frames, and for channels of different length.
     """
     folder.mkdir(parents=True)
@@ -69,7 +73,7 @@ def _write(source: Source, folder: Path) -> int:
     patterns = [f"channels.{name}={name}/%08d{suffix}" for name, (suffix, _) in written.items()]
     about = {
         "name": folder.name,
-        "fps": max(1, round(source.fps)),  # the toolkit takes whole numbers only
+        "fps": max(1, round(source.fps)),  # the toolkit takes only whole numbers
         "format": "default",
         "channel.default": names[0],
         "width": width,
@@ -86,9 +90,9 @@ def _write(source: Source, folder: Path) -> int:
 
 
 def anchors(visible: NDArray[np.bool_]) -> list[int]:
-    """Where the multistart experiment starts: 1 forward, -1 backward, 0 elsewhere, a number a frame.
+    """The starts of the multistart experiment, a number per frame: 1 forward, -1 backward, 0 elsewhere.
 
-    One in every ANCHOR_INTERVAL frames, the first in which the target is visible, towards the longer part.
+    In every ANCHOR_INTERVAL frames there is one, in the first with a visible target, toward the longer part.
     """
     values = [0] * len(visible)
     for first in range(0, len(visible), ANCHOR_INTERVAL):
@@ -100,7 +104,7 @@ def anchors(visible: NDArray[np.bool_]) -> list[int]:
 
 
 def _boxes(truth: NDArray[np.float64] | None, count: int) -> NDArray[np.float64]:
-    """(count, 4): the true boxes, NaN in frames without."""
+    """The true boxes (count, 4), NaN in frames without one."""
     boxes = np.full((count, 4), np.nan)
     if truth is not None:
         boxes[: len(truth)] = truth[:count]
@@ -108,12 +112,12 @@ def _boxes(truth: NDArray[np.float64] | None, count: int) -> NDArray[np.float64]
 
 
 def _line(box: NDArray[np.float64]) -> str:
-    """A line of groundtruth.txt, with the four decimals of the protocol."""
+    """A line of groundtruth.txt, with the protocol's four decimals."""
     return ABSENT if np.isnan(box).any() else ",".join(f"{number:.4f}" for number in box.tolist())
 
 
 def _write_channel(stream: Stream, name: str, folder: Path) -> tuple[str, int]:
-    """Write a channel's images; their suffix and number."""
+    """Write a channel's images; return their suffix and number."""
     folder.mkdir()
     suffix, count = _linked_suffix(stream, name), 0
     if isinstance(stream, Images) and suffix:
@@ -128,7 +132,7 @@ def _write_channel(stream: Stream, name: str, folder: Path) -> tuple[str, int]:
 
 
 def _linked_suffix(stream: Stream, name: str) -> str:
-    """The suffix of images that can be linked; "" if they have to be converted."""
+    """The suffix of images that can be linked; "" if they must be converted."""
     if not isinstance(stream, Images) or stream.read != _LINKABLE_READERS[name]:
         return ""
     suffixes = {_SUFFIXES.get(path.suffix.lower(), "") for path in stream.paths}
@@ -141,7 +145,7 @@ def _link(path: Path, link: Path) -> None:
         raise FileNotFoundError(f"{path}: there is no such file")
     try:
         link.symlink_to(path.resolve())
-    except (NotImplementedError, OSError):  # a file system without links, Windows without the right to
+    except (NotImplementedError, OSError):  # no links on this file system, or no permission on Windows
         shutil.copyfile(path, link)
 
 

@@ -19,15 +19,15 @@ from tricue.evaluation.toolkits.trax_server import select_channels
 from tricue.evaluation.toolkits.vot_sequences import vot_channels, write_sequence
 from tricue.track.base.registry import tracker_class
 
-MAX_RATE_RATIO = 1.5  # between a recording's frame rate and the one that a tracker assumes
+MAX_RATE_RATIO = 1.5  # ratio of a recording's frame rate to the one that a tracker assumes, or the inverse
 TRACKERS, SEQUENCES, LIST = "trackers.ini", "sequences", "list.txt"
 CONFIG = """\
 registry: [./trackers.ini]
 sequences: sequences
 stack: ./stack.yaml
 """
-# A supervised run must not start again in a frame without a true box: the toolkit stops there. The bounds of
-# the expected overlap are for clips of some dozens of frames.
+# A supervised run must not restart in a frame without a true box, where the toolkit stops. The bounds of the
+# expected overlap suit clips of a few dozen frames.
 STACK = """\
 title: tricue
 experiments:
@@ -62,7 +62,7 @@ class WorkspaceReport:
 def write_workspace(
     folder: Path, trackers: Sequence[str], recordings: Iterable[Path] = (), python: str = sys.executable
 ) -> WorkspaceReport:
-    """Write a workspace for ``trackers`` with ``recordings``, or add both to one that was written before.
+    """Write a workspace for ``trackers`` with ``recordings``, or add both to an existing one.
 
     recordings: what ``open_source`` opens, with true boxes. Those without one in their
         first frame, without a channel that one of the trackers needs, or with a frame that can't be read or
@@ -114,7 +114,7 @@ def check_python(python: str) -> str:
     found = shutil.which(python)
     if found is None:
         raise ValueError(f"--python: expected an interpreter, found none at {python}")
-    path = str(Path(found).absolute())  # a virtual environment's is a link that must not be followed
+    path = str(Path(found).absolute())  # a virtual environment's Python is a link that must not be followed
     done = subprocess.run(
         [path, "-c", "import trax, tricue.cli.trax"], capture_output=True, text=True, check=False
     )
@@ -165,12 +165,12 @@ def _listed_sequences(folder: Path) -> list[str]:
 def _usable_recordings(
     recordings: Iterable[Path], needs: dict[str, tuple[str, ...]], report: WorkspaceReport
 ) -> Iterator[tuple[Path, str, Source]]:
-    """Places, names and sources of the recordings that can be added; the report notes the others."""
+    """Paths, names and sources of the recordings that can be added; the report has notes on the others."""
     taken = set(report.sequences)
     for place in recordings:
         try:
             source = open_source(place)
-            reason = _unusable_reason(source, needs)  # which may read the first images
+            reason = _unusable_reason(source, needs)  # this may read the first images
             hints = [*filter(None, vot_channels(source)[1:]), *_rate_hints(source, needs)]
         except (OSError, ValueError) as error:
             report.notes.append(f"left out {place}: {one_line(error)}")

@@ -57,7 +57,7 @@ class Paints(NamedTuple):
     def colors(
         self, points: Picture, surface: Surface, materials: Integers, lengths: Array, head: HeadFrame | None
     ) -> tuple[Picture, Picture]:
-        """The colors (m, 3) of points on a surface, and the share of skin (m,). materials, lengths: per cone."""
+        """The colors (m, 3) of points on a surface, and shares of skin (m,). materials, lengths: per cone."""
         paints = materials[surface.parts]
         along = surface.shares * lengths[surface.parts].astype(np.float32)
         turn = surface.angles / np.float32(2 * np.pi) + np.float32(0.5)

@@ -28,7 +28,7 @@ class DepthWindow(NamedTuple):
     depth: Array
 
     def inside(self, width: int, height: int) -> tuple[tuple[slice, slice], Array]:
-        """The part inside an image of this size: its slices of the image's rows and columns, and its depths."""
+        """The part inside an image of this size: its slices of rows and columns, and its depths."""
         rows, columns = self.depth.shape
         left, right = max(self.left, 0), max(min(self.left + columns, width), 0)
         top, bottom = max(self.top, 0), max(min(self.top + rows, height), 0)

@@ -40,7 +40,7 @@ def cover(kinds: tuple[str, ...], rows: int, columns: int, rng: np.random.Genera
 
 
 def furniture_cover(rows: int, columns: int, rng: np.random.Generator) -> Picture:
-    """The surface of a wall, a floor or a table: plain or wood; a fifth is tiled, two fifths are textureless."""
+    """The surface of a wall, a floor or a table: plain or wood; a fifth is tiled, two fifths textureless."""
     draw = rng.random()
     if draw < TILED_SHARE:
         return tiles(rows, columns, rng)

@@ -202,7 +202,7 @@ def change_light(motion: StressMotion, span: range, rng: np.random.Generator) ->
 
 
 def shake_camera(motion: StressMotion, span: range, rng: np.random.Generator) -> None:
-    """The camera pans to one side and back, and shakes; both move the room, only the shake moves the cards."""
+    """The camera pans to one side and back, and shakes; both move the room, the shake also the cards."""
     count, camera = len(span), motion.camera
     envelope = np.sin(np.pi * (np.arange(count) + 0.5) / count)
     pan = rng.choice([-1, 1]) * np.radians(rng.uniform(8, 14)) * envelope**2
