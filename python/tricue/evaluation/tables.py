@@ -203,9 +203,7 @@ def _write_csv(path: Path, lines: Sequence[Line]) -> None:
 
 
 def _cell(value: Any) -> Any:
-    """Empty for NaN. A name that a spreadsheet would run as a formula gets an apostrophe, which stays
-    hidden.
-    """
+    """Empty for NaN. A name that a spreadsheet would run as a formula gets a hidden apostrophe."""
     if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r")):
         return f"'{value}"
     return "" if isinstance(value, float) and math.isnan(value) else value

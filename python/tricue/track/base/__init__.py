@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""What all trackers share: the protocol, parameters, validation, the registry."""
+"""The base of all trackers: the protocol, parameters, validation, the registry."""

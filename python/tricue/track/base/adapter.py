@@ -56,7 +56,7 @@ def takes_seed(make: Callable[..., Any]) -> bool:
     """Whether a class or a function has a keyword ``seed``."""
     try:
         return "seed" in inspect.signature(make).parameters
-    except (TypeError, ValueError):  # of some compiled ones
+    except (TypeError, ValueError):  # some compiled ones have no signature
         return False
 
 
@@ -76,8 +76,8 @@ def check_track(track: Any, method: str) -> Track:
 def with_known_numbers(track: Track, last: Box) -> Track:
     """The track with finite numbers only, as files and pictures need them.
 
-    Where a third party's box of a lost target is unknown, it is the ``last`` one; a position, covariance or
-    depth that isn't finite is None; a position that is a tuple becomes an array.
+    If a third party's box of a lost target is unknown, it becomes the ``last`` one. A position, covariance or
+    depth that isn't finite becomes None, and a position given as a tuple an array.
     """
     known: dict[str, Any] = {} if all(map(math.isfinite, track.box)) else {"box": last}
     for name in ("position", "covariance"):
@@ -114,14 +114,14 @@ class _Adapted:
                 f"{type(self).__name__}: expected to make a tracker with init and update, got {made}"
             )
         self._takes_frame = _takes_frame(self.tracker.init)
-        self._box: Box | None = None  # the last one that is known, from ``init`` on
+        self._box: Box | None = None  # the last known box, set by ``init``
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
         """Start, or start again, on ``box``."""
         if box is None:
             raise BoxNeededError("box: expected (x, y, width, height), got None")
         first = as_box(box)
-        start = first.as_int() if is_of_cv2(self.tracker) else first  # cv2 5 takes no other numbers
+        start = first.as_int() if is_of_cv2(self.tracker) else first  # cv2 5 takes only integers
         given = self.tracker.init(self._input(frame), start)
         self._box = first
         if given is None or isinstance(given, (bool, np.bool_)):
@@ -130,7 +130,7 @@ class _Adapted:
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame."""
-        last = require_initialized(self._box)  # some of cv2's crash without
+        last = require_initialized(self._box)  # some of cv2's trackers crash without it
         return self._track(self.tracker.update(self._input(frame)), "update", last)
 
     def __copy__(self) -> Any:
@@ -164,7 +164,7 @@ class _Adapted:
 
 
 def _maker(cls: Callable[..., Any]) -> Callable[..., Any]:
-    """The function that makes the tracker: cv2's ``create``, as trackers of its constructors crash."""
+    """The function that makes the tracker; for cv2 ``create``, since trackers from its constructors crash."""
     is_cv2s = isinstance(cls, type) and cls.__module__.partition(".")[0] == "cv2"
     make: Callable[..., Any] = getattr(cls, "create", cls) if is_cv2s else cls
     return make
@@ -190,7 +190,7 @@ def _takes_frame(init: Callable[..., Any]) -> bool:
 
 
 def _parts(given: Any) -> tuple[bool, Any, Any]:
-    """Whether the target was found, the box, and the score, from an answer that is no Track."""
+    """Whether the target was found, the box, and the score, from an answer that isn't a Track."""
     if isinstance(given, (tuple, list)) and len(given) == 2:
         first, second = given
         if isinstance(first, (bool, np.bool_)):
@@ -200,8 +200,8 @@ def _parts(given: Any) -> tuple[bool, Any, Any]:
 
 
 def _is_empty(box: Any) -> bool:
-    """Whether a box says that the target is lost: its width and height are 0, as some trackers give it, or
-    it isn't finite, as after a division by 0.
+    """Whether a box means that the target is lost: its width and height are 0, as some trackers return, or it
+    isn't finite, as after a division by 0.
     """
     try:
         numbers = [float(value) for value in box]

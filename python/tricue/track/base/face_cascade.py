@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """A frontal face by scikit-image's cascade of local binary patterns (Liao et al. 2007).
 
-A window that passes is a hit. A face has many, at neighboring places and sizes, and, as it is symmetric, in
-the mirrored image, too. In a color image it has the color of skin.
+A window that passes is a hit. A face has many hits, at neighboring positions and sizes, and, since it is
+symmetric, also in the mirrored image. In a color image it must have the color of skin.
 """
 
 from collections.abc import Callable
@@ -20,21 +20,21 @@ Squares = NDArray[np.float64]  # (N, 3): center x, y and side, pixels
 
 WINDOW = 24  # pixels, of the cascade
 SCALE_STEP = 1.1  # from one size of faces to the next
-SIMILAR = 0.2  # of the smaller square's side: by how much edges of the same face's hits differ, at most
-MIN_HITS, MIN_HITS_GRAY = 11, 14  # of the image and its mirror image; in gray images no color helps
-MIN_GREEN_DEFICIT, MIN_BLUE_DEFICIT = 0.10, 0.15  # of skin, in shares of red: 83 of 84 pictures of skin
-MAX_GRAY_RANGE = 4.0  # levels, mean difference of a pixel's channels: compressed gray video isn't quite gray
-SQUARE_SCALE = 1.09  # side of the square of OpenCV's Haar cascade on a face, relative to this one's
+SIMILAR = 0.2  # of the smaller square's side: largest difference between the edges of one face's hits
+MIN_HITS, MIN_HITS_GRAY = 11, 14  # in the image and its mirror image; a gray image has no color to check
+MIN_GREEN_DEFICIT, MIN_BLUE_DEFICIT = 0.10, 0.15  # of skin, as shares of red: 83 of 84 pictures of skin
+MAX_GRAY_RANGE = 4.0  # levels, mean difference of a pixel's channels; compressed gray video isn't quite gray
+SQUARE_SCALE = 1.09  # side of the square of OpenCV's Haar cascade on a face, relative to this cascade's
 
 
 def find_square(image: Image, smallest: int) -> Box | None:
-    """The square of the largest face in a BGR or gray image, as large as cv2's; None without a face.
+    """The square of the largest face in a BGR or gray image, scaled to cv2's size; None without a face.
 
     smallest: side of the smallest face, pixels. ImportError without scikit-image.
     """
     gray: Any = image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
     hits = _find_hits(gray, smallest)
-    if not len(_faces(image, hits, 0.5)):  # which spares the mirror image
+    if not len(_faces(image, hits, 0.5)):  # then the mirror image isn't needed
         return None
     mirrored = _find_hits(gray[:, ::-1], smallest)
     mirrored[:, 0] = gray.shape[1] - mirrored[:, 0]
@@ -49,8 +49,9 @@ def find_square(image: Image, smallest: int) -> Box | None:
 def _find_hits(gray: Image, smallest: int) -> Squares:
     """The windows of all sizes that pass the cascade.
 
-    The image is reduced, not the windows enlarged, for the cascade's cells have whole pixels. Images are
-    scanned one by one, as the order of the hits in a call depends on the number of threads.
+    The image is reduced instead of enlarging the windows, because the cascade's cells have whole pixels.
+    Images are scanned one at a time, because the order of hits within a call depends on the number of
+    threads.
     """
     cascade = _load_cascade()
     height, width = gray.shape
@@ -59,10 +60,10 @@ def _find_hits(gray: Image, smallest: int) -> Squares:
         size = (round(width * WINDOW / side), round(height * WINDOW / side))
         if min(size) <= WINDOW:
             break
-        # Without their mean, sums over the image are small, and exact in the cascade's float32.
+        # Without the mean, sums over the image stay small, and exact in the cascade's float32.
         reduced = cv2.resize(np.ascontiguousarray(gray), size, interpolation=cv2.INTER_LINEAR)
         level = reduced - np.round(reduced.mean())
-        # Steps of one pixel, the one size of the window, hits that aren't grouped.
+        # Steps of one pixel, a single window size, ungrouped hits.
         one_size = (WINDOW, WINDOW), (WINDOW + 1, WINDOW + 1)
         found = cascade.detect_multi_scale(level, SCALE_STEP, 1, *one_size, 1, 1.0)
         across, down = width / size[0], height / size[1]
@@ -75,7 +76,7 @@ def _find_hits(gray: Image, smallest: int) -> Squares:
 
 
 def _faces(image: Image, hits: Squares, share: float) -> Squares:
-    """The means of groups of hits that have a face's color and at least a share of the hits of a face."""
+    """The means of groups of hits that have a face's color and ``share`` of the hits required for a face."""
     gray = image.ndim == 2 or float(np.ptp(image, axis=2).mean()) < MAX_GRAY_RANGE
     enough = share * (MIN_HITS_GRAY if gray else MIN_HITS)
     means = [group.mean(axis=0) for group in _groups(hits) if len(group) >= enough]
@@ -83,7 +84,7 @@ def _faces(image: Image, hits: Squares, share: float) -> Squares:
 
 
 def _groups(hits: Squares) -> list[Squares]:
-    """The hits, connected where all four edges of two squares are near each other."""
+    """The hits, grouped by connecting squares with all four edges near each other."""
     from scipy.sparse.csgraph import connected_components
 
     if not len(hits):
@@ -97,7 +98,7 @@ def _groups(hits: Squares) -> list[Squares]:
 
 
 def _has_skin_color(image: Image, square: NDArray[np.float64]) -> bool:
-    """Whether the mean color of the square's inner half is as reddish as skin, of any tone in any light."""
+    """Whether the mean color of the square's inner half is as reddish as skin of any tone in any light."""
     x, y, side = square
     rows = slice(max(int(y - side / 4), 0), int(y + side / 4) + 1)
     columns = slice(max(int(x - side / 4), 0), int(x + side / 4) + 1)

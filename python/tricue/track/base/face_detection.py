@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Detection of a frontal face to start on, by a cascade of classifiers (Viola and Jones 2001).
 
-It is cv2's, of Haar features, or, where cv2 has none, as 5.x, scikit-image's.
+It is cv2's, with Haar features, or scikit-image's if cv2 has none, as in 5.x.
 """
 
 import threading
@@ -21,18 +21,18 @@ Image = NDArray[np.uint8]
 
 # Size of the head relative to the detected square, as in hand-drawn boxes of faces.
 HEAD_WIDTH_RATIO, HEAD_HEIGHT_RATIO = 0.75, 0.95
-MIN_SIDE, MIN_SHARE = 20, 10  # of the smallest face: pixels, and 1 / the share of the image's shorter side
+MIN_SIDE, MIN_SHARE = 20, 10  # of the smallest face: pixels, and the image's shorter side over the face's
 FACES_NEED = (
     f"can't detect faces, because cv2 {cv2.__version__} has no cascade and scikit-image is missing; "
     'pip install "tricue[face]" or "opencv-python-headless<5"'
 )
-_ONE_AT_A_TIME = threading.Lock()  # cv2's cascade keeps the image it looks at, and releases the GIL
+_ONE_AT_A_TIME = threading.Lock()  # cv2's cascade stores its image and releases the GIL
 
 
 def find_face(image: Image) -> Box | None:
     """The largest frontal face in a BGR or gray image, or None.
 
-    ImportError if neither cv2 has a cascade, which 5.x hasn't, nor scikit-image is installed.
+    ImportError if cv2 has no cascade, as in 5.x, and scikit-image isn't installed.
     """
     smallest = max(MIN_SIDE, min(image.shape[:2]) // MIN_SHARE)
     classifier = _load_cascade()
@@ -67,7 +67,7 @@ def _crop_to_head(square: Box) -> Box:
 
 
 @cache
-def _load_cascade() -> Any:  # cv2 5's types don't know it
+def _load_cascade() -> Any:  # missing in cv2 5's types
     """cv2's cascade; None if it has none."""
     folder = getattr(getattr(cv2, "data", None), "haarcascades", None)
     classifier = getattr(cv2, "CascadeClassifier", None)

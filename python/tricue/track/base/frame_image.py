@@ -12,8 +12,8 @@ from tricue.camera.pose import Pose
 class FrameImage(np.ndarray[Any, Any]):
     """A color image, (H, W, 3) or (H, W) uint8, that also has a :class:`tricue.Frame`'s attributes.
 
-    cv2 and NumPy take it as the array that it is. Arrays computed from it, such as a crop, have no frame:
-    their attributes are None.
+    cv2 and NumPy accept it as an array. Arrays computed from it, such as a crop, have no frame: their
+    attributes are None.
     """
 
     frame: Frame | None

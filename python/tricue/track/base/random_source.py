@@ -7,11 +7,11 @@ import numpy as np
 
 
 class RandomSource:
-    """A generator that goes on from a saved state: an update that failed has drawn no numbers."""
+    """A generator that continues from a saved state, so that a failed update has drawn no numbers."""
 
     def __init__(self, seed: int) -> None:
         self.generator = np.random.default_rng(seed)
-        self._saved: dict[str, Any] | None = None  # the state that the generator is in, as it was saved
+        self._saved: dict[str, Any] | None = None  # the generator's present state, as it was saved
 
     def save(self) -> dict[str, Any]:
         """The generator's state."""
@@ -19,7 +19,9 @@ class RandomSource:
         return self._saved
 
     def resume(self, saved: dict[str, Any]) -> None:
-        """Go on from a saved state; to set it takes as long as a small kernel, so not where it is there."""
+        """Continue from a saved state, set only if it differs, because that takes as long as a small
+        kernel.
+        """
         if saved is not self._saved:
             self.generator.bit_generator.state = saved
         self._saved = None

@@ -30,7 +30,7 @@ _BUILT_IN = {
 
 
 def names() -> tuple[str, ...]:
-    """The names that :func:`create` takes, beside ``module:Class`` and ``path/to/file.py:Class``."""
+    """The names that :func:`create` takes, besides ``module:Class`` and ``path/to/file.py:Class``."""
     return *_BUILT_IN, *sorted(_installed_entry_points().keys() - _BUILT_IN.keys())
 
 
@@ -55,7 +55,7 @@ def traits(name: str) -> Traits:
 
 
 def code_digest(name: str) -> str:
-    """SHA-256 of a third party's source files, which tells its versions apart; "" if there are none.
+    """SHA-256 of a third party's source files, which identifies its version; "" if there are none.
 
     The files are the class's own, and those imported from its package or from the same folder.
     """
@@ -115,7 +115,7 @@ def _import_class(where: str) -> Any:
             found = getattr(found, part)
     except ModuleNotFoundError as error:
         if error.name is None or not f"{module}.".startswith(f"{error.name}."):
-            raise  # of an import inside the module
+            raise  # from an import inside the module
         raise ValueError(f"{where}: there is no module {error.name}") from None
     except AttributeError:
         kind = "file" if module.endswith(".py") else "module"
@@ -126,8 +126,8 @@ def _import_class(where: str) -> Any:
 
 
 def _import_file(path: Path) -> Any:
-    """The module in a file, imported once; it can import files of its folder. FileNotFoundError if there
-    is no such file.
+    """The module in a file, imported once; it can import files in its folder. FileNotFoundError if there is
+    no such file.
     """
     path = path.resolve()
     name = path.stem
@@ -137,7 +137,7 @@ def _import_file(path: Path) -> Any:
         raise FileNotFoundError(f"{path}: there is no such file")
     if str(path.parent) not in sys.path:
         sys.path.append(str(path.parent))
-    if name in sys.modules:  # somebody else's, which stays
+    if name in sys.modules:  # another module with this name, which must stay
         name = f"{name}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
         if name in sys.modules:
             return sys.modules[name]
@@ -154,6 +154,6 @@ def _import_file(path: Path) -> Any:
 
 
 def _python_file(module: Any) -> Path | None:
-    """The source file of a module; None of one that has none."""
+    """The source file of a module; None if it has none."""
     file = getattr(module, "__file__", None)
     return Path(file).resolve() if isinstance(file, str) and file.endswith(".py") else None

@@ -20,9 +20,9 @@ OPTIONS = {
     "intrinsics": "--calibration FILE",
     "rig": "--calibration FILE",
 }
-"""How users set the arguments of a tracker that aren't among its parameters."""
+"""The options by which users set a tracker's arguments that aren't parameters."""
 THIRD_PARTYS = ("seed", "kernels")
-"""The options that third-party classes have, too."""
+"""The options that third-party classes also have."""
 
 
 def make_tracker(
@@ -95,14 +95,14 @@ def _parse_for(kind: Any, settings: Sequence[str], options: Mapping[str, str]) -
     values = current_names(kind, parse_settings(settings))
     _check_options(values.keys() - _names(kind), options, options)
     if issubclass(kind, Params):
-        kind.__new__(kind, **values)  # which checks the names alone
+        kind.__new__(kind, **values)  # this checks only the names
     return _split_words(values, kind)
 
 
 def _check_options(
     given: Container[str], options: Mapping[str, str], names: Iterable[str], place: str = "--set"
 ) -> None:
-    """TypeError for a name in ``options``, as it has an option of its own. place: where it is given."""
+    """Raise TypeError for a name in ``options``, which has its own option. place: where it was given."""
     for name in names:
         if name in given:
             mark = " " if place == "--set" else ": "

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The disparity that most of a region shares, where none is expected yet."""
+"""The disparity that most of a region shares, when none is expected yet."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +8,9 @@ Disparities = NDArray[np.float32]
 
 
 def most_shared(disparities: Disparities, tolerance: float) -> NDArray[np.bool_]:
-    """(N,) which of the disparities (N,), N > 0, most share: those within a tolerance of one whole number."""
+    """Which of the disparities (N,), N > 0, are within ``tolerance`` of the whole number most of them
+    share.
+    """
     reach, ordered = np.float32(tolerance), np.sort(disparities)
     candidates = np.unique(np.round(ordered))
     ends = np.searchsorted(ordered, candidates + reach, "right")

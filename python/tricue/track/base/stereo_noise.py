@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How far what is measured in a stereo pair may be off."""
+"""The uncertainty of measurements in a stereo pair."""
 
 from functools import lru_cache
 
@@ -11,5 +11,5 @@ Floats = NDArray[np.float64]
 
 @lru_cache(maxsize=16)
 def measurement_variances(place: float, disparity: float) -> Floats:
-    """(3,) of x, y and disparity, square pixels, of their standard deviations."""
+    """The variances (3,) of x, y and disparity, square pixels, from their standard deviations."""
     return np.array([place**2, place**2, disparity**2])

@@ -18,8 +18,8 @@ State = TypeVar("State")
 P = TypeVar("P", bound=Params)
 
 DEFAULT_BASELINE = 0.12  # meters, assumed for an unknown stereo rig
-MAX_FRAME_INTERVAL = 1.0  # seconds; longer gaps are clamped to it
-ADDED_TIME_ERROR = 1e-6  # seconds, of times of frames that are added up
+MAX_FRAME_INTERVAL = 1.0  # seconds; longer gaps are clamped
+ADDED_TIME_ERROR = 1e-6  # seconds, rounding error of summed frame times
 MIN_FRAME_INTERVAL = 1e-6  # seconds; for shorter intervals velocities would diverge
 DEFAULT_FIELD_OF_VIEW = 60.0  # degrees, horizontal, assumed for an unknown camera
 

@@ -28,9 +28,9 @@ OBSERVATION_MODELS: dict[str, type[Any]] = {
 }
 MIN_LINEAR_LIKELIHOOD = 1e-12  # in its logarithm
 LOG_ODDS, PER_NAT, PER_NAT_OF_LEAD = -0.11, 0.0275, 0.0945  # fitted on the 30 recorded color sequences
-MAX_LEAD = 60.0  # nats: more says no more
-MAX_LOG_ODDS = 50.0  # beyond it a probability doesn't change
-STEP_BESIDE = 1.5  # semi-axes: windows beside the target share a seventh of their union with it
+MAX_LEAD = 60.0  # nats; a larger lead doesn't add to the probability
+MAX_LOG_ODDS = 50.0  # beyond this a probability no longer changes
+STEP_BESIDE = 1.5  # semi-axes: windows beside the target overlap it by one seventh (IoU)
 BESIDE = np.tile(np.eye(4), (4, 1, 1))
 BESIDE[range(4), [2, 2, 3, 3], [0, 0, 1, 1]] = [-STEP_BESIDE, STEP_BESIDE, -STEP_BESIDE, STEP_BESIDE]
 BESIDE = np.ascontiguousarray(BESIDE.transpose(1, 0, 2)).reshape(4, 16)  # an ellipse times it: those windows
@@ -43,7 +43,7 @@ class Appearance(NamedTuple):
     contrast: ColorContrast | None
     grid: Floats  # (n, 2) sample positions in the window, semi-axes
     ring: Floats  # (m, 2) sample positions around it, semi-axes
-    linear: bool  # whether the likelihood is (18) as printed
+    linear: bool  # whether the likelihood is the printed (18)
     sharpness: float
 
     @classmethod
@@ -66,18 +66,18 @@ class Appearance(NamedTuple):
         )
 
     def observe(self, k: Kernels, image: Image, ellipse: Floats) -> Any:
-        """What the model learns, and recognizes, in the window of an ellipse (4,)."""
+        """What the model learns and recognizes in the window of an ellipse (4,)."""
         if isinstance(self.model, RankSpatial):
             return self.model.observe(k, image, ellipse, self.grid)
         return self.sample(k, image, ellipse[None])
 
     @property
     def comparable(self) -> bool:
-        """Whether log-likelihoods are those of color ranks and contrast, for which thresholds are known."""
+        """Whether log-likelihoods come from color ranks and contrast, for which thresholds are known."""
         return self.contrast is not None and not self.linear and isinstance(self.model, RankSpatial)
 
     def rank_look(self, searching: bool) -> tuple[Any, ...] | None:
-        """The arguments by which ``rank_likelihood`` and ``rank_filter`` measure; None where they can't."""
+        """The measurement arguments of ``rank_likelihood`` and ``rank_filter``; None for other models."""
         model, contrast = self.model, self.contrast
         if contrast is None or self.linear or not isinstance(model, RankSpatial):
             return None
@@ -108,14 +108,15 @@ class Appearance(NamedTuple):
         return log_likelihood
 
     def recognition(self, k: Kernels, seen: Any, searching: bool = False) -> float:
-        """How much, in [0, 1], what was seen is like the target; about 0 in noise and flat windows."""
+        """The similarity, in [0, 1], of the observation to the target; about 0 in noise and flat windows."""
         return self.model.recognition(k, seen, searching)
 
     def lead(self, k: Kernels, image: Image, ellipse: Floats, log_likelihood: float) -> float:
-        """By how much an ellipse (4,) of this log-likelihood is above the best of the four beside it, nats.
+        """How far the log-likelihood of an ellipse (4,) is above the best of the four windows beside it,
+        nats.
 
-        A target differs from what is beside it. Background that was learned by mistake seldom does. Only
-        windows with a center in the image count.
+        A target differs from its surround; background learned by mistake seldom does. Only windows with their
+        center in the image count.
         """
         beside = self.log_likelihood(k, image, (ellipse @ BESIDE).reshape(4, 4)).tolist()
         x, y, minor, major = ellipse.tolist()
@@ -136,8 +137,8 @@ class Appearance(NamedTuple):
 
 
 def probability(log_likelihood: float, lead: float) -> float:
-    """That a window shows the target, by logistic regression on its log-likelihood under the first frame's
-    appearance and on the mean of its lead, both of color ranks and contrast, nats.
+    """The probability that a window shows the target, by logistic regression on its log-likelihood under the
+    first frame's appearance and on its mean lead, both from color ranks and contrast, nats.
     """
     log_odds = LOG_ODDS + PER_NAT * log_likelihood + PER_NAT_OF_LEAD * lead
     return 1 / (1 + math.exp(-min(max(log_odds, -MAX_LOG_ODDS), MAX_LOG_ODDS)))

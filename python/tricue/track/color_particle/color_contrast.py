@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The color term of the likelihood: how much more of the target's colors a window has than its surround.
 
-It takes the place of the paper's skin color model, and is relative to the surround of this target. Bayes'
-rule with equal priors on two joint color histograms gives P(target | color). This term tells where the target
-ends, which the ranks of the pixels inside the window can't.
+It replaces the paper's skin color model, and is relative to this target's surround. Bayes' rule with equal
+priors on two joint color histograms gives P(target | color). This term locates the target's edge, which the
+ranks of the pixels inside the window can't.
 """
 
 from typing import NamedTuple
@@ -18,12 +18,12 @@ Samples = NDArray[np.uint8]
 Floats = NDArray[np.float64]
 Table = NDArray[np.float32]
 
-CONTRAST_BINS = 16  # of each channel
+CONTRAST_BINS = 16  # per channel
 EMPTY_HISTOGRAM: Table = np.zeros((CONTRAST_BINS, CONTRAST_BINS, CONTRAST_BINS), np.float32)
-CONTRAST_SAMPLES = 600  # learned inside the target, and as many around it
+CONTRAST_SAMPLES = 600  # learned inside the target, and the same number around it
 TARGET_PATTERN = ring(CONTRAST_SAMPLES, 0.0, 1.0)
 SURROUND_PATTERN = ring(CONTRAST_SAMPLES, 1.15, 2.0)
-MIN_CELL_SHARE = 1e-4  # of the samples; a cell with fewer says little about either side
+MIN_CELL_SHARE = 1e-4  # of the samples; cells with fewer are uninformative
 
 
 class ColorContrast(NamedTuple):
@@ -36,7 +36,7 @@ class ColorContrast(NamedTuple):
     target: Table = EMPTY_HISTOGRAM
     surround: Table = EMPTY_HISTOGRAM
     table: Table = EMPTY_HISTOGRAM
-    skipped: bool = False  # whether the last frame was not learned
+    skipped: bool = False  # whether the last frame was skipped in learning
 
     def learn(self, k: Kernels, image: Samples, ellipse: Floats, rate: float) -> "ColorContrast":
         """Blend in the colors inside and around the ellipse (4,); a rate of 1 initializes the histograms.
@@ -50,7 +50,7 @@ class ColorContrast(NamedTuple):
         return ColorContrast(self.weight, *tables)
 
     def log_likelihood(self, k: Kernels, inside: Samples, around: Samples) -> Floats:
-        """(N,) nats: the weight times the mean of P(target | color) inside less its mean around."""
+        """(N,) nats: the weight times the mean of P(target | color) inside minus its mean around."""
         mean_inside, mean_around = (
             k.color_lookup(samples, self.table).mean(axis=1, dtype=np.float64) for samples in (inside, around)
         )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The observation models by color with which the paper compares its ranks: skin models and a histogram."""
+"""The color models that the paper compares its ranks with: skin models and a histogram."""
 
 from typing import NamedTuple
 
@@ -18,18 +18,18 @@ from tricue.track.color_particle.observation_model import (
 from tricue.track.color_particle.params import ColorParticleParams
 
 HISTOGRAM_BINS = 16  # of each channel
-MIN_CHROMA_VARIANCE = 4.0  # levels², the part of a sensor's noise in a uniform color
+MIN_CHROMA_VARIANCE = 4.0  # levels², a sensor's noise in a uniform color
 
 
 def skin_distance(inside: Singles, around: Singles) -> Floats:
-    """(N,) in [0, 1]: 1 less the difference of the mean skin probabilities inside and around the windows."""
+    """(N,) in [0, 1]: 1 minus the difference of the mean skin probabilities inside and around the windows."""
     difference = inside.mean(axis=1, dtype=np.float64) - around.mean(axis=1, dtype=np.float64)
     distance: Floats = 1 - np.clip(difference, 0, 1)
     return distance
 
 
 class Histogram(NamedTuple):
-    """The color histogram of figure 2, 16 bins a channel, and the Bhattacharyya distance."""
+    """The color histogram of figure 2, 16 bins per channel, with the Bhattacharyya distance."""
 
     histogram: Singles = NO_MODEL
     sharpness: float = 300.0
@@ -49,7 +49,7 @@ class Histogram(NamedTuple):
 
 
 class Region(NamedTuple):
-    """Region-based: the explicit RGB rule of Peer et al. 2003. Learns nothing."""
+    """Region-based: the explicit RGB rule of Peer et al. 2003. It learns nothing."""
 
     sharpness: float = 10.0
 
@@ -87,7 +87,7 @@ class Gaussian(NamedTuple):
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         precision = np.linalg.inv(self.covariance)
-        precision = (precision + precision.T) / 2  # inv leaves it symmetric but for rounding
+        precision = (precision + precision.T) / 2  # inv's result is symmetric only up to rounding
         skin, other = (k.skin_gaussian(each, self.mean, precision) for each in (inside, around))
         return skin_distance(skin, other)
 

@@ -15,7 +15,7 @@ from tricue.track.color_particle.state import ParticleSet
 
 Floats = NDArray[Any]
 
-MIN_WEIGHT = 1e-300  # of a particle, in the logarithm
+MIN_WEIGHT = 1e-300  # of a particle, to take the logarithm
 
 
 def filter_step(
@@ -31,10 +31,10 @@ def filter_step(
     detection: SkinDetection,
     searching: bool,
 ) -> ParticleSet:
-    """The particles (N, 4) of the next frame. One kernel does it all where it knows the likelihood.
+    """The particles (N, 4) of the next frame; a single kernel does it all for the default likelihood.
 
-    offset: of the comb by which particles are resampled; None: they aren't. noise: (N, 4) independent
-    standard normal numbers. correlation: of those of both semi-axes. searching: for a lost target.
+    offset: of the systematic resampling's comb; None for no resampling. noise: (N, 4) independent standard
+    normal numbers. correlation: of the noise of the two semi-axes. searching: whether for a lost target.
     """
     look = appearance.rank_look(searching)
     if look is not None:
@@ -59,7 +59,7 @@ def filter_step(
 
 
 def mix_sizes(noise: Floats, correlation: float) -> Floats:
-    """White noise (N, 4) with a correlation of its last two columns."""
+    """White noise (N, 4) with its last two columns correlated."""
     mixing = np.eye(4)
     mixing[2, 3], mixing[3, 3] = correlation, (1 - correlation**2) ** 0.5
     return np.asarray(noise @ mixing)

@@ -14,7 +14,7 @@ MIN_PIXEL_NOISE = 0.5  # pixels, standard deviation of the position of even the 
 class EllipsePrediction(NamedTuple):
     """p(x' | x) = N(x + drift, diag(scale²)) between lower and upper.
 
-    Tuples are made, and go into a kernel, faster than arrays.
+    Tuples are faster than arrays to make and to pass to a kernel.
     """
 
     drift: Ellipse
@@ -24,7 +24,7 @@ class EllipsePrediction(NamedTuple):
 
 
 class EllipseMotion(NamedTuple):
-    """The target's ellipse, pixels, and how it moves.
+    """The target's ellipse, pixels, and its motion.
 
     velocity: pixels per frame, smoothed. mean_size: running mean of the semi-axes. first_size: of the first
     frame.
@@ -42,13 +42,13 @@ class EllipseMotion(NamedTuple):
 
     @property
     def side(self) -> float:
-        """Pixels: the side of a square with the area of the ellipse's box."""
+        """The side of a square with the area of the ellipse's box, pixels."""
         return 2.0 * math.sqrt(self.ellipse[2] * self.ellipse[3])
 
     def predict(self, p: ColorParticleParams, shape: tuple[int, ...]) -> EllipsePrediction:
         """The particles' transition density; its noise, K of (30), grows with the velocity.
 
-        Centers stay in the image of this shape.
+        Centers stay in the image.
         """
         (x, y, minor, major), (vx, vy) = self.ellipse, self.velocity
         side, k, pull = self.side, p.velocity_noise, p.size_pull
@@ -77,7 +77,7 @@ class EllipseMotion(NamedTuple):
         return EllipseMotion(ellipse, velocity, mean_size, self.first_size)
 
     def restart_at(self, ellipse: Ellipse) -> "EllipseMotion":
-        """Move to another place, at rest; the mean size stays."""
+        """Move to another place, at rest; the mean size is kept."""
         return EllipseMotion(ellipse, (0.0, 0.0), self.mean_size, self.first_size)
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The protocol of the six observation models, which weigh particles by the samples of their windows.
 
-Samples are ``inside`` (N, 3, n) on the window's grid and ``around`` (N, 3, m) in its ring. What a model
-learns, and recognizes, is seen in one window: its samples, or for ``RankSpatial`` their ranks.
+Samples are ``inside`` (N, 3, n) on the window's grid and ``around`` (N, 3, m) in its ring. A model learns and
+recognizes the observation of one window: its samples, or for ``RankSpatial`` their ranks.
 """
 
 from typing import Any, NamedTuple, Protocol
@@ -29,23 +29,23 @@ class WindowSamples(NamedTuple):
 
 
 class ObservationModel(Protocol):
-    """A model of the target's appearance; a value, which ``learn`` replaces."""
+    """A model of the target's appearance; immutable, ``learn`` returns a new one."""
 
     @property
     def sharpness(self) -> float:
-        """The default of the exponential likelihood exp(-sharpness d²), found by experiment."""
+        """The default sharpness of the likelihood exp(-sharpness d²), found by experiment."""
 
     def learn(self, k: Kernels, seen: Any, rate: float) -> "ObservationModel":
-        """Blend in what is seen in one window; a rate of 1 takes it alone, and initializes the model."""
+        """Blend in the observation of one window; a rate of 1 replaces the model, which initializes it."""
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         """(N,) distances of the windows to the model, in [0, 1].
 
-        searching: for a lost target, to the most similar appearance that the model remembers.
+        searching: for a lost target; distances are then to the most similar appearance in the model's memory.
         """
 
     def recognition(self, k: Kernels, seen: Any, searching: bool = False) -> float:
-        """How much, in [0, 1], what was seen is like the model; about 0 for unrelated windows."""
+        """The similarity, in [0, 1], of the observation to the model; about 0 for unrelated windows."""
 
 
 def window_grid(p: ColorParticleParams) -> NDArray[np.float64]:
@@ -55,7 +55,7 @@ def window_grid(p: ColorParticleParams) -> NDArray[np.float64]:
 
 
 def blend(old: NDArray[Any], new: NDArray[Any], rate: float) -> NDArray[Any]:
-    """The exponential moving average; a rate of 1 takes the new value alone."""
+    """The exponential moving average; a rate of 1 gives the new value."""
     return new if rate >= 1 else old + new.dtype.type(rate) * (new - old)
 
 

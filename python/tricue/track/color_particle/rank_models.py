@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The observation models by color ranks, section III.B: which changes of brightness leave."""
+"""The observation models by color ranks, section III.B, which don't change with brightness."""
 
 from typing import NamedTuple
 
@@ -18,7 +18,7 @@ from tricue.track.color_particle.observation_model import (
 )
 from tricue.track.color_particle.params import ColorParticleParams
 
-RANK_QUANTILES = 16  # of the printed color ranks
+RANK_QUANTILES = 16  # of the paper's color ranks
 MIN_RANK_SPREAD = 0.1  # sum of squared deviations of ranks; below it a window is flat and has no order
 
 
@@ -26,17 +26,17 @@ class RankWindow(NamedTuple):
     """The order of the pixels in one window."""
 
     ranks: Singles  # (3, n)
-    correlations: Floats  # (2,) in [0, 1], with the learned map and the first frame's
+    correlations: Floats  # (2,) in [0, 1], with the learned map and with the first frame's
 
 
 class RankSpatial(NamedTuple):
-    """The order of corresponding pixels: what section III.B argues for in words.
+    """The order of corresponding pixels, the idea that section III.B states in words.
 
-    Keeps the first frame's rank map beside the learned one, so that errors don't add up.
+    It keeps the first frame's rank map beside the learned one, so that errors don't accumulate.
     """
 
-    weights: Floats  # (2,) of the learned map and of the first frame's
-    maps: Singles  # (2, 3, n) both, (0, 3, n) before the first frame is learned
+    weights: Floats  # (2,) of the learned map and the first frame's
+    maps: Singles  # (2, 3, n) both maps, (0, 3, n) before the first frame is learned
     sharpness: float = 110.0
 
     @classmethod
@@ -45,7 +45,7 @@ class RankSpatial(NamedTuple):
         return cls(weights, np.empty((0, 3, len(window_grid(p))), np.float32))
 
     def observe(self, k: Kernels, image: Samples, ellipse: Floats, grid: Floats) -> RankWindow:
-        """What is learned, and recognized, of the window of an ellipse (4,)."""
+        """The observation of the window of an ellipse (4,)."""
         return RankWindow(*k.rank_window(image, ellipse, grid, self.maps, MIN_RANK_SPREAD))
 
     def learn(self, k: Kernels, seen: RankWindow, rate: float) -> "RankSpatial":
@@ -59,13 +59,13 @@ class RankSpatial(NamedTuple):
         return combined
 
     def recognition(self, k: Kernels, seen: RankWindow, searching: bool = False) -> float:
-        """The rank correlation: it is 0 for a flat window, though the distance of that is small."""
+        """The rank correlation, which is 0 for a flat window although its distance is small."""
         correlations: list[float] = seen.correlations.tolist()
         return max(correlations) if searching else correlations[0]
 
 
 class RankSections(NamedTuple):
-    """Equations (19)-(29), a^k divided by its sum: it tells how many levels each quantile spans."""
+    """Equations (19)-(29), a^k divided by its sum: how many levels each quantile spans."""
 
     sections: Singles = NO_MODEL
     sharpness: float = 400.0

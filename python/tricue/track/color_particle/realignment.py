@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Looking near the estimate for what the first frame showed.
+"""Realignment: searches near the estimate for the first frame's appearance.
 
-A model that learns what it follows wanders off by small errors, which add up over thousands of frames. The
-first frame's appearance doesn't. Wherever it is surely seen, and better than at the estimate, the target is.
+A model that learns what it follows drifts: small errors add up over thousands of frames. The first frame's
+appearance doesn't drift. Where it is recognized with certainty, and better than at the estimate, is the
+target.
 """
 
 from typing import NamedTuple
@@ -17,17 +18,17 @@ from tricue.track.color_particle.state import ParticleSet
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
 
-WINDOWS, BLOCKS = 48, 32  # looked at in a frame; blocks of windows, which take turns
-NEAR, FAR = 0.1, 0.3  # standard deviations of the windows' places, of the target's sides: half of them each
+WINDOWS, BLOCKS = 48, 32  # windows per frame; blocks of windows, used in turn
+NEAR, FAR = 0.1, 0.3  # standard deviations of the windows' positions, in target sides; half of them each
 SCALE = 0.05  # standard deviation of the logarithm of their size
-CLOSER = 0.3  # a second look, around the best window, is as much closer
-MIN_LOG_LIKELIHOOD = 0.0  # nats: by its colors and ranks together it is the target
-GAIN_TO_FORGET = 10.0  # nats: so much better than the estimate, what was learned wasn't the target
+CLOSER = 0.3  # the second search, around the best window, has these deviations times this
+MIN_LOG_LIKELIHOOD = 0.0  # nats; colors and ranks together say that it is the target
+GAIN_TO_FORGET = 10.0  # nats; if another window is this much better, what was learned wasn't the target
 
 
 def _patterns(closer: float) -> list[Floats]:
-    """BLOCKS of (4, 4 n): an ellipse (4,) times one of them gives n windows, first the ellipse itself."""
-    normal = np.random.default_rng(0).standard_normal((BLOCKS, WINDOWS, 3))  # any numbers do: drawn once
+    """BLOCKS matrices (4, 4 n): an ellipse (4,) times one gives n windows, first the ellipse itself."""
+    normal = np.random.default_rng(0).standard_normal((BLOCKS, WINDOWS, 3))  # any numbers do; drawn once
     spread = 2 * closer * np.repeat([NEAR, FAR], WINDOWS // 2)[:, None]  # semi-axes
     linear = np.tile(np.eye(4), (BLOCKS, WINDOWS + 1, 1, 1))
     linear[:, 1:, [2, 3], [0, 1]] = spread * normal[..., :2]
@@ -39,9 +40,9 @@ FIRST_LOOK, CLOSER_LOOK = _patterns(1.0), _patterns(CLOSER)
 
 
 class Realignment(NamedTuple):
-    """Where the first frame's appearance is seen best, (4,), and how much better than at the estimate, nats.
+    """The ellipse (4,) most like the first frame's appearance, and its gain over the estimate, nats.
 
-    log_likelihood: there, by the first frame's appearance.
+    log_likelihood: of the ellipse, by the first frame's appearance.
     """
 
     ellipse: Floats
@@ -50,7 +51,7 @@ class Realignment(NamedTuple):
 
 
 def realign(k: Kernels, image: Image, first: Appearance, ellipse: Floats, block: int) -> Realignment:
-    """Look around an ellipse (4,); the gain is 0, and the ellipse the same, where nothing better is sure."""
+    """Search around an ellipse (4,); without a certain, better one the gain is 0 and the ellipse the same."""
     best, most, here = _look(k, image, first, ellipse, FIRST_LOOK[block % BLOCKS])
     if most <= max(here, MIN_LOG_LIKELIHOOD):
         return Realignment(ellipse, here, 0.0)
@@ -61,7 +62,7 @@ def realign(k: Kernels, image: Image, first: Appearance, ellipse: Floats, block:
 def moved(
     k: Kernels, image: Image, appearance: Appearance, particles: ParticleSet, ellipse: Floats, bounds: Floats
 ) -> ParticleSet:
-    """Particles whose estimate is another ellipse (4,), within bounds (2, 4): all move as it does."""
+    """The particles, moved so that their estimate is another ellipse (4,); clipped to bounds (2, 4)."""
     shifted = np.clip(particles.particles + (ellipse - particles.ellipse), *bounds)
     log_likelihood = float(appearance.log_likelihood(k, image, ellipse[None])[0])
     seen = appearance.observe(k, image, ellipse)
@@ -71,7 +72,7 @@ def moved(
 def _look(
     k: Kernels, image: Image, first: Appearance, ellipse: Floats, pattern: Floats
 ) -> tuple[Floats, float, float]:
-    """The window that is most like the first frame's target, its log-likelihood, and that of the ellipse."""
+    """The window most like the first frame's target, its log-likelihood, and the ellipse's."""
     windows = (ellipse @ pattern).reshape(-1, 4)
     log_likelihood = first.log_likelihood(k, image, windows).tolist()
     most = max(log_likelihood)

@@ -15,17 +15,17 @@ Image = NDArray[np.uint8]
 Region = tuple[int, int, int, int]
 
 SKIN_PATCH = 1 / 3  # of the target's width and height: the central patch that gives its reference color
-MIN_SKIN_AREA = 0.05  # of the target's area; fewer skin pixels are no detection
-SKIN_ROWS = 128  # of where the target can be next, or up to twice that: of more, every n-th tells as much
-MIN_PIXEL_VARIANCE = 1.0  # pixels², of a pixel's own extent: keeps the covariance positive definite
-BLOB_SPREAD = 0.25  # standard deviation of candidates at a blob, of its width and height
-CANDIDATE_SCALE = 0.2  # candidates have the mean size up to a factor of exp of plus or minus this
+MIN_SKIN_AREA = 0.05  # of the target's area; with fewer skin pixels there is no detection
+SKIN_ROWS = 128  # up to twice this many are read where the target can be next; of more, every n-th suffices
+MIN_PIXEL_VARIANCE = 1.0  # pixels², added to keep the covariance positive definite
+BLOB_SPREAD = 0.25  # standard deviation of candidates at a blob, as a share of its width and height
+CANDIDATE_SCALE = 0.2  # candidates have the mean size times exp of up to plus or minus this
 
 
 class SkinDetection(NamedTuple):
     """The Gaussian N(mean, root rootᵀ) over the position, and the share of the particles drawn from it.
 
-    root: its lower triangle, by rows.
+    root: its lower triangle, row by row.
     """
 
     mean: tuple[float, float]
@@ -58,7 +58,7 @@ def detect_skin(
     prediction: EllipsePrediction,
     p: ColorParticleParams,
 ) -> SkinDetection:
-    """The Gaussian of the skin pixels, (11)-(16), where the target can be next or in the whole image."""
+    """The Gaussian of the skin pixels, (11)-(16), where the target can be next, or in the whole image."""
     if p.skin_share == 0:
         return NO_DETECTION
     (minor, major), step = ellipse[2:], 1
@@ -82,7 +82,7 @@ def detect_skin(
 def _skin_moments(
     k: Kernels, image: Image, skin_color: Image, threshold: float, region: Region, step: int
 ) -> list[float]:
-    """Count, mean and covariance of a region's skin pixels, pixels, by every ``step``-th row."""
+    """Count, mean and covariance (pixels) of a region's skin pixels, from every ``step``-th row."""
     found: list[float]
     if step == 1:
         found = k.skin_moments(image, skin_color, threshold, region).tolist()
@@ -103,7 +103,7 @@ def draw_candidates(
     p: ColorParticleParams,
     rng: np.random.Generator,
 ) -> Floats:
-    """(2 particles, 4): ellipses at which a lost target is searched for.
+    """Ellipses (2 * particles, 4) at which to search for a lost target.
 
     Half of them are at blobs of the skin color, which are drawn in proportion to their area. The others are
     uniform over the image. All have the target's mean size, changed by a random factor.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the color particle tracker keeps from frame to frame."""
+"""The state that the color particle tracker keeps from frame to frame."""
 
 from typing import Any, NamedTuple
 
@@ -12,7 +12,7 @@ from tricue.track.color_particle.params import ColorParticleParams
 
 Floats = NDArray[np.float64]
 
-MIN_MISSED_FRAMES = 5  # in a row, at least, until the target is LOST
+MIN_MISSED_FRAMES = 5  # consecutive, before the target is LOST
 
 
 class ParticleSet(NamedTuple):
@@ -20,7 +20,8 @@ class ParticleSet(NamedTuple):
 
     particles: (N, 4) ellipses x, y, minor, major, pixels. weights: (N,), which need not sum to 1.
     effective: the effective sample size. ellipse: (4,) the particles' expected value.
-    log_likelihood: of that ellipse, nats. seen: in its window: what is recognized and learned of it.
+    log_likelihood: of that ellipse, nats. seen: the observation in its window, which is recognized and
+    learned.
     """
 
     particles: Floats
@@ -32,7 +33,7 @@ class ParticleSet(NamedTuple):
 
 
 class State(NamedTuple):
-    """All that changes from frame to frame; a value that ``update`` replaces."""
+    """Everything that changes from frame to frame; immutable, ``update`` replaces it."""
 
     shape: tuple[int, ...]  # of the first frame
     appearance: Appearance
@@ -40,14 +41,14 @@ class State(NamedTuple):
     motion: EllipseMotion
     particles: ParticleSet
     first: Appearance  # as it was learned from the first frame
-    recognition: float  # in [0, 1], by the learned appearance: whether it is learned
-    score: float  # probability of its being the target, by the first frame's appearance
+    recognition: float  # in [0, 1], by the learned appearance; decides whether to learn
+    score: float  # probability that it is the target, by the first frame's appearance
     mean_log_likelihood: float  # running mean over the frames in which it was estimated
-    recognized_mean: float  # the same over the frames in which it was recognized
+    recognized_mean: float  # the same, over the frames in which it was recognized
     random: dict[str, Any]  # state of the random number generator
     timestamp: float | None
     lead: float  # running mean of its lead over the windows beside it, nats
-    missed_frames: int = 0  # in a row
+    missed_frames: int = 0  # consecutive
     missed_seconds: float = 0.0
     low_lead_seconds: float = 0.0
     frames: int = 0  # since the first
@@ -59,7 +60,7 @@ class State(NamedTuple):
         return missed or without_lead
 
     def has_low_lead(self, p: ColorParticleParams) -> bool:
-        """Whether the target is hardly more like itself than what is beside it."""
+        """Whether the target is hardly more likely than the windows beside it."""
         return self.lead < p.min_lead
 
     def tracked(self, p: ColorParticleParams) -> bool:

@@ -34,12 +34,12 @@ Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
 
 MEAN_RATE = 0.05  # per frame, of the running means of the log-likelihood
-LEAD_EVERY = 4  # frames: the lead of a followed target is measured in one of them
-LEAD_RATE = 0.7  # of the lead's running mean, each time that it is measured
+LEAD_EVERY = 4  # frames; the lead of a followed target is measured in one of this many
+LEAD_RATE = 0.7  # of the lead's running mean, per measurement
 MIN_SCORE_AFTER_MISS = 0.8  # of a target that was missed in the last frame
-REDETECTION_RATE = 0.5  # learning rate, once, where a lost target is detected again
-REDETECTION_SHARE = 0.85  # of the way from the median likelihood of the frame to the target's: detected again
-REDETECTION_LEAD = 1.5  # of min_lead, where a lost target is detected again: background has it by chance
+REDETECTION_RATE = 0.5  # learning rate, once, when a lost target is detected again
+REDETECTION_SHARE = 0.85  # from the frame's median likelihood (0) to the target's (1): detected again
+REDETECTION_LEAD = 1.5  # of min_lead, to detect a lost target again; background may have min_lead by chance
 NO_DRIFT = 0.0, 0.0, 0.0, 0.0
 
 
@@ -154,7 +154,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         return self._keep(state, frame)
 
     def _follow(self, state: State, image: Image) -> State:
-        """Predict, measure, weigh, estimate; again, in a wide search, if the likelihood has dropped."""
+        """Predict, measure, weigh, estimate; repeat in a wide search if the likelihood has dropped."""
         k, p, motion = self._k, self.params, state.motion
         prediction = motion.predict(p, state.shape)
         detection = detect_skin(k, image, state.skin_color, motion.ellipse, prediction, p)
@@ -186,7 +186,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         detection: SkinDetection = NO_DETECTION,
         offset: float | None = None,
     ) -> ParticleSet:
-        """One step of the particle filter. offset: of the comb that resamples; None: no resampling."""
+        """One step of the particle filter. offset: of the resampling's comb; None for no resampling."""
         noise = self._rng.standard_normal(particles.shape)
         return filter_step(
             *(self._k, image, state.appearance, particles, weights, offset, noise, self._correlation),
@@ -237,13 +237,13 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
     ) -> State:
         """The state with these particles; recognition and likelihood tell whether they are on the target.
 
-        By chance some place has ranks a little like those of a covered target. Its likelihood, to which
-        colors add, isn't like the target's; if it were learned, the tracker would stay there. A model that
-        learned something beside the target recognizes that, too. So the score depends on the first frame's
-        model, and on the lead over the windows beside it; after a frame in which the target was missed, the
-        score has to be high. A place far from the target's predicted motion has to be as likely as usual, as
-        mostly it is something else. A LOST target passed the search's own test. first_log_likelihood: by the
-        first frame's appearance, if known.
+        While the target is covered, some place has similar ranks by chance. Its likelihood, which includes
+        colors, is lower than the target's; if it were learned, the tracker would stay there. And a model that
+        learned something beside the target also recognizes that. So the score depends on the first frame's
+        model and on the lead over the windows beside the estimate; after a miss the score must be high. A
+        place far from the predicted one must be as likely as usual, because it is mostly something else. A
+        LOST target has already passed the search's own test. first_log_likelihood: by the first frame's
+        appearance, if known.
         """
         k, p, log_likelihood = self._k, self.params, particles.log_likelihood
         recognition = state.appearance.recognition(k, particles.seen)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The plane of the floor, by random samples of the depth image; kept while the camera doesn't move."""
+"""The floor's plane, from random samples of the depth image; kept while the camera doesn't move."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,22 +11,22 @@ Depth = NDArray[np.float32]
 
 NO_FLOOR = np.zeros(6)
 UP = np.array([0.0, -1.0, 0.0])  # camera frame
-MIN_FLOOR_COSINE = 0.6  # of the floor's normal with UP: the camera is tilted or rolled by up to 53 degrees
-FLOOR_COLUMNS = 80  # of the thinned image in which the floor is searched
-FLOOR_TOLERANCE = 0.04  # meters, of a point on the floor
-FLOOR_TRIALS = 512  # planes tried: a floor that is a fifth of the points is missed once in 60 times
-MIN_SUPPORT_KEPT = 0.8  # of the known floor's support: the camera hasn't moved
+MIN_FLOOR_COSINE = 0.6  # between the floor's normal and UP: tilts and rolls of up to 53 degrees
+FLOOR_COLUMNS = 80  # of the subsampled image in which the floor is searched
+FLOOR_TOLERANCE = 0.04  # meters from the plane to a point on the floor
+FLOOR_TRIALS = 512  # planes tried; a floor with a fifth of the points is missed once in 60 times
+MIN_SUPPORT_KEPT = 0.8  # of the known floor's support, to conclude that the camera hasn't moved
 MIN_FLOOR_SUPPORT = 0.06  # of all points, on a new floor
 MAX_BELOW_FLOOR = 0.03  # of all points, below a new floor
 
 
 def floor_step(columns: int) -> int:
-    """By how much an image of so many columns is thinned, pixels, before its floor is looked at."""
+    """The subsampling step, pixels, for the floor search in an image with this many columns."""
     return max(1, round(columns / FLOOR_COLUMNS))
 
 
 def is_supported(plane: Floats, support: float) -> bool:
-    """Whether a plane (6,) is still the floor, as it has this share of a frame's points."""
+    """Whether a plane (6,) is still the floor, given its share of a frame's points."""
     return plane.item(4) > 0 and support >= MIN_SUPPORT_KEPT * plane.item(4)
 
 
@@ -39,19 +39,18 @@ def find_floor(
     rng: np.random.Generator,
     near: float,
 ) -> Floats:
-    """The plane (6,) with much support and hardly any points below it.
+    """The plane (6,) with large support and hardly any points below it.
 
-    known: the plane of the last frame, or NO_FLOOR; support: the share of this frame's points on it. It is
-    kept where this frame has no better one. camera: (4,) of this image. near: meters, the smallest depth
-    used.
+    known: the last frame's plane, or NO_FLOOR. support: the share of this frame's points on it. It is kept
+    unless this frame has a better one. camera: (4,) of this image. near: the smallest depth used, meters.
 
-    A plane is its unit normal, its distance from the camera, and the shares of the points on and below it.
+    A plane is its unit normal, its distance from the camera, and the shares of points on it and below it.
     """
     step = floor_step(depth.shape[1])
     coarse = depth[::step, ::step]
-    # Points within the tolerance of the camera would be on any plane through it.
+    # Points within the tolerance of the camera would lie on any plane through it.
     coarse = np.where(coarse >= near, coarse, np.float32(np.nan))
-    # The lower half of the image, in which most of the floor is.
+    # The lower half of the image, which has most of the floor.
     lower = coarse.size // 2 + np.flatnonzero(np.isfinite(coarse.reshape(-1)[coarse.size // 2 :]))
     if len(lower) < 3:
         return known

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The part of a depth image in which a target can be: in range, above the floor, thinned where it is large.
+"""The part of a depth image in which a target can be: in range, above the floor, subsampled if large.
 
-Images with many gaps are filled first: without that, bodies would fall apart.
+Gaps are filled first in images with many, because bodies would fall apart otherwise.
 """
 
 from typing import NamedTuple
@@ -16,14 +16,14 @@ from tricue.track.depth_objects.params import SegmentationParams
 Floats = NDArray[np.float64]
 Depth = NDArray[np.float32]
 
-MAX_MARGIN = 0.05  # of a side of the image, without any depth, that a registration leaves
+MAX_MARGIN = 0.05  # of an image side; a margin without depth that registration may leave
 
 
 class Foreground(NamedTuple):
     """Depth (h, w), meters, NaN in the background, and its camera (4,) fx, fy, cx, cy, pixels.
 
     Its pixel (i, j) is pixel (step i, step j) of the frame. measured: left, top, right, bottom, pixels, of
-    the rectangle outside of which nothing was measured: registered depth ends before the image does.
+    the rectangle outside which nothing was measured, since registered depth may end before the image does.
     """
 
     depth: Depth

@@ -15,27 +15,27 @@ from tricue.track.depth_objects.projection import project_box
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 
-DISTRIBUTION_BINS = 16  # of an object's width and height, in its horizontal and vertical distribution
-BORDER = 2  # pixels from the image's border, within which an object may continue outside
-MAX_FEET_HEIGHT = 0.35  # meters: an object whose lower end is lower than that stands on the floor
-LEGS_FILL = 0.7  # of the strip of the box that is added down to the floor
-OCCLUDER_DISTANCE = 0.08  # meters from a side of an object, where an occluder is looked for
-MAX_SIDE_COVERED = 0.15  # of a side; an object that is covered more is cut there
-NO_EDGES = 1e6  # meters: no jump of the depth is as large
-MIN_PIXELS = 8.0  # of an object, whatever its distance
-SAME_DEPTH, SAME_DEPTH_SLOPE = 0.02, 0.005  # meters, and times z²: a sensor's noise
+DISTRIBUTION_BINS = 16  # of an object's horizontal distribution, and of its vertical one
+BORDER = 2  # pixels; an object this near the image's border may continue outside
+MAX_FEET_HEIGHT = 0.35  # meters; an object whose lower end is below this stands on the floor
+LEGS_FILL = 0.7  # assumed fill of the strip added to the box down to the floor
+OCCLUDER_DISTANCE = 0.08  # meters beside an object's side in which an occluder is looked for
+MAX_SIDE_COVERED = 0.15  # of a side; an object covered more is cut there
+NO_EDGES = 1e6  # meters, larger than any depth step
+MIN_PIXELS = 8.0  # of an object at any distance
+SAME_DEPTH, SAME_DEPTH_SLOPE = 0.02, 0.005  # meters, plus this times z²: a sensor's noise
 NOTHING_KNOWN = np.empty((0, 0), np.float32)
 Region = tuple[int, int, int, int]
 EVERYWHERE: Region = (0, 0, 2**31 - 1, 2**31 - 1)
 
 
 class Objects(NamedTuple):
-    """C objects, largest first, as the kernel segment_depth gives them.
+    """C objects, largest first, as returned by the kernel segment_depth.
 
-    measured: (C, 8) what ``states``, ``centroid_offset`` and ``area`` are parts of.
-    cut: (C, 4) whether it may continue beyond its left, right, top, bottom: at the edge of what was measured
-        or behind an occluder.
-    columns, rows: (C, DISTRIBUTION_BINS) horizontal and vertical distribution, each of sum 1.
+    measured: (C, 8) ``states``, ``centroid_offset`` and ``area`` in one array.
+    cut: (C, 4) whether an object may continue beyond its left, right, top, bottom: at the edge of the
+        measured area or behind an occluder.
+    columns, rows: (C, DISTRIBUTION_BINS) horizontal and vertical distribution, each with sum 1.
     """
 
     measured: Floats
@@ -55,7 +55,7 @@ class Objects(NamedTuple):
 
     @property
     def area(self) -> Floats:
-        """(C,) square meters."""
+        """The areas (C,), square meters."""
         return self.measured[:, 7]
 
     @property
@@ -79,9 +79,9 @@ def segment(
 ) -> Objects:
     """Divide the range at the minima of the distances' density, and each division into connected objects.
 
-    plane: (6,) the floor, along which distances are measured, and to which the feet of objects are extended;
-    NO_FLOOR without one. region: first and end of the columns and rows, x0, y0, x1, y1, in which objects are
-    looked for. others: (h, w) meters, of what no object is; what still has that depth, but for noise, is left
+    plane: (6,) the floor, along which distances are measured and to which objects' feet are extended;
+    NO_FLOOR without one. region: x0, y0, x1, y1, the columns and rows in which to look for objects. others:
+    (h, w) meters, depths of what isn't an object; pixels that still have this depth, up to noise, are left
     out.
     """
     fx, fy = fg.camera[:2].tolist()

@@ -31,7 +31,7 @@ def project_box(state: Floats, camera: Floats) -> Box:
 
 
 def back_project_box(box: Box, z: float, camera: Floats) -> Floats:
-    """The state (5,) at the depth z, meters, that a camera (4,) projects to this box.
+    """The state (5,) at depth z, meters, that a camera (4,) projects to this box.
 
     The inverse of :func:`project_box`.
     """

@@ -16,8 +16,8 @@ from tricue.track.depth_particle.params import DepthParticleParams
 Floats = NDArray[np.float64]
 
 SURROUND_SAMPLES = 12  # at each side of a rectangle
-NO_HISTOGRAM = np.zeros(1)  # where only the shares inside and around are wanted
-MIN_LIKELIHOOD = 1e-12  # in the logarithm of the linear likelihood
+NO_HISTOGRAM = np.zeros(1)  # if only the shares inside and around are wanted
+MIN_LIKELIHOOD = 1e-12  # to take the logarithm of the linear likelihood
 
 FilterSettings = tuple[
     tuple[float, float], tuple[int, int], tuple[float, int], float, float, tuple[bool, float, float]
@@ -25,10 +25,10 @@ FilterSettings = tuple[
 
 
 class DepthObservation(NamedTuple):
-    """Of one rectangle.
+    """The observation of one rectangle.
 
     log_likelihood: as :meth:`DepthModel.log_likelihood`. inside: the share of the samples inside that are at
-    the target's depth. contrast: that share less the same around the rectangle. front: the share of the
+    the target's depth. contrast: that share minus the share around the rectangle. front: the share of the
     samples inside that are in front of the target.
     """
 
@@ -39,7 +39,7 @@ class DepthObservation(NamedTuple):
 
 
 class DepthModel(NamedTuple):
-    """The depth histogram of the target, relative to its own depth or absolute, sampled on a grid."""
+    """The target's depth histogram, relative to its own depth or absolute, sampled on a grid."""
 
     p: DepthParticleParams
     histogram: Floats
@@ -60,8 +60,8 @@ class DepthModel(NamedTuple):
         return self.observation(measured)
 
     def observation(self, measured: Floats) -> DepthObservation:
-        """What was measured of one rectangle, (4,) as the kernels give it; its log-likelihood is the kernel
-        filter_rectangles', without what is known before.
+        """The observation of one rectangle from the kernels' (4,) measurement. The log-likelihood is that of
+        the kernel filter_rectangles, without priors.
         """
         p, (distance, inside, front, around) = self.p, measured.tolist()
         if p.likelihood == "linear":
@@ -87,7 +87,7 @@ class DepthModel(NamedTuple):
         return histogram
 
     def learn(self, new: Floats, rate: float) -> "DepthModel":
-        """Blend in the histogram of a rectangle; the first one that isn't empty is taken as it is."""
+        """Blend in the histogram of a rectangle; the first nonempty one is taken as it is."""
         if not np.count_nonzero(new):
             return self
         old = self.histogram
@@ -95,7 +95,7 @@ class DepthModel(NamedTuple):
         return DepthModel(self.p, old + rate * (new - old) if known else new)
 
     def _rectangles(self, fg: Foreground, states: Floats) -> tuple[Floats, float]:
-        """(N, 5) rectangles in pixels, and half the histogram's range around their depths, meters."""
+        """The rectangles (N, 5) in pixels, and half of the histogram's range around their depths, meters."""
         rectangles = np.array([project_rectangle(state, fg.camera) for state in states])
         middle, reach = levels(self.p)
         if middle:
@@ -104,9 +104,9 @@ class DepthModel(NamedTuple):
 
 
 def levels(p: DepthParticleParams) -> tuple[float, float]:
-    """Middle and half of the histogram's range, meters; the middle is 0 where it is the rectangle's depth.
+    """Center and half width of the histogram's range, meters; the center is 0 if it is the rectangle's depth.
 
-    An absolute histogram is one relative to the middle of the camera's range.
+    An absolute histogram is relative to the middle of the camera's range.
     """
     if p.histogram == "relative":
         return 0.0, p.histogram_reach
@@ -114,7 +114,7 @@ def levels(p: DepthParticleParams) -> tuple[float, float]:
 
 
 def filter_settings(p: DepthParticleParams) -> FilterSettings:
-    """What the kernel filter_rectangles takes of the parameters, from ``levels`` to ``likelihood``."""
+    """The parameters of the kernel filter_rectangles, from ``levels`` to ``likelihood``."""
     return (
         levels(p),
         p.grid,

@@ -14,23 +14,23 @@ from tricue.track.depth_particle.others import enlarge
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.signature import Signature
 
-MIN_BOX_IOU = 0.3  # of a given box with the object that it stands for
-MIN_OBJECT_IOU = 0.5  # from which the object's own outline counts, as boxes are drawn by hand
-MIN_FILL = 0.25  # of its box, by what a box can stand for: what is only around the box's middle fills less
+MIN_BOX_IOU = 0.3  # of a given box with the object that it marks
+MIN_OBJECT_IOU = 0.5  # from which on the object's own outline is used, since boxes are drawn by hand
+MIN_FILL = 0.25  # of its box, by an object that a box marks; what surrounds the box's middle fills less
 
 
 def find_people(objects: Objects, p: DepthParticleParams) -> NDArray[np.intp]:
     """Indices of the human candidates, by aspect ratio, size, and the share of their box that they fill.
 
-    The largest come first. Last come candidates that fill too much of their box, but may do so because they
-    are cut.
+    The largest come first. Candidates that fill too much of their box, but may do so because they are cut,
+    come last.
     """
     width, height = objects.states[:, 3], objects.states[:, 4]
     aspect, filled = height / width, objects.area / (width * height)
     tall = (height >= p.human_height[0]) & (height <= p.human_height[1])
-    wider = p.complete & ~objects.whole[:, 0]  # than what is visible
+    wider = p.complete & ~objects.whole[:, 0]  # wider than the visible part
     upright = (aspect >= p.aspect[0]) & ((aspect <= p.aspect[1]) | wider)
-    # A full rectangle's area may exceed width times height by rounding: 1 admits all.
+    # A full rectangle's area may exceed width times height by rounding, so 1 admits all.
     slender, cut = (filled <= p.max_fill) | (p.max_fill == 1), objects.cut.any(axis=1)
     return np.concatenate([np.flatnonzero(tall & upright & each) for each in (slender, ~slender & cut)])
 
@@ -47,10 +47,10 @@ def initialize_on_person(objects: Objects, p: DepthParticleParams) -> TargetObje
 
 
 def initialize_in_box(box: Box, objects: Objects, fg: Foreground, p: DepthParticleParams) -> TargetObject:
-    """The object that overlaps the given box most; where it overlaps it less well, the box at its depth.
+    """The object that overlaps the given box most; if the overlap is smaller, the box at its depth.
 
-    Where no object is in it, the depth is the median in the middle of the box. NoDepthInBoxError where there
-    is none. Of an object that something cuts, neither size is known: what is hidden may be wider.
+    Without an object in the box, the depth is the median in the middle of the box; NoDepthInBoxError if there
+    is none. If an object is cut, neither size is known, because the hidden part may be wider.
     """
     camera = fg.camera * fg.step
     fills = objects.area >= MIN_FILL * objects.states[:, 3] * objects.states[:, 4]
@@ -68,7 +68,7 @@ def initialize_in_box(box: Box, objects: Objects, fg: Foreground, p: DepthPartic
 
 
 def _within(outline: Box, box: Box, step: int) -> Box:
-    """An object's outline, with the sides of the given box where the object goes on around it."""
+    """An object's outline, replaced by the given box's sides where the object extends beyond the box."""
     region = enlarge(box).xyxy
     inward = [1, 1, -1, -1]
     sides = [
@@ -79,7 +79,7 @@ def _within(outline: Box, box: Box, step: int) -> Box:
 
 
 def _whole(box: Box, fg: Foreground) -> NDArray[np.bool_]:
-    """(2,) whether the box's width and height are inside what was measured."""
+    """(2,) whether the box's width and height are inside the measured area."""
     first, last = np.reshape(fg.measured, (2, 2)) * fg.step
     box_first, box_last = np.reshape(box.xyxy, (2, 2))
     inside: NDArray[np.bool_] = (box_first >= first + BORDER) & (box_last <= last - BORDER)
@@ -98,7 +98,7 @@ def _describe_range(p: DepthParticleParams) -> str:
 
 
 def _median_depth(fg: Foreground, box: Box, p: DepthParticleParams) -> float:
-    """The median depth in the middle of a box; NoDepthInBoxError where there is none."""
+    """The median depth in the middle of a box; NoDepthInBoxError if there is none."""
     height, width = fg.depth.shape
     columns = _middle_half(box.x, box.width, fg.step, width)
     middle = fg.depth[_middle_half(box.y, box.height, fg.step, height), columns]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which of the segmented objects is the target, by predicted position, size and signature, and its body."""
+"""Finds the target's object by predicted position, size and signature, and completes its body."""
 
 from typing import NamedTuple
 
@@ -13,31 +13,30 @@ from tricue.track.depth_particle.signature import Signature
 
 Floats = NDArray[np.float64]
 
-# Standard deviations of an object that is the target, from the predicted state.
+# Standard deviations of the target's object from the predicted state.
 POSITION_DEVIATION = (0.15, 0.35, 0.15)  # meters of X, Y, Z, plus
 POSITION_DEVIATION_RATE = (0.45, 0.2, 0.45)  # meters per second since the target was seen
 SIZE_DEVIATION = (0.2, 0.05)  # of the size, plus meters
 
-UNKNOWN_CENTER_WEIGHT = 0.5  # of the position along an axis on which the size is only a lower bound
+UNKNOWN_CENTER_WEIGHT = 0.5  # of the position, along an axis where the size is only a lower bound
 LARGER_SIZE_WEIGHT = 0.3  # of a size that exceeds such a lower bound
 UNKNOWN_WEIGHTS = UNKNOWN_CENTER_WEIGHT, LARGER_SIZE_WEIGHT
 SIGNATURE_COST = 3.0  # nats, of the most different signature
-MIN_AREA_SHARE, MIN_AREA_SHARE_MISSED = 0.25, 0.45  # of the target's area is visible; after it was missed
-MAX_COST, MAX_COST_MISSED = 8.0, 2.0  # nats, of an object that is the target; after it was missed
+MIN_AREA_SHARE, MIN_AREA_SHARE_MISSED = 0.25, 0.45  # of the target's area must be visible; after a miss
+MAX_COST, MAX_COST_MISSED = 8.0, 2.0  # nats, for an object to be the target; after a miss
 NO_COSTS = np.empty(0)
 
-PIECE_REGION = 1.3  # times the expected rectangle, in which pieces of the body are looked for
+PIECE_REGION = 1.3  # times the expected rectangle, the region in which pieces of the body are looked for
 MIN_PIECE_INSIDE = 0.8  # of a piece's area, in that region
-MAX_JOINED_SIZE = 1.15  # times the mean size, of a body with its pieces
-MAX_PIECE_DEPTH = 0.4  # meters, from the body's depth to that of a stretched arm or leg
+MAX_JOINED_SIZE = 1.15  # times the mean size, for a body with its pieces
+MAX_PIECE_DEPTH = 0.4  # meters from the body's depth to that of a stretched arm or leg
 PIECES = PIECE_REGION, MIN_PIECE_INSIDE, MAX_JOINED_SIZE, MAX_PIECE_DEPTH
 
 
 class TargetObject(NamedTuple):
-    """The object that is the target.
+    """The target's object.
 
-    state: (5,) completed where it is cut. whole: (2,) whether the whole width and the whole height are
-    visible.
+    state: (5,) completed where it is cut. whole: (2,) whether the full width and the full height are visible.
     """
 
     state: Floats
@@ -63,10 +62,11 @@ def best_match(
     complete: bool = True,
     other_costs: Floats = NO_COSTS,
 ) -> int | None:
-    """The index of the object of the least cost against the expected state (5,), if any is below max_cost.
+    """The index of the object with the lowest cost relative to the expected state (5,), if below max_cost.
 
-    The cost is in nats, of position, size and signature; ``other_costs`` (C,), of each object, come on top.
-    complete: whether objects count as completed where they are cut. seconds: since the target was seen.
+    The cost, in nats, is that of position, size and signature, plus ``other_costs`` (C,) of each object.
+    complete: whether objects are compared after completing them where they are cut. seconds: since the target
+    was seen.
     """
     (x, y, z), (x_rate, y_rate, z_rate) = POSITION_DEVIATION, POSITION_DEVIATION_RATE
     width, height = motion.mean_size.tolist()
@@ -89,10 +89,10 @@ def best_match(
 def complete_body(
     k: Kernels, objects: Objects, index: int, expected: Floats, motion: BodyMotion
 ) -> tuple[TargetObject, BodyMotion]:
-    """The body of which an object is a part, expected at a state (5,): joined with pieces, such as arms and
+    """The body that an object belongs to, expected at a state (5,): joined with pieces, such as arms and
     legs, that gaps separate from it, and completed where it is cut.
 
-    With it comes the motion, whose mean size has grown where it is a lower bound.
+    Also returns the motion, whose mean size grows where it is a lower bound.
     """
     mean_size = motion.mean_size, motion.size_known
     state, whole, size, signature = k.complete_body(*objects, index, expected, mean_size, PIECES)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A segmented object as a measurement of the target's state, in the likelihood and in the proposal."""
+"""A segmented object as a measurement of the target's state, for the likelihood and the proposal."""
 
 from functools import cache
 from typing import NamedTuple
@@ -9,15 +9,15 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-OBJECT_DEVIATION = np.array([0.05, 0.06, 0.06, 0.06, 0.08])  # meters, of a state that an object gives
+OBJECT_DEVIATION = np.array([0.05, 0.06, 0.06, 0.06, 0.08])  # meters, of a state taken from an object
 DEVIATION_FACTOR = 1.2  # times that deviation, in the likelihood
-MAX_OBJECT_COST = 12.0  # nats, for a particle far from the object: the object may be wrong
+MAX_OBJECT_COST = 12.0  # nats, for a particle far from the object, since the object may be wrong
 
 
 class Measurement(NamedTuple):
     """A measured state (5,) and its standard deviations (5,), meters.
 
-    max_cost: nats, the most that it costs a particle far from it.
+    max_cost: the largest cost of a particle far from it, nats.
     """
 
     state: Floats
@@ -26,7 +26,7 @@ class Measurement(NamedTuple):
 
     @classmethod
     def create(cls, state: Floats, weight: float) -> "Measurement":
-        """The state of an object, with a weight in the log-likelihood, which may be 0."""
+        """Measure an object's state. weight: in the log-likelihood, may be 0."""
         return cls(state, *_scale(weight))
 
 
@@ -35,7 +35,7 @@ NOT_MEASURED = Measurement(np.zeros(5), np.full(5, np.inf), 0.0)
 
 @cache
 def _scale(weight: float) -> tuple[Floats, float]:
-    """Deviations and greatest cost of an object's state."""
+    """The deviations and the largest cost of an object's state."""
     if weight == 0:
         return NOT_MEASURED.deviation, 0.0
     return DEVIATION_FACTOR * OBJECT_DEVIATION / np.sqrt(weight), weight * MAX_OBJECT_COST

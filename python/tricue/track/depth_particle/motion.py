@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The motion model of a walking person before a depth camera: (39) in meters, of a nearly constant size."""
+"""The motion model of a person walking before a depth camera: (39) in meters, with nearly constant size."""
 
 import math
 from functools import cache
@@ -12,11 +12,11 @@ from tricue.track.depth_particle.params import DepthParticleParams
 
 Floats = NDArray[np.float64]
 
-MIN_POSITION_NOISE = (0.03, 0.02, 0.03)  # meters of X, Y, Z, standard deviation in no time
-AXIS_NOISE = (1.0, 0.3, 1.0)  # times position_noise: people move less up and down than sideways
+MIN_POSITION_NOISE = (0.03, 0.02, 0.03)  # meters of X, Y, Z, standard deviation at zero elapsed time
+AXIS_NOISE = (1.0, 0.3, 1.0)  # times position_noise; people move less vertically than horizontally
 SIZE_RETURN = 0.3  # per frame, of the size to its running mean
-MAX_NOISE_TIME = 1.0  # seconds, up to which the noise of a missed target's particles grows
-FIRST_SIZE_RATE = 0.7  # of learning a size that is visible as a whole, until it is known
+MAX_NOISE_TIME = 1.0  # seconds over which the noise of a missed target's particles grows
+FIRST_SIZE_RATE = 0.7  # learning rate of a fully visible size until it is known
 MIN_SIZE = 0.1  # meters
 NO_DRIFT = np.zeros(5)
 
@@ -31,11 +31,11 @@ class Prediction(NamedTuple):
 
 
 class BodyMotion(NamedTuple):
-    """The target's rectangle in the camera frame and how it moves.
+    """The target's rectangle in the camera frame, and its motion.
 
     state: (5,) X, Y, Z of its center, width, height, meters. velocity: (3,) m/s, smoothed.
-    mean_size: (2,) running mean of width and height, meters. size_known: (2,) whether they were ever visible
-    as a whole; until then they are lower bounds.
+    mean_size: (2,) running mean of width and height, meters. size_known: (2,) whether each was ever fully
+    visible; until then it is a lower bound.
     """
 
     state: Floats
@@ -49,12 +49,12 @@ class BodyMotion(NamedTuple):
         return cls(state, np.zeros(3), state[3:].copy(), size_known)
 
     def predict(self, p: DepthParticleParams, seconds: float, missed: float) -> Prediction:
-        """The particles' transition density over so many seconds.
+        """The particles' transition density over a number of seconds.
 
-        The noise, K of (39), grows with the speed, with them, and with ``missed``, the seconds without the
-        target before them.
+        The noise, K of (39), grows with the speed, with ``seconds``, and with ``missed``, the seconds for
+        which the target was missing before.
         """
-        # Numbers one by one: arrays of two or three take longer.
+        # Scalars, because arrays of two or three are slower.
         (vx, vy, vz), (mean_width, mean_height) = self.velocity.tolist(), self.mean_size.tolist()
         drift = NO_DRIFT
         if p.motion == "velocity":
@@ -66,16 +66,16 @@ class BodyMotion(NamedTuple):
         return Prediction(drift, scale, *_bounds(p.near, p.far))
 
     def position_deviation(self, p: DepthParticleParams, seconds: float) -> tuple[float, float, float]:
-        """Meters of X, Y, Z, standard deviation of the position after so many seconds."""
+        """The standard deviations of X, Y, Z after a number of seconds, meters."""
         growth = (p.position_noise + p.speed_noise * math.hypot(*self.velocity.tolist())) * seconds
         (x, y, z), (along_x, along_y, along_z) = MIN_POSITION_NOISE, AXIS_NOISE
         return x + growth * along_x, y + growth * along_y, z + growth * along_z
 
     def update(self, state: Floats, p: DepthParticleParams, seconds: float, visible: bool) -> "BodyMotion":
-        """Move to a new estimate; its step updates the velocity where both positions were ``visible``."""
+        """Move to a new estimate; its step updates the velocity if both positions were ``visible``."""
         velocity = self.velocity
         if visible:
-            # Numbers one by one, as above.
+            # Scalars, as above.
             (x, y, z, _, _), (x0, y0, z0, _, _) = state.tolist(), self.state.tolist()
             vx, vy, vz = (x - x0) / seconds, (y - y0) / seconds, (z - z0) / seconds
             share, rate = min(1.0, p.max_speed / max(math.hypot(vx, vy, vz), 1e-9)), p.velocity_rate
@@ -89,7 +89,7 @@ class BodyMotion(NamedTuple):
         return self._replace(state=state, velocity=velocity_kept * self.velocity)
 
     def grow(self, size: Floats) -> "BodyMotion":
-        """Raise mean sizes that are lower bounds to the size (2,) of the visible part."""
+        """Raise mean sizes that are lower bounds to at least the visible part's size (2,)."""
         if all(self.size_known.tolist()):
             return self
         mean_size = np.where(self.size_known, self.mean_size, np.maximum(self.mean_size, size))
@@ -98,8 +98,8 @@ class BodyMotion(NamedTuple):
     def learn_size(self, size: Floats, whole: NDArray[np.bool_], p: DepthParticleParams) -> "BodyMotion":
         """Blend in a size (2,), where it is ``whole`` (2,).
 
-        It is known from then on, if the other one is: of somebody who is cut at the waist the hidden part may
-        be wider.
+        It counts as known from then on if the other one is whole or known: if somebody is cut at the waist,
+        the hidden part may be wider.
         """
         if all(whole.tolist()) and all(self.size_known.tolist()):
             (width, height), (mean_width, mean_height) = size.tolist(), self.mean_size.tolist()

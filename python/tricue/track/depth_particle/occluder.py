@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The object that hides the target: found when the target is missed, and followed until it is seen again."""
+"""The object that hides the target: found when the target is missed, followed until it is seen again."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,15 +8,15 @@ from tricue.track.depth_objects.objects import Objects
 
 Floats = NDArray[np.float64]
 
-OCCLUDER_RADIUS = 0.5  # meters around an occluder, on the ground, in which objects are pieces of it
-HEIGHT_WEIGHTS = np.array([1.0, 0.3, 1.0])  # of X, Y, Z in distances: the height changes with what is cut
-MIN_OCCLUDER_STEP = 0.3  # meters, that an occluder may move in no time
+OCCLUDER_RADIUS = 0.5  # horizontal meters around an occluder within which objects count as its pieces
+HEIGHT_WEIGHTS = np.array([1.0, 0.3, 1.0])  # of X, Y, Z in distances; the height changes with what is cut
+MIN_OCCLUDER_STEP = 0.3  # meters that an occluder may move between any two frames
 
 
 def find_occluder(objects: Objects, expected: Floats, margin: float) -> int | None:
-    """The index of the object that covers most of the expected rectangle, state (5,), if any does.
+    """The index of the object that covers most of the expected rectangle, state (5,), if there is one.
 
-    It is nearer than the rectangle by more than the margin, meters.
+    It must be nearer than the rectangle by more than the margin, meters.
     """
     if len(objects.states) == 0:
         return None
@@ -32,7 +32,7 @@ def find_occluder(objects: Objects, expected: Floats, margin: float) -> int | No
 
 
 def follow_occluder(objects: Objects, position: Floats, max_speed: float, seconds: float) -> int | None:
-    """The index of the object nearest to the occluder's last position (3,), meters, if it is within reach.
+    """The index of the object nearest the occluder's last position (3,), meters, if within reach.
 
     max_speed: m/s. seconds: since the last frame.
     """
@@ -44,6 +44,6 @@ def follow_occluder(objects: Objects, position: Floats, max_speed: float, second
 
 
 def remove_occluder(objects: Objects, position: Floats) -> Objects:
-    """The objects without the occluder at a position (3,), meters, and without its pieces."""
+    """The objects without the occluder at a position (3,), meters, and its pieces."""
     distances = np.linalg.norm(objects.states[:, [0, 2]] - position[[0, 2]], axis=1)
     return Objects(*(each[distances > OCCLUDER_RADIUS] for each in objects))

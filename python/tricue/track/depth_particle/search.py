@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The search for the target among a frame's objects: near its prediction, or, once it is lost, anywhere."""
+"""The search for the target among a frame's objects: near its prediction, or anywhere once it is lost."""
 
 from typing import NamedTuple
 
@@ -26,14 +26,14 @@ from tricue.track.depth_particle.state import State
 
 Floats = NDArray[np.float64]
 
-MAX_SEARCH_TIME = 10.0  # seconds, up to which the search region of a lost target grows
+MAX_SEARCH_TIME = 10.0  # seconds over which the search region of a lost target grows
 
 
 class SearchResult(NamedTuple):
-    """The target among a frame's objects.
+    """The result of a search.
 
-    target: the object that is the target, if any. motion: its mean size has grown to the visible part, where
-    it was a lower bound. occluder: (3,) meters, the position of what hides the target, if anything.
+    target: the target's object, if found. motion: with its mean size raised to the visible part where it was
+    a lower bound. occluder: (3,) meters, the position of what hides the target, if anything.
     """
 
     target: TargetObject | None
@@ -50,7 +50,7 @@ def find_target(
     seconds: float,
     p: DepthParticleParams,
 ) -> SearchResult:
-    """Search the target among a frame's objects. seconds: since the last frame."""
+    """Search for the target among a frame's objects. seconds: since the last frame."""
     expected = state.motion.state + prediction.drift
     time = min(seconds + state.missed_seconds, MAX_SEARCH_TIME if state.lost(p) else MAX_NOISE_TIME)
     candidates, occluder = _candidates(state, objects, seconds, p)
@@ -77,7 +77,7 @@ def find_target(
 def _other_costs(
     k: Kernels, state: State, fg: Foreground, objects: Objects, p: DepthParticleParams
 ) -> Floats:
-    """(C,) nats: of a depth histogram unlike the target's, and of who isn't a human candidate; or none."""
+    """The costs (C,), nats, for a depth histogram unlike the target's and for not being human; or none."""
     if not (p.human_filter or p.depth_signature) or len(objects.states) == 0:
         return NO_COSTS
     costs = np.zeros(len(objects.states))

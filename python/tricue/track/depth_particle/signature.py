@@ -16,7 +16,7 @@ SIGNATURE_RATE = 0.1  # per frame, of learning
 class Signature(NamedTuple):
     """The distribution of a target over its box.
 
-    values: (2 DISTRIBUTION_BINS + 2,) the distribution and the offset of the centroid, in one array, as they
+    values: (2 DISTRIBUTION_BINS + 2,) the distribution and the centroid's offset in one array, because they
     are learned together.
     """
 
@@ -24,12 +24,12 @@ class Signature(NamedTuple):
 
     @property
     def distribution(self) -> Floats:
-        """(2 DISTRIBUTION_BINS,) the horizontal and then the vertical one, each of sum 1."""
+        """The horizontal and then the vertical distribution, (2 DISTRIBUTION_BINS,), each with sum 1."""
         return self.values[:-2]
 
     @property
     def centroid_offset(self) -> Floats:
-        """(2,) meters, from the box's center to the centroid."""
+        """The vector (2,) from the box's center to the centroid, meters."""
         return self.values[-2:]
 
     @classmethod

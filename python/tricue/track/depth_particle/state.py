@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the depth particle tracker keeps from frame to frame."""
+"""The state that the depth particle tracker keeps from frame to frame."""
 
 from typing import Any, NamedTuple
 
@@ -18,8 +18,8 @@ Floats = NDArray[np.float64]
 class ParticleSet(NamedTuple):
     """Weighted particles and their estimate.
 
-    particles: (N, 5) X, Y, Z, width, height, meters. weights: (N,) of sum 1. state: (5,) and covariance
-    (5, 5): of the weighted particles.
+    particles: (N, 5) X, Y, Z, width, height, meters. weights: (N,) with sum 1. state: (5,) mean and
+    covariance (5, 5) of the weighted particles.
     """
 
     particles: Floats
@@ -29,12 +29,12 @@ class ParticleSet(NamedTuple):
 
     @classmethod
     def at_state(cls, state: Floats, n: int) -> "ParticleSet":
-        """n particles of the same state (5,) and weight."""
+        """n particles with the same state (5,) and weight."""
         return cls(np.repeat(state[None], n, axis=0), np.full(n, 1 / n), state, np.zeros((5, 5)))
 
 
 class State(NamedTuple):
-    """All that changes from frame to frame; a value that ``update`` replaces."""
+    """Everything that changes from frame to frame; immutable, ``update`` replaces it."""
 
     shape: tuple[int, ...]  # of the first frame
     camera: Floats  # (4,) fx, fy, cx, cy, pixels
@@ -44,10 +44,10 @@ class State(NamedTuple):
     signature: Signature
     particles: ParticleSet
     objects: Objects  # of the last frame
-    others: NDArray[np.float32]  # (h, w) meters, what was last seen in each pixel beside the target
+    others: NDArray[np.float32]  # (h, w) meters, the depth last seen in each pixel apart from the target
     score: float
     mean_log_likelihood: float  # running mean over the frames in which the target was learned
-    mean_inside: float  # the same of the share of the rectangle that is at the target's depth
+    mean_inside: float  # the same, for the share of the rectangle at the target's depth
     random: dict[str, Any]  # state of the random number generator
     timestamp: float | None
     missed_seconds: float = 0.0
@@ -56,5 +56,5 @@ class State(NamedTuple):
     occluder: Floats | None = None  # (3,) meters, position of what hides the target, while it is missed
 
     def lost(self, p: DepthParticleParams) -> bool:
-        """Whether the target is LOST: missed for long, though nothing is in front of it."""
+        """Whether the target is LOST: missed for long although nothing is in front of it."""
         return self.missed_seconds >= p.lost_after and not self.hidden

@@ -35,23 +35,23 @@ from tricue.track.depth_particle.state import ParticleSet, State
 Floats = NDArray[np.float64]
 
 REFINE_POSITION = (0.06, 0.05, 0.05)  # meters of X, Y, Z, standard deviation of the second sampling
-REFINE_SIZE = 0.05  # of the size, standard deviation of the second sampling
-VELOCITY_KEPT_HIDDEN, VELOCITY_KEPT = 0.97, 0.85  # in a frame of coasting: behind an occluder, otherwise
-COASTING_RATE = 15.0  # Hz, of frames over which so much is kept, and less over longer ones
+REFINE_SIZE = 0.05  # relative standard deviation of the size in the second sampling
+VELOCITY_KEPT_HIDDEN, VELOCITY_KEPT = 0.97, 0.85  # per frame of coasting: behind an occluder, otherwise
+COASTING_RATE = 15.0  # Hz, the frame rate of these shares; over longer intervals less is kept
 MEAN_RATE = 0.1  # per frame, of the running means
-MAX_COVERED_TO_LEARN = 0.1  # of the target, by what is in front of it
-LOG_SIZE_DEVIATION = np.array([0.25, 0.2])  # of width and height against their running means
-NO_SIZE_PRIOR = np.full(2, 1e100)  # deviations that no size feels
+MAX_COVERED_TO_LEARN = 0.1  # of the target, by things in front of it
+LOG_SIZE_DEVIATION = np.array([0.25, 0.2])  # of width and height relative to their running means
+NO_SIZE_PRIOR = np.full(2, 1e100)  # so large that the size has no prior
 MIN_POSITION_VARIANCE = 0.01**2 * np.eye(3)  # square meters, of a track's position
-OBJECT_ROOT = np.diag(OBJECT_DEVIATION)  # of the covariance of the proposal at an object
+OBJECT_ROOT = np.diag(OBJECT_DEVIATION)  # square root of the proposal's covariance at an object
 NO_OBJECT: tuple[Floats, Floats, float] = (np.zeros(1), np.eye(1), 0.0)  # no proposal at an object
 
 
-Changes = dict[str, Any]  # of a state, by its field
+Changes = dict[str, Any]  # new values of a state's fields, by name
 
 
 class FilteredTarget(NamedTuple):
-    """The particles, what was observed at their estimate, and the histogram (L,) of the depths there."""
+    """The particles, the observation at their estimate, and the histogram (L,) of the depths there."""
 
     particles: ParticleSet
     observed: DepthObservation
@@ -208,7 +208,8 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         measured: Measurement,
     ) -> FilteredTarget:
         """One step of the particle filter: propose by (39) and at the object, weigh (2), estimate (31); then
-        again close to that estimate, as 100 particles are few in five dimensions. size: (2,) the mean one.
+        again close to that estimate, because 100 particles are few in five dimensions. size: (2,) the mean
+        size.
         """
         p, before = self.params, state.particles
         width, height = size.tolist()
@@ -234,7 +235,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         return FilteredTarget(found, state.model.observation(observed), histogram)
 
     def _draw(self, shape: tuple[int, ...]) -> tuple[float, Floats]:
-        """The random numbers of a step: for resampling, and normal ones for each sampling."""
+        """The random numbers of a step: one for resampling, and normal ones for each sampling."""
         noise = np.empty((self.params.sweeps, *shape))
         self._rng.standard_normal(out=noise[0])
         offset = self._rng.random()
@@ -254,7 +255,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
     def _accept(
         self, state: State, fg: Foreground, found: FilteredTarget, motion: BodyMotion, changes: Changes
     ) -> State:
-        """The state at the particles' estimate, where the target is, with other changes."""
+        """The state after the target was found at the particles' estimate, with other changes."""
         others = remember_others(
             self._k, state.others, fg, found.particles.state, self.params.histogram_reach
         )
@@ -313,7 +314,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             status = Status.TRACKED
         else:
             status = Status.LOST if state.lost(self.params) else Status.OCCLUDED
-        x, y, depth, _, _ = state.motion.state.tolist()  # its depth is the same before any camera
+        x, y, depth, _, _ = state.motion.state.tolist()  # depth doesn't depend on the camera's intrinsics
         if self.intrinsics is None:
             return Track(box, state.score, status, depth=depth)
         covariance = state.particles.covariance[:3, :3] + MIN_POSITION_VARIANCE
@@ -327,5 +328,5 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
 
 
 def _score(observed: DepthObservation) -> float:
-    """The contrast, in [0, 1]."""
+    """The score: the contrast, clipped to [0, 1]."""
     return min(max(observed.contrast, 0.0), 1.0)
