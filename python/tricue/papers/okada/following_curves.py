@@ -41,7 +41,7 @@ class FollowCurve(OcclusionCurve):
     angles: Floats
     """(M, 2) pan and tilt of the camera, radians."""
     directions: Floats
-    """(M, 2) pan and tilt towards the target."""
+    """(M, 2) pan and tilt toward the target."""
     in_middle: Flags
     """(M,) whether the center of the true box is in the middle third of the image's width and height."""
     in_image: Flags

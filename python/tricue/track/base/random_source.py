@@ -19,7 +19,7 @@ class RandomSource:
         return self._saved
 
     def resume(self, saved: dict[str, Any]) -> None:
-        """Continue from a saved state, set only if it differs, because that takes as long as a small
+        """Continue from a saved state; it is set only if it differs, since that is as slow as a small
         kernel.
         """
         if saved is not self._saved:

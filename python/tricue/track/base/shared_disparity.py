@@ -8,9 +8,7 @@ Disparities = NDArray[np.float32]
 
 
 def most_shared(disparities: Disparities, tolerance: float) -> NDArray[np.bool_]:
-    """Which of the disparities (N,), N > 0, are within ``tolerance`` of the whole number most of them
-    share.
-    """
+    """Which of the disparities (N,), N > 0, are within ``tolerance`` of the most common whole number."""
     reach, ordered = np.float32(tolerance), np.sort(disparities)
     candidates = np.unique(np.round(ordered))
     ends = np.searchsorted(ordered, candidates + reach, "right")

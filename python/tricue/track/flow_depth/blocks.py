@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The blocks of section 4.4: which parts of the window belong to the target, and which are occluded."""
+"""The blocks of section 4.4: the parts of the window that belong to the target or are occluded."""
 
 import math
 from typing import NamedTuple
@@ -18,17 +18,17 @@ Point = tuple[float, float]
 Place = tuple[float, float, float, float, float]
 
 NOT_TARGET_BLOCK, TARGET_BLOCK, OCCLUDED_BLOCK = 0, 1, 2  # states of figure 7
-GRID_MARGIN = 0.6  # of the window's height, half of it on each side: for arms and legs
+GRID_MARGIN = 0.6  # of the window's height, half on each side, for arms and legs
 MIN_BLOCK_SIDE = 3.0  # cells
-MAX_BLOCKS = 64  # across or along the window: the thinnest windows would have millions
-TRUSTED_FRAMES = 3  # for which a block is trusted after it had target pixels
-MIN_MEASURED_SHARE = 0.2  # of a block's cells: with fewer disparities, nothing is concluded from them
+MAX_BLOCKS = 64  # across or along the window; the thinnest windows would have millions
+TRUSTED_FRAMES = 3  # for which a block stays trusted after it had target pixels
+MIN_MEASURED_SHARE = 0.2  # of a block's cells; fewer disparities are inconclusive
 
 
 class DisparityLimits(NamedTuple):
-    """What the mean disparity of a block is compared with, cells.
+    """Limits for the mean disparity of a block, cells.
 
-    target: the target's disparity. tolerance: by which a similar one differs from it. occluder: above it
+    target: the target's disparity. tolerance: the largest difference of a similar one. occluder: above this,
     something hides the target.
     """
 
@@ -38,10 +38,11 @@ class DisparityLimits(NamedTuple):
 
 
 class BlockObservation(NamedTuple):
-    """What a frame measures in each block, (N,) each.
+    """The measurements of a frame in each block, (N,) each.
 
-    cells: its cells inside the image. target_pixels: of them, those of the target. measured: those with a
-    disparity. mean_disparity: its mean over them. same_depth: those at about the target's disparity.
+    cells: the number inside the image. target_pixels: the number that belong to the target. measured: the
+    number with a disparity. mean_disparity: over the measured ones. same_depth: the number at about the
+    target's disparity.
     """
 
     cells: Counts
@@ -52,31 +53,31 @@ class BlockObservation(NamedTuple):
 
     @property
     def has_mean(self) -> Flags:
-        """(N,) whether enough cells of a block are measured for their mean to count."""
+        """Whether (N,) enough cells of a block are measured for their mean to count."""
         return np.asarray((self.measured >= MIN_MEASURED_SHARE * self.cells) & (self.cells > 0))
 
     def is_nearer(self, limits: DisparityLimits) -> Flags:
-        """(N,) whether a block's mean disparity is that of something that hides the target."""
+        """Whether (N,) a block's mean disparity is that of an occluder."""
         return np.asarray((self.mean_disparity > limits.occluder) & self.has_mean)
 
     def is_similar(self, limits: DisparityLimits) -> Flags:
-        """(N,) whether a block's mean disparity is similar to the target's."""
+        """Whether (N,) a block's mean disparity is similar to the target's."""
         return np.asarray((np.abs(self.mean_disparity - limits.target) <= limits.tolerance) & self.has_mean)
 
     def has_share(self, counts: Counts, share: float) -> Flags:
-        """(N,) whether the counts are at least a share of a block's cells."""
+        """Whether (N,) the counts are at least a share of a block's cells."""
         return np.asarray((counts >= share * self.cells) & (self.cells > 0))
 
 
 class Blocks(NamedTuple):
     """A grid that moves with the target and grows as its disparity does.
 
-    corners: (N, 4) x0, y0, x1, y1 from the anchor, in the first frame, cells. anchor: x, y, cells.
+    corners: (N, 4) x0, y0, x1, y1 relative to the anchor, in the first frame, cells. anchor: x, y, cells.
     size: factor by which the corners have grown. states: (N,) of figure 7.
-    votes: (N,) frames for a block to become a target block, at most as many as are needed.
-    votes_against: (N,) frames for it to become none.
-    core: (N,) the blocks of the first window. As the window was given, depth alone keeps them, for arms and
-    legs don't move as the body does.
+    votes: (N,) frames in favor of a block becoming a target block, at most as many as are needed.
+    votes_against: (N,) frames against it.
+    core: (N,) the blocks of the first window. Since the window was given, depth alone keeps them, because
+    arms and legs don't move like the body.
     trusted: (N,) frames for which a block still counts in the model after it had target pixels.
     frames_without_pixels: (N,) frames since it had target pixels in which it had the target's disparity.
     """
@@ -95,8 +96,8 @@ class Blocks(NamedTuple):
     def of(cls, window: Rectangle, p: FlowDepthParams) -> "Blocks":
         """A grid over the first window and around it.
 
-        The blocks of the window belong to the target until they are voted out, as the window was given. By
-        the printed rules there are none around it, and every block has to be voted in.
+        The window's blocks belong to the target until they are voted out, since the window was given. By the
+        printed rules the grid covers only the window, and every block must be voted in.
         """
         adaptive = p.block_rules == "adaptive"
         x0, y0, x1, y1 = window
@@ -119,7 +120,7 @@ class Blocks(NamedTuple):
         return Blocks(self.corners, (x + right, y + down), *self[2:])
 
     def resized(self, size: float) -> "Blocks":
-        """The grid, grown to a size around its anchor."""
+        """The grid, scaled to a size about its anchor."""
         return Blocks(self.corners, self.anchor, size, *self[3:])
 
     @property
@@ -128,12 +129,12 @@ class Blocks(NamedTuple):
         return np.asarray(self.corners * self.size + np.array(2 * self.anchor))
 
     def place_in(self, region: Region) -> Place:
-        """Where kernels find the corners, from the corner of a region."""
+        """The corners' place relative to a region's corner, as kernels take it."""
         return self.size, *self.anchor, *region[:2]
 
     @property
     def window(self) -> Rectangle | None:
-        """The rectangle around target and occluded blocks; None where there are none."""
+        """The rectangle around target and occluded blocks; None if there are none."""
         mine = self.corners.take(self.states.nonzero()[0], axis=0)  # all states but NOT_TARGET_BLOCK
         if len(mine) == 0:
             return None
@@ -152,8 +153,8 @@ class Blocks(NamedTuple):
     def _voted_by_pixels(
         self, observed: BlockObservation, limits: DisparityLimits, p: FlowDepthParams
     ) -> "Blocks":
-        """Section 4.4 as printed: without target pixels a block gets a vote against it, unless what is there
-        is nearer. Votes add up over all frames in a state.
+        """Section 4.4 as printed: a block without target pixels gets a vote against it, unless something
+        nearer is there. Votes add up over all frames in a state.
         """
         found = observed.has_share(observed.target_pixels, p.min_block_share)
         nearer = observed.is_nearer(limits)
@@ -173,7 +174,7 @@ class Blocks(NamedTuple):
     def _voted_by_pixels_and_depth(
         self, k: Kernels, observed: BlockObservation, limits: DisparityLimits, p: FlowDepthParams
     ) -> "Blocks":
-        """The adaptive rules, of which ``block_votes`` tells."""
+        """The adaptive rules; see the kernel ``block_votes``."""
         states, votes, against, core, trusted, without_pixels = k.block_votes(
             self.states,
             self.votes,

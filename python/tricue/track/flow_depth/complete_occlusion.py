@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Complete occlusion as section 4.5 prints it: it begins and ends by jumps of the disparity in the window."""
+"""Complete occlusion as printed in section 4.5: it begins and ends with jumps of the window's disparity."""
 
 from tricue.kernels import Kernels
 from tricue.track.flow_depth.blocks import OCCLUDED_BLOCK
@@ -12,7 +12,7 @@ from tricue.track.flow_depth.verify import Verdict, disparity_limits, estimate
 def is_occluded(k: Kernels, state: FlowDepthState, verdict: Verdict, p: FlowDepthParams) -> bool:
     """Whether the target is completely occluded in this frame.
 
-    It is where its disparity has become much larger, and where it has too few pixels and an occluded block.
+    It is if its disparity has become much larger, and if it has too few pixels and an occluded block.
     """
     if verdict.disparity > disparity_limits(state, state.disparity, p).occluder:
         return True

@@ -11,18 +11,18 @@ from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Region
 from tricue.track.flow_depth.reduced_frame import Plane, ReducedFrame
 
-POOLING_RADIUS = 2  # cells, within which the constraints of the pyramid's flow are pooled
+POOLING_RADIUS = 2  # cells, the radius for pooling constraints of the pyramid's flow
 
 
 class CueMap(NamedTuple):
-    """One observation of each cell, (h, w), NaN where there is none, and its weight in histograms, (h, w)."""
+    """One observation per cell (h, w), NaN where missing, and its weight in histograms (h, w)."""
 
     values: Plane
     weights: Plane
 
 
 class Cues(NamedTuple):
-    """The observations of a region's cells: flow u, v, cells a frame, and disparity d, cells.
+    """The observations of a region's cells: flow u, v, cells per frame, and disparity d, cells.
 
     A cue that isn't used is None.
     """
@@ -33,7 +33,7 @@ class Cues(NamedTuple):
 
     @property
     def maps(self) -> tuple[CueMap, ...]:
-        """Those of u, v, d (10) that are used, in this order."""
+        """The used ones of u, v, d (10), in this order."""
         return (self.flow or ()) + ((self.disparity,) if self.disparity else ())
 
     @property
@@ -43,7 +43,7 @@ class Cues(NamedTuple):
         return y1 - y0, x1 - x0
 
     def disparities(self) -> Plane:
-        """(h, w) cells; NaN everywhere without that cue."""
+        """The disparities (h, w), cells; NaN everywhere without that cue."""
         return np.full(self.shape, np.nan, np.float32) if self.disparity is None else self.disparity.values
 
 
@@ -81,15 +81,15 @@ def _measure_flow(
 
 
 def _is_uniform(gray: NDArray[np.uint8], region: Region) -> bool:
-    """Whether a region has one gray value alone, as in a black image."""
+    """Whether a region has a single gray value, as in a black image."""
     x0, y0, x1, y1 = region
     cells = gray[y0:y1, x0:x1]
     value = cells[0, 0]
-    return bool((cells[0] == value).all() and (cells == value).all())  # mostly the first row decides
+    return bool((cells[0] == value).all() and (cells == value).all())  # usually the first row decides
 
 
 def _no_measurements(region: Region) -> CueMap:
-    """A cue that was measured in none of the cells."""
+    """A cue without measurements."""
     x0, y0, x1, y1 = region
     shape = y1 - y0, x1 - x0
     return CueMap(np.full(shape, np.nan, np.float32), np.zeros(shape, np.float32))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The camera numbers that turn disparities into meters, of a parallel or a verged stereo pair."""
+"""The conversion of disparities to meters for a parallel or verged stereo pair."""
 
 import math
 from typing import NamedTuple
@@ -14,8 +14,8 @@ class DisparityGeometry(NamedTuple):
     """The geometry of a stereo pair, or, with a default baseline, of a depth camera.
 
     camera: (4,) fx, fy, cx, cy, pixels. baseline: meters. angle: radians by which the right camera is turned
-    inwards. Its image is turned back and moved by ``offset`` pixels to the right, so that what both cameras
-    see stays in it. is_metric: whether its meters are true, as those of a pair aren't whose rig is guessed.
+    inward. Its image is rotated back and moved by ``offset`` pixels to the right, to keep what both cameras
+    see inside it. is_metric: whether its meters are true; they aren't for a guessed rig.
     """
 
     camera: NDArray[np.float64]
@@ -35,5 +35,5 @@ class DisparityGeometry(NamedTuple):
 
     @property
     def offset(self) -> float:
-        """By which measured disparities are smaller than those of parallel cameras, pixels."""
+        """How much smaller measured disparities are than those of parallel cameras, pixels."""
         return float(self.camera[0] * math.tan(self.angle)) if self.angle else 0.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The disparity of a region where none is expected yet: the one that most of its cells share."""
+"""The disparity of a region when none is expected yet: the one that most of its cells share."""
 
 import numpy as np
 
@@ -8,17 +8,17 @@ from tricue.track.base.shared_disparity import most_shared
 from tricue.track.flow_depth.rectangles import Region
 from tricue.track.flow_depth.reduced_frame import Plane, ReducedFrame
 
-MIN_DISPARITY_CELLS = 12  # of the region, with a disparity
-MIN_SHARED_PART = 0.25  # of them, that share one
-SHARED_TOLERANCE = 1.0  # cells, up to which disparities count as one
-MAX_DISPARITY_SHARE = 0.3  # of the columns, for parallel cameras; below 0 up to an eighth of that
-MATCHING_WINDOW, MATCHING_UNIQUENESS = 7, 10  # cells, percent; of the block matching
+MIN_DISPARITY_CELLS = 12  # of the region, that must have a disparity
+MIN_SHARED_PART = 0.25  # of these, that must share one
+SHARED_TOLERANCE = 1.0  # cells, the largest difference between shared disparities
+MAX_DISPARITY_SHARE = 0.3  # of the columns, for parallel cameras; negative ones up to an eighth of that
+MATCHING_WINDOW, MATCHING_UNIQUENESS = 7, 10  # cells, and percent; of block matching
 
 
 def find_initial_disparity(k: Kernels, frame: ReducedFrame, region: Region) -> float | None:
     """The disparity that most of a region shares, cells.
 
-    None where too few cells have a disparity, where too few share one, and in an empty region.
+    None if too few cells have a disparity, if too few share one, and for an empty region.
     """
     x0, y0, x1, y1 = region
     if x0 >= x1 or y0 >= y1:
@@ -34,7 +34,7 @@ def find_initial_disparity(k: Kernels, frame: ReducedFrame, region: Region) -> f
 
 
 def _match(k: Kernels, frame: ReducedFrame, region: Region) -> Plane:
-    """(h, w) disparities of a region, by block matching or from the depth image; NaN where there is none."""
+    """The disparities (h, w) of a region, by block matching or from the depth image; NaN where missing."""
     if frame.disparity is not None:
         x0, y0, x1, y1 = region
         return frame.disparity[y0:y1, x0:x1]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The state after the first frame: the target's disparity, blocks and outline are those of the box."""
+"""The state after the first frame: the target's disparity, blocks and outline are taken from the box."""
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from tricue.track.flow_depth.rectangles import Rectangle, cells_of, grown
 from tricue.track.flow_depth.reduced_frame import ReducedFrame
 from tricue.track.flow_depth.state import FlowDepthState
 
-BOX_MARGIN = 0.15, 0.1  # of the box's width and height at each side, left out of the first disparity
+BOX_MARGIN = 0.15, 0.1  # of the box's width and height at each side, excluded from the first disparity
 
 
 def initialize(
@@ -29,7 +29,7 @@ def initialize(
 ) -> FlowDepthState:
     """The state after the first frame.
 
-    NoDepthInBoxError where the box's cells share no disparity, unless flow is the only cue.
+    NoDepthInBoxError if the box's cells share no disparity, unless flow is the only cue.
     """
     x0, y0, x1, y1 = (value / reduced.step for value in target.xyxy)
     window = x0, y0, x1, y1

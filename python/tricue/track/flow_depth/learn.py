@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a frame with the target teaches: its velocity, disparity, blocks, outline and running means."""
+"""Learning from a frame with the target: velocity, disparity, blocks, outline and running means."""
 
 import numpy as np
 
@@ -13,9 +13,9 @@ from tricue.track.flow_depth.verify import Verdict, disparity_limits
 
 MAX_OCCLUDED_FOR_OUTLINE = 0.05  # of the blocks, up to which the outline is learned
 MAX_OCCLUDED_FOR_MEANS = 0.15  # of the blocks, up to which the running means are learned
-MAX_OCCLUDED_FOR_FIRST_MEANS, FIRST_MEANS = 0.5, 12  # the same in the first learned frames; how many
-MIN_SIZE_DISPARITY = 1.0  # cells, from which the target's size follows its disparity
-CENTER_VELOCITY_RATE = 0.3  # of a step of the target pixels' center, that a velocity without flow takes
+MAX_OCCLUDED_FOR_FIRST_MEANS, FIRST_MEANS = 0.5, 12  # the same in the first learned frames; their number
+MIN_SIZE_DISPARITY = 1.0  # cells, from which on the target's size follows its disparity
+CENTER_VELOCITY_RATE = 0.3  # of the pixels' center's step; the learning rate of a velocity without flow
 
 
 def learn(
@@ -49,7 +49,7 @@ def learn(
 
 
 def _target_window(blocks: Blocks, verdict: Verdict, p: FlowDepthParams) -> Rectangle | None:
-    """The window around the blocks, section 4.5, and around the target pixels where they count, too."""
+    """The window around the blocks, section 4.5, and also around the target pixels if they count."""
     window = blocks.window
     if p.target_window == "outline":
         return window
@@ -57,9 +57,9 @@ def _target_window(blocks: Blocks, verdict: Verdict, p: FlowDepthParams) -> Rect
 
 
 def _estimate_size(state: FlowDepthState, disparity: float) -> float:
-    """The factor by which the target has grown: that of its new disparity for parallel cameras.
+    """The factor by which the target has grown: the growth of its disparity for parallel cameras.
 
-    The size stays where that disparity is so small that its noise would decide.
+    The size is kept if that disparity is so small that noise would dominate.
     """
     offset = state.disparity_offset
     now, first = disparity + offset, state.first_disparity + offset
@@ -69,7 +69,7 @@ def _estimate_size(state: FlowDepthState, disparity: float) -> float:
 def _learn_unoccluded(
     k: Kernels, state: FlowDepthState, cues: Cues, verdict: Verdict, p: FlowDepthParams
 ) -> FlowDepthState:
-    """The outline and the running means, learned where few blocks are occluded."""
+    """Learn the outline and the running means if few blocks are occluded."""
     states, outline = state.blocks.states, state.outline
     counts = np.bincount(states, minlength=OCCLUDED_BLOCK + 1).tolist()
     occluded = counts[OCCLUDED_BLOCK] / max(counts[TARGET_BLOCK] + counts[OCCLUDED_BLOCK], 1)
@@ -93,7 +93,7 @@ def _learn_unoccluded(
 
 
 def _follow_center(state: FlowDepthState, verdict: Verdict) -> Velocity:
-    """The velocity of the target pixels' center, where there is no flow; ours, the paper has none."""
+    """The velocity of the target pixels' center, used without flow; not in the paper."""
     (x, y), (new_x, new_y) = (
         ((x0 + x1) / 2, (y0 + y1) / 2) for x0, y0, x1, y1 in (state.temporal_window, verdict.temporal_window)
     )

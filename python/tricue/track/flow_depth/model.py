@@ -18,10 +18,9 @@ Range = tuple[float, float]
 
 
 class ExpectedPeak(NamedTuple):
-    """Where the peak of one observation's histogram is expected.
+    """The expected peak of one observation's histogram.
 
-    value: the expected peak. deviation: the standard deviation of the peak from there. half_range: half the
-    range of the histograms.
+    deviation: the peak's standard deviation from this value. half_range: half the range of the histograms.
     """
 
     value: float
@@ -30,10 +29,9 @@ class ExpectedPeak(NamedTuple):
 
 
 class TargetModel(NamedTuple):
-    """For each of the K observations of u, v, d that are used: two densities, their range, and the target's
-    peak.
+    """Two densities, their range, and the target's peak, for each of the K used observations of u, v, d.
 
-    densities: (K, bins) of the target, of sum 1. alternatives: (K, bins) of what is around it. ranges: of the
+    densities: (K, bins) of the target, with sum 1. alternatives: (K, bins) of its surround. ranges: of the
     histograms. peaks: the representative velocity or disparity.
     """
 
@@ -53,10 +51,10 @@ def estimate_model(
     before: TargetModel | None,
     p: FlowDepthParams,
 ) -> TargetModel:
-    """The model from the histograms in a window, mixed with the model before, moved to the new peaks.
+    """The model from the histograms in a window, mixed with the previous model, moved to the new peaks.
 
-    Histograms are those of the cells of the trusted target blocks, or of all; flow counts only where the
-    disparity is the target's within a tolerance (``same_depth``), or isn't known.
+    Histograms are over the cells of trusted target blocks, or over all. Flow counts only where the disparity
+    is unknown or within a tolerance of the target's (``same_depth``).
     """
     x, y = cues.region[:2]
     mine = blocks and (blocks.corners, blocks.place_in(cues.region), blocks.states, blocks.trusted)

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""The target's outline: where its pixels end on each side, learned in frames in which nothing occludes it."""
+"""The target's outline: the ends of its pixels on each side, learned in frames without occlusion."""
 
 from typing import NamedTuple
 
 from tricue.track.flow_depth.blocks import Blocks
 from tricue.track.flow_depth.rectangles import Rectangle
 
-OUTLINE_RATE = 0.2  # per frame; a walker's outline gets wider and narrower with the steps
+OUTLINE_RATE = 0.2  # per frame; a walker's outline gets wider and narrower with each step
 
 
 class PixelOutline(NamedTuple):
@@ -16,11 +16,11 @@ class PixelOutline(NamedTuple):
 
     @classmethod
     def of(cls, window: Rectangle, blocks: Blocks) -> "PixelOutline":
-        """The outline that is a window now."""
+        """The outline that equals a window at present."""
         return cls(_to_relative(window, blocks))
 
     def learned(self, pixels: Rectangle, blocks: Blocks) -> "PixelOutline":
-        """The outline moved towards the rectangle around the target's pixels in this frame."""
+        """The outline moved toward the rectangle around the target's pixels in this frame."""
         measured = _to_relative(pixels, blocks)
         x0, y0, x1, y1 = (
             old + OUTLINE_RATE * (new - old) for old, new in zip(self.edges, measured, strict=True)
@@ -28,7 +28,7 @@ class PixelOutline(NamedTuple):
         return PixelOutline((x0, y0, x1, y1))
 
     def rectangle(self, blocks: Blocks) -> Rectangle:
-        """The outline in cells of this frame, where the blocks are now."""
+        """The outline at the blocks' present place, in cells of this frame."""
         (x, y), size = blocks.anchor, blocks.size
         x0, y0, x1, y1 = self.edges
         return x0 * size + x, y0 * size + y, x1 * size + x, y1 * size + y

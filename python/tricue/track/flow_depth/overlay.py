@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The target's pixels and blocks in pixels of the image, as figure 8 draws them."""
+"""The target's pixels and blocks in image pixels, as drawn in figure 8."""
 
 import cv2
 import numpy as np
@@ -10,7 +10,7 @@ from tricue.track.flow_depth.state import FlowDepthState
 
 
 def target_mask(state: FlowDepthState) -> NDArray[np.uint8]:
-    """(H, W) 255 at the target's pixels, else 0."""
+    """A mask (H, W): 255 at the target's pixels, else 0."""
     cells = np.zeros(state.reduced.gray.shape, np.uint8)
     x0, y0, x1, y1 = state.region
     cells[y0:y1, x0:x1] = 255 * state.pixels

@@ -12,7 +12,7 @@ if typing.TYPE_CHECKING:
 
 OURS = "our experiment: benchmarks/README.md"
 NEVER = 1e9  # seconds
-ANY_CHANGE = 1e12  # cells: no peak is preferred to a higher one
+ANY_CHANGE = 1e12  # cells, so that no peak is preferred to a higher one
 PAPER_COLUMNS = 160  # of the paper's images, to which lengths in the parameters refer
 
 

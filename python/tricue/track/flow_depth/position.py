@@ -21,8 +21,8 @@ def locate(
 ) -> tuple[Floats, Floats] | tuple[None, None]:
     """Position (3,), meters in the left camera's frame, and covariance (3, 3).
 
-    None and None where the disparity isn't above 0. While the target is missed its velocity may change: the
-    covariance grows with the fourth power of the time, until the position is unknown by MAX_SIGMA.
+    None and None unless the disparity is above 0. While the target is missed, its velocity may change, so the
+    covariance grows with the fourth power of the time, up to a standard deviation of MAX_SIGMA.
     """
     step = state.reduced.step
     disparity = state.disparity * step + state.geometry.offset

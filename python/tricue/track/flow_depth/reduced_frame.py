@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A frame as it is measured: reduced, gray, with a right image or with depth turned into disparity."""
+"""A frame prepared for measuring: reduced, gray, with a right image or with depth converted to disparity."""
 
 from typing import NamedTuple
 
@@ -32,23 +32,23 @@ class ReducedFrame(NamedTuple):
 
     @property
     def scale(self) -> float:
-        """Cells here over those of the paper's images, of 160 columns."""
+        """The scale relative to the paper's images, which have 160 columns."""
         return float(self.gray.shape[1] / PAPER_COLUMNS)
 
     def disparity_scale(self, p: FlowDepthParams) -> float:
-        """The same for lengths in disparity, which are smaller with a depth camera."""
+        """The same for differences of disparity, which are smaller with a depth camera."""
         return self.scale * (1.0 if self.disparity is None else p.depth_camera_scale)
 
 
 class WantedCells(NamedTuple):
-    """The cells of the left image and of the right one that are wanted; None for all of them."""
+    """The wanted cells of the left and the right image; None for all."""
 
     left: Region | None = None
     right: Region | None = None
 
 
 def cell_side(shape: tuple[int, ...], p: FlowDepthParams) -> int:
-    """The side of a cell, pixels, for images of a shape."""
+    """The side of a cell, pixels, for images of this shape."""
     height, width = shape[:2]
     return max(1, min(round(width / p.resolution), height, width))
 
@@ -65,7 +65,7 @@ def reduce_frame(
     assert image is not None
     step = cell_side(image.shape, p)
     gray = (
-        k.reduce_gray(frame.color, step, wanted.left)  # a copy, as the caller may reuse the array
+        k.reduce_gray(frame.color, step, wanted.left)  # a copy, because the caller may reuse the array
         if frame.color is not None
         else np.zeros((image.shape[0] // step, image.shape[1] // step), np.uint8)
     )
@@ -85,7 +85,7 @@ def reduce_frame(
 
 
 def _depth_to_disparity(depth: Plane, geometry: DisparityGeometry, step: int) -> Plane:
-    """(h, w) cells: the disparity that the geometry's stereo pair has at each cell's middle pixel."""
+    """The disparity (h, w), cells, of the geometry's stereo pair at each cell's middle pixel."""
     height, width = (size // step for size in depth.shape)
     middle = depth[step // 2 :: step, step // 2 :: step][:height, :width]
     with np.errstate(divide="ignore", over="ignore"):

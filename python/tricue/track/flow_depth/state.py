@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the flow and depth tracker keeps from frame to frame."""
+"""The state that the flow and depth tracker keeps from frame to frame."""
 
 import math
 from typing import NamedTuple
@@ -18,13 +18,13 @@ from tricue.track.flow_depth.reduced_frame import ReducedFrame
 
 Velocity = tuple[float, float]
 
-MIN_LEARNED_FRAMES = 3  # more are needed until the mean velocity is used
+MIN_LEARNED_FRAMES = 3  # the mean velocity is used only after more than this
 MEAN_RATE = 0.15  # per frame, of running means
-MIN_PIXELS_FOR_VELOCITY = 0.5  # of their mean number, from which the measured velocity counts in full
+MIN_PIXELS_FOR_VELOCITY = 0.5  # of their mean number; from this on the measured velocity counts in full
 
 
 class FlowDepthState(NamedTuple):
-    """All that changes from frame to frame; lengths are in cells."""
+    """Everything that changes from frame to frame; lengths are in cells."""
 
     shape: tuple[int, ...]  # of the image
     geometry: DisparityGeometry
@@ -38,30 +38,30 @@ class FlowDepthState(NamedTuple):
     disparity: float
     first_disparity: float
     timestamp: float | None
-    region: Region  # in which the pixels are
-    pixels: NDArray[np.uint8]  # (h, w) of the region, 1 at the target's
+    region: Region  # that contains the pixels
+    pixels: NDArray[np.uint8]  # (h, w) in the region, 1 at the target's pixels
     model: TargetModel | None = None
     mean_velocity: Velocity = (0.0, 0.0)  # running mean over frames with little occlusion
-    mean_pixels: float = 0.0  # running mean of the number of target pixels over them
-    learned_frames: int = 0  # how many of them there were
+    mean_pixels: float = 0.0  # running mean of the number of target pixels over the same frames
+    learned_frames: int = 0  # the number of these frames
     score: float = 1.0
     occluded: bool = False  # whether something nearer hides the target
-    occluder_disparity: float = math.nan  # in the window, as long as jumps of it decide on complete occlusion
+    occluder_disparity: float = math.nan  # in the window, while its jumps decide on complete occlusion
     missed: float = 0.0  # seconds since the target was last found
-    coasted: Velocity = (0.0, 0.0)  # how far it moved on since then
+    coasted: Velocity = (0.0, 0.0)  # how far it was moved on since then
 
     @property
     def disparity_offset(self) -> float:
-        """By which the disparities of a verged pair are smaller than those of parallel cameras, cells."""
+        """How much smaller a verged pair's disparities are than those of parallel cameras, cells."""
         return self.geometry.offset / self.reduced.step
 
     @property
     def has_mean_velocity(self) -> bool:
-        """Whether enough frames are in the mean velocity."""
+        """Whether the mean velocity has enough frames."""
         return self.learned_frames > MIN_LEARNED_FRAMES
 
     def smooth_velocity(self, measured: Velocity, count: int) -> Velocity:
-        """The velocity, from one measured by ``count`` target pixels: the fewer, the nearer to the mean."""
+        """The velocity, from one measured by ``count`` target pixels: with fewer it is closer to the mean."""
         if not self.has_mean_velocity:
             return measured
         weight = min(count / max(MIN_PIXELS_FOR_VELOCITY * self.mean_pixels, 1.0), 1.0)
@@ -69,8 +69,8 @@ class FlowDepthState(NamedTuple):
         return mean_u + weight * (u - mean_u), mean_v + weight * (v - mean_v)
 
     def with_means(self, count: int, outline: PixelOutline) -> "FlowDepthState":
-        """The state with a new outline, and a frame of ``count`` target pixels in its running means; few
-        count less.
+        """The state with a new outline, and with a frame of ``count`` target pixels in its running means,
+        where few count less.
         """
         frames = self.learned_frames + 1
         rate = max(MEAN_RATE, 1 / frames)

@@ -33,8 +33,8 @@ from tricue.track.flow_depth.reduced_frame import ReducedFrame, WantedCells, red
 from tricue.track.flow_depth.state import FlowDepthState, Velocity
 from tricue.track.flow_depth.verify import candidate_region, verify, verify_by
 
-MIN_REGION_SIDE = 4  # cells, of the region that is measured
-MIN_OCCLUDED_SHARE = 0.5  # of the blocks, from which a missed target counts as occluded
+MIN_REGION_SIDE = 4  # cells, of the measured region
+MIN_OCCLUDED_SHARE = 0.5  # of the blocks; from this on a missed target counts as occluded
 
 
 class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
@@ -92,7 +92,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         checked = validation.require_cue_channels(frame, self.params.cues)
         target = validation.initial_box(box, checked.image.shape)
         by_pair = "disparity" in self.params.cues and _has_pair_alone(checked.frame)
-        if by_pair and not self.params.vergence:  # the right image of a verged pair isn't turned back yet
+        if by_pair and not self.params.vergence:  # a verged pair's right image isn't rotated back yet
             warn_of_stereo(checked.frame)
         geometry = self._geometry(checked.image.shape, checked.frame)
         reduced = reduce_frame(self._k, checked.frame, geometry, self.params)
@@ -141,7 +141,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         return block_boxes(self._state, TARGET_BLOCK), block_boxes(self._state, OCCLUDED_BLOCK)
 
     def _follow(self, state: FlowDepthState, cues: Cues, seconds: float) -> FlowDepthState:
-        """Sections 4.2 to 4.5: verify that the target is there, and learn; or coast while it is missed."""
+        """Sections 4.2 to 4.5: verify that the target is there and learn, or coast while it is missed."""
         p, k = self.params, self._k
         verdict = verify(k, state, cues, p)
         if verdict.found(state, p):
@@ -159,7 +159,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         )
 
     def _follow_by_disparity(self, state: FlowDepthState, cues: Cues, seconds: float) -> FlowDepthState:
-        """The same with complete occlusion as section 4.5 prints it."""
+        """The same, with complete occlusion as printed in section 4.5."""
         p, k = self.params, self._k
         state = state._replace(region=cues.region, pixels=np.zeros(cues.shape, np.uint8))
         if _waits(state):
@@ -180,9 +180,10 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
     def _for_next(
         self, reduced: ReducedFrame, wanted: WantedCells, candidate: Rectangle, frame: Frame
     ) -> ReducedFrame:
-        """The frame with the cells that the next frame's flow reads, now that the target's place is known.
+        """The frame with the cells that the next frame's flow will read, now that the target's place is
+        known.
 
-        Later is too late: the caller may write the next frame into the array of this one.
+        They can't be read later, because the caller may write the next frame into the same array.
         """
         needed = self._reach.before(candidate, reduced.gray.shape)
         if frame.color is None or wanted.left is None or contains(wanted.left, needed):
@@ -196,7 +197,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
     _derived = (*TrackerBase._derived, "_reach")
 
     def _geometry(self, shape: tuple[int, ...], frame: Frame) -> DisparityGeometry:
-        """The geometry of the rig; without one that of the camera, beside which another is assumed."""
+        """The geometry of the rig, or of the camera with an assumed second one beside it."""
         by_pair, vergence = _has_pair_alone(frame), self.params.vergence
         if self.rig is not None:
             channel = "depth" if frame.color is None else "color"
@@ -212,7 +213,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         x0, y0, x1, y1 = _shown_window(state, self.params)
         box = Box.from_xyxy(step * x0, step * y0, step * x1, step * y1)
         status = state.status(self.params)
-        is_measured = self.rig is not None or state.reduced.right is None  # not by a pair without its rig
+        is_measured = self.rig is not None or state.reduced.right is None  # not with a pair without its rig
         if "disparity" not in self.params.cues or not (is_measured and state.geometry.is_metric):
             return Track(box, state.score, status)
         position, covariance = locate(self._k, box, state, self.params)
@@ -223,7 +224,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
 
 
 def _has_pair_alone(frame: Frame) -> bool:
-    """Whether a frame's disparity has to be measured in its pair, as it has no depth."""
+    """Whether a frame has no depth, so that its disparity must be measured in its pair."""
     return frame.right is not None and frame.depth is None
 
 
@@ -233,7 +234,7 @@ def _waits(state: FlowDepthState) -> bool:
 
 
 def _missed_velocity(state: FlowDepthState, p: FlowDepthParams) -> Velocity:
-    """The velocity by which a missed target moves on: the mean one, as far as there is one."""
+    """The velocity with which a missed target moves on: the mean one, if known."""
     return state.mean_velocity if p.velocity_smoothing and state.learned_frames else state.velocity
 
 
@@ -284,5 +285,5 @@ def _look_ahead(state: FlowDepthState, p: FlowDepthParams) -> Rectangle:
 
 
 def _coast(state: FlowDepthState, seconds: float, **changes: Any) -> FlowDepthState:
-    """The state with changes after a frame without the target; nothing is learned."""
+    """The state after a frame without the target; nothing is learned."""
     return state._replace(missed=state.missed + seconds, score=0.0, **changes)

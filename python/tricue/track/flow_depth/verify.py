@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Verify that the target is in a frame, by its densities, pixels and blocks, sections 4.1 to 4.5."""
+"""Verifies that the target is in a frame, by its densities, pixels and blocks, sections 4.1 to 4.5."""
 
 from typing import NamedTuple
 
@@ -16,20 +16,20 @@ from tricue.track.flow_depth.state import FlowDepthState
 
 Mask = NDArray[np.uint8]
 
-MIN_CANDIDATE_MARGIN = 4.0  # cells of the paper's images, to each side of the window
-CANDIDATE_GROWTH = 0.1  # of the margin, for each 1 / ``rate`` seconds for which the target was missed
-MAX_GROWTH_FRAMES = 20  # of so many seconds, that make the margin larger
+MIN_CANDIDATE_MARGIN = 4.0  # cells of the paper's images, on each side of the window
+CANDIDATE_GROWTH = 0.1  # of the margin, per 1 / ``rate`` seconds for which the target was missed
+MAX_GROWTH_FRAMES = 20  # largest number of these intervals that enlarge the margin
 MIN_DISPARITY_CHANGE, MIN_DISPARITY_HALF_RANGE = 0.03, 0.3  # of the disparity, for near targets
 MIN_TARGET_PIXELS = 8
-REDETECTION_OCCLUSION = 0.1  # of the blocks, by which more may be occluded when the target is re-detected
+REDETECTION_OCCLUSION = 0.1  # of the blocks; how many more may be occluded when the target is re-detected
 
 
 class Verdict(NamedTuple):
-    """What a frame shows of the target.
+    """The evidence for the target in a frame.
 
-    model: by which it was searched. disparity: the target's, cells. pixels: (h, w) 1 at the target's.
-    pixel_count: how many. temporal_window: the rectangle around them. observed: the measurements in the
-    blocks. limits: which disparities are the target's, and which hide it. occluded_share: of its blocks.
+    model: used for the search. disparity: the target's, cells. pixels: (h, w) 1 at the target's pixels.
+    pixel_count: their number. temporal_window: the rectangle around them. observed: the measurements in the
+    blocks. limits: of the target's and the occluders' disparities. occluded_share: of its blocks.
     """
 
     model: TargetModel
@@ -42,7 +42,7 @@ class Verdict(NamedTuple):
     occluded_share: float
 
     def found(self, state: FlowDepthState, p: FlowDepthParams) -> bool:
-        """Whether the target is there: with enough pixels, section 4.5, and not nearly all of it occluded."""
+        """Whether the target is there: it has enough pixels, section 4.5, and isn't almost fully occluded."""
         if state.missed:
             min_pixels, max_share = p.min_pixels_to_redetect, p.max_occluded_share + REDETECTION_OCCLUSION
         else:
@@ -55,14 +55,14 @@ class Verdict(NamedTuple):
 
 
 def verify(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) -> Verdict:
-    """Find the target's pixels and blocks by the cues; a missed target's model is the one from before."""
+    """Find the target's pixels and blocks by the cues; a missed target keeps its previous model."""
     return verify_by(k, state, cues, state.model if state.missed else None, p)
 
 
 def verify_by(
     k: Kernels, state: FlowDepthState, cues: Cues, model: TargetModel | None, p: FlowDepthParams
 ) -> Verdict:
-    """The same by a model, whose disparity is the state's; or by that of this frame.
+    """The same by a given model and the state's disparity, or else by this frame's model and disparity.
 
     Without disparities every cell of a block counts as measured.
     """
@@ -92,7 +92,7 @@ def verify_by(
 
 
 def disparity_limits(state: FlowDepthState, disparity: float, p: FlowDepthParams) -> DisparityLimits:
-    """Which disparities are similar to the target's, and which hide it."""
+    """The limits of disparities similar to the target's, and of those of occluders."""
     reduced = state.reduced
     scale = reduced.disparity_scale(p)
     thickness = p.thickness * abs(disparity + state.disparity_offset)
@@ -113,8 +113,8 @@ def candidate_region(window: Rectangle, state: FlowDepthState, p: FlowDepthParam
 def estimate(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) -> TargetModel:
     """The target's densities in the temporal window, section 4.2.
 
-    What is at another depth, as the background in the first window, moves differently: flow counts only at
-    the target's.
+    Surfaces at other depths, such as the background in the first window, move differently, so flow counts
+    only at the target's.
     """
     scale, disparity_scale = state.reduced.scale, state.reduced.disparity_scale(p)
     expected = []

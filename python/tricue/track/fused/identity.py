@@ -57,7 +57,7 @@ class IdentityFeatures(NamedTuple):
         return weights.offset + _weighted_sum(weights.features, self) + _weighted_sum(weights.change, change)
 
     def blend(self, other: "IdentityFeatures", rate: float) -> "IdentityFeatures":
-        """The features moved towards other ones by a share of their difference."""
+        """The features moved toward other ones by a share of their difference."""
         return IdentityFeatures(*(old + rate * (new - old) for old, new in zip(self, other, strict=True)))
 
 

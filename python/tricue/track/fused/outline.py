@@ -71,7 +71,7 @@ class Outline(NamedTuple):
         return Target((left + right) / 2, (top + bottom) / 2, right - left, bottom - top)
 
     def blend(self, measured: "Outline", rate: float) -> "Outline":
-        """The outline moved towards a measured one by a share of their difference."""
+        """The outline moved toward a measured one by a share of their difference."""
         return Outline(*(old + rate * (new - old) for old, new in zip(self, measured, strict=True)))
 
 

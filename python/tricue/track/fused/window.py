@@ -101,7 +101,7 @@ def _span(center: float, length: float) -> slice:
 
 
 def _hann_window() -> Plane:
-    """The weights (32, 32) with which the cells fade out towards the window's edge."""
+    """The weights (32, 32) with which the cells fade out toward the window's edge."""
     profile: Floats = np.sin(np.pi * (np.arange(WINDOW_CELLS) + 0.5) / WINDOW_CELLS) ** 2
     return np.outer(profile, profile).astype(np.float32)
 

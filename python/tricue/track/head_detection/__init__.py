@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Heads to start on, for several trackers and the command line."""
+"""Detection of heads to start on, for several trackers and the command line."""

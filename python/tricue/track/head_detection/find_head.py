@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Finds a head in a stereo pair, or in an image with depth: by its shape, its outline and its size in meters.
 
-Of all that has a head's size and shape and stands before the rest, it is what has a head's outline, too. It
-needs neither a face nor colors, and nothing that was learned.
+Among the things that have a head's size and shape and stand in front of the rest, it is the one that best has
+a head's outline, too. This needs no face, no colors, and no training.
 """
 
 import math
@@ -18,14 +18,14 @@ from tricue.track.head_detection.heads_in_disparities import heads_in_disparitie
 Image = NDArray[np.uint8]
 Map = NDArray[np.float32]
 
-SEARCH_WIDTH = 320  # pixels, about, to which disparities and depth are reduced
-WINDOW, UNIQUENESS, TOLERANCE = 7, 0, 1  # of the matching of blocks
-NEAREST, MAX_DISPARITY = 0.25, 4000  # highest disparity: share of the width, and pixels
+SEARCH_WIDTH = 320  # pixels, approximate width to which disparities and depth are reduced
+WINDOW, UNIQUENESS, TOLERANCE = 7, 0, 1  # of block matching
+NEAREST, MAX_DISPARITY = 0.25, 4000  # highest disparity, as a share of the width, and in pixels
 MIN_SIDE = 12  # pixels
-DEPTH_BASELINE = 0.5  # meters, of the disparities that depth stands for
+DEPTH_BASELINE = 0.5  # meters, to convert depth to disparities
 MIN_PROMINENCE = 0.5  # a ball in the air, without shoulders, has 0.4
-OUTLINE_WEIGHT = 3.0  # of an outline's evidence against a head's prominence
-MIN_SCORE = 2.5  # what isn't a head has less, but for some things on shoulders of their own
+OUTLINE_WEIGHT = 3.0  # of an outline's evidence relative to a head's prominence
+MIN_SCORE = 2.5  # things that aren't heads have less, except some that have shoulders
 
 
 def find_head_in_pair(k: Kernels, left: Image, right: Image, baseline: float) -> Box | None:
@@ -47,22 +47,23 @@ def find_head_in_pair(k: Kernels, left: Image, right: Image, baseline: float) ->
 
 
 def find_head_in_depth(k: Kernels, image: Image, depth: Map, focal_length: float) -> Box | None:
-    """The same in an image, BGR or gray, with depth (h, w), meters, 0 or NaN where there is none.
+    """The same in an image, BGR or gray, with depth (h, w), meters, 0 or NaN where missing.
 
-    focal_length: pixels of the depth, along x. Depth shows what the image does, but may be a few pixels off.
+    focal_length: along x, in pixels of the depth. Depth has the same view as the image, but may be a few
+    pixels off.
     """
     step = max(1, round(depth.shape[1] / SEARCH_WIDTH))
     thinned = depth[::step, ::step]
     if min(thinned.shape) < MIN_SIDE:
         return None
     disparities = np.full(thinned.shape, np.nan, np.float32)
-    with np.errstate(over="ignore"):  # depth of next to nothing
+    with np.errstate(over="ignore"):  # from depths near 0
         np.divide(focal_length / step * DEPTH_BASELINE, thinned, out=disparities, where=thinned > 0)
     return _best_head(k, image, disparities, DEPTH_BASELINE)
 
 
 def _best_head(k: Kernels, image: Image, disparities: Map, baseline: float) -> Box | None:
-    """The head of the highest score in an image and its disparities, which may be of fewer pixels."""
+    """The head with the highest score in an image and its disparities, which may have fewer pixels."""
     (height, width), (rows, columns) = image.shape[:2], disparities.shape
     across, down = width / columns, height / rows
     best, found = MIN_SCORE, None

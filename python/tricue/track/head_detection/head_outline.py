@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""The outline of a head whose place is roughly known: the ellipse along which the image's edges run.
+"""The outline of a head at a roughly known place: the ellipse that the image's edges follow.
 
-Disparities tell that place roughly: they are measured in windows, which spread over a head's sides.
+Disparities give the place only roughly, because their matching windows extend beyond a head's sides.
 
-Source: Birchfield 1998, "Elliptical head tracking using intensity gradients and color histograms". That edges
-across the outline count against it, and strong ones little more than weak ones, is ours.
+Source: Birchfield 1998, "Elliptical head tracking using intensity gradients and color histograms". Our
+additions: edges across the outline count against it, and strong edges count little more than weak ones.
 """
 
 from typing import NamedTuple
@@ -19,18 +19,18 @@ from tricue.kernels import Kernels
 Image = NDArray[np.uint8]
 Singles = NDArray[np.float32]
 
-WIDTH = 20  # pixels of a head where its outline is looked for
-REACH = 7  # pixels that the outline may be away, right, left, up and down
+WIDTH = 20  # pixels, of a head in the image in which its outline is searched
+REACH = 7  # pixels by which the outline may be off to each side
 LOG_SIZES = np.linspace(-0.3, 0.3, 9)  # of the outline, relative to the head's
-POINTS = 40  # along the outline, without the lower quarter, where the neck begins
-NOISE = 2.0  # gray levels a pixel: an edge as strong counts half
-DEVIATION, LOG_DEVIATION = 0.3, 0.15  # of place, in heads, and of size, from those that were given
-PRIOR = 0.1  # of their squared deviations against the edges
+POINTS = 40  # along the outline except its lower quarter, where the neck begins
+NOISE = 2.0  # gray levels per pixel; an edge of this strength counts half
+DEVIATION, LOG_DEVIATION = 0.3, 0.15  # of the place, in head sizes, and of the log size, from the given ones
+PRIOR = 0.1  # weight of their squared deviations relative to the edges
 
 
 class Outline(NamedTuple):
-    """evidence: how much the edges run along it, 1 at most, less what it is away from the box that was given;
-    about 0 where edges run anywhere.
+    """evidence: how well the edges follow it, at most 1, minus a penalty for its distance from the given box;
+    about 0 for edges in random directions.
     """
 
     evidence: float
@@ -38,12 +38,12 @@ class Outline(NamedTuple):
 
 
 class _Places(NamedTuple):
-    """All outlines that are tried: S sizes at M places, and the n points of each.
+    """All candidate outlines: S sizes at M places, and the n points of each.
 
-    pixels: (S, n, M) where the points are in the patch, whose rows follow one another.
+    pixels: (S, n, M) the points' indices in the flattened patch.
     cosines, sines: (n, 1) of twice the angle of the outline's normal.
-    log_prior: (S, M) by how far the outline is from the box that was given.
-    x, y: (M,) its center, pixels from the middle of the patch.
+    log_prior: (S, M) by the outline's distance from the given box.
+    x, y: (M,) the outlines' centers, pixels from the middle of the patch.
     """
 
     pixels: NDArray[np.intp]
@@ -55,7 +55,7 @@ class _Places(NamedTuple):
 
 
 def _places(shape: tuple[int, int], aspect: float) -> _Places:
-    """Of a patch (rows, columns) whose middle is in the middle of a pixel."""
+    """The candidates for a patch (rows, columns) centered on a pixel."""
     rows, columns = shape
     angles = np.linspace(-0.75 * np.pi, 0.75 * np.pi, POINTS)  # from straight up
     across, down = np.sin(angles), -np.cos(angles)
@@ -98,9 +98,10 @@ def find_outline(k: Kernels, image: Image, box: Box) -> Outline:
 
 
 def _edges(patch: Image) -> tuple[Singles, Singles]:
-    """Cosine and sine of twice the gradient's angle, times its strength in [0, 1], of all pixels in turn.
+    """Cosine and sine of twice the gradient's angle, times its strength in [0, 1], for all pixels of the
+    flattened patch.
 
-    Of twice the angle, as it doesn't matter on which side of an edge it is light.
+    Doubling the angle makes it independent of which side of an edge is brighter.
     """
     pixels = patch.shape[0] * patch.shape[1]
     x, y = (

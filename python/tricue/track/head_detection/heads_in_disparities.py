@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Heads in disparities: ellipses of a head's size, on shoulders and a chest, before the rest.
+"""Heads in disparities: head-sized ellipses on shoulders and a chest, in front of the rest.
 
 A head's width in pixels follows from its disparity and the baseline alone. So each layer of disparities is
-scaled to the same width of a head, and the same masks are moved over all of them.
+scaled to the same head width, and the same masks are slid over all layers.
 """
 
 from typing import NamedTuple
@@ -16,19 +16,19 @@ from tricue.camera.box import Box
 Map = NDArray[np.float32]
 
 HEAD_WIDTH, HEAD_HEIGHT = 0.17, 0.22  # meters, of a head with hair
-CELLS = 6  # pixels of a head's width where it is looked for
-LAYER_STEP = 1.1  # from one layer's disparity to the next
-LAYER_SHARE, MIN_LAYER = 0.12, 0.8  # half a layer's thickness: of its disparity, and in pixels
-FREE = 1.5  # a layer's half thicknesses that surroundings are from the head, at least
-MIN_HEAD, MAX_HEAD = 5.0, 0.66  # width of a head: pixels, and share of the height of the disparities
-MIN_DISPARITY = 2.0  # pixels; what is behind a farther head differs by less than the matching's errors
-ABOVE, BELOW = 1, 2  # heads, by which a layer is continued beyond its border, where people are cut off
+CELLS = 6  # pixels per head width in the scaled layers
+LAYER_STEP = 1.1  # ratio of one layer's disparity to the next
+LAYER_SHARE, MIN_LAYER = 0.12, 0.8  # half a layer's thickness: of its disparity; at least, pixels
+FREE = 1.5  # least difference of the surroundings from the head, in half thicknesses of the layer
+MIN_HEAD, MAX_HEAD = 5.0, 0.66  # width of a head, in pixels, and as a share of the disparities' height
+MIN_DISPARITY = 2.0  # pixels; behind a farther head the background differs by less than the matching errors
+ABOVE, BELOW = 1, 2  # head heights by which a layer is padded at its border, where people are cut off
 BODY_HIDDEN = 0.2  # share of a shoulder, or of the chest, that may be hidden or unmatched
-FULL_WEIGHT = 0.1  # of the shares' sum, which decides between places that are alike in the least
+FULL_WEIGHT = 0.1  # weight of the shares' sum, to decide between places with equal smallest shares
 
 
 class Candidate(NamedTuple):
-    """prominence: how much of a head, of a body and of what is free around the head is seen; 1.2 at most.
+    """prominence: how much of a head, of a body and of free space around the head is seen; at most 1.2.
 
     box: that of the head's upright ellipse, pixels of the disparities.
     """
@@ -38,7 +38,7 @@ class Candidate(NamedTuple):
 
 
 def _masks() -> dict[str, Map]:
-    """The places of head, body and surroundings, in widths of a head from the head's center."""
+    """The masks of head, body and surroundings, defined in head widths from the head's center."""
     rows, columns = round(4.2 * CELLS), round(3.2 * CELLS)
     x = ((np.arange(columns) + 0.5 - columns / 2) / CELLS)[None]
     y = ((np.arange(rows) + 0.5) / CELLS - 1.4)[:, None]
@@ -66,7 +66,7 @@ HEAD_CENTER = (MASK_SHAPE[1] / 2, 1.4 * CELLS)  # x, y in the masks
 
 
 def heads_in_disparities(disparities: Map, baseline: float) -> list[Candidate]:
-    """The best head of each layer of disparities (H, W), pixels, NaN where there is none.
+    """The best head in each layer of disparities (H, W), pixels, NaN where missing.
 
     baseline: meters, between the cameras.
     """
@@ -76,8 +76,8 @@ def heads_in_disparities(disparities: Map, baseline: float) -> list[Candidate]:
         tolerance = max(MIN_LAYER, LAYER_SHARE * disparity)
         difference = np.abs(disparities - np.float32(disparity))
         layer = (difference <= tolerance).astype(np.float32)
-        # Not only what is behind: unmatched pixels are the background that one camera sees beside a head,
-        # and where that has no texture, matches are by chance.
+        # This doesn't require them to be behind the head: unmatched pixels are background that only one
+        # camera sees beside a head, and without texture the background matches at random.
         free = (~(difference <= FREE * tolerance)).astype(np.float32)
         best = _best_place(layer, free, CELLS / head)
         if best is not None:
@@ -89,7 +89,7 @@ def heads_in_disparities(disparities: Map, baseline: float) -> list[Candidate]:
 
 
 def _best_place(layer: Map, outside: Map, scale: float) -> tuple[float, float, float] | None:
-    """Score and center, pixels of the layer, of the place that is most like a head; None without room."""
+    """Score and center (layer pixels) of the most head-like place; None if the layer is too small."""
     height, width = layer.shape
     size = (max(1, round(width * scale)), max(1, round(height * scale)))
     mode = cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR
@@ -98,7 +98,7 @@ def _best_place(layer: Map, outside: Map, scale: float) -> tuple[float, float, f
         return None
 
     def shares(picture: Map, *names: str) -> Map:
-        """The least share of the named places, at every place of the masks."""
+        """The smallest share among the named masks, at every position of the masks."""
         resized = cv2.resize(picture, size, interpolation=mode)
         padded = cv2.copyMakeBorder(resized, *border, cv2.BORDER_REPLICATE)
         correlated = [cv2.matchTemplate(padded, MASKS[name], cv2.TM_CCORR) for name in names]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where to start without a box: on a head in a stereo pair or in depth, or on a face in a single image."""
+"""The box to start on if none is given: a head in a stereo pair or in depth, or a face in a single image."""
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
@@ -16,8 +16,8 @@ def find_head_or_face(
 ) -> Box | None:
     """The head that stands out most in a stereo pair or in depth, or else the largest frontal face.
 
-    frame: with ``color``. rig, camera: of the pair, and of the depth; default ones are assumed without them.
-    ImportError where only a face can tell, and nothing is installed that detects faces.
+    frame: with ``color``. rig, camera: of the pair, and of the depth; by default default ones. ImportError if
+    only a face can be searched for and no face detector is installed.
     """
     assert frame.color is not None
     if frame.right is not None:
@@ -38,7 +38,7 @@ def find_head_or_face(
 def head_or_face_to_start_on(k: Kernels, frame: Frame) -> Box:
     """The same, for trackers that got no box.
 
-    TargetNotFoundError where there is none, BoxNeededError instead of the ImportError.
+    TargetNotFoundError if there is none, and BoxNeededError instead of ImportError.
     """
     try:
         found = find_head_or_face(k, frame)

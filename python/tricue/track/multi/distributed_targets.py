@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Targets that several processes share."""
+"""Targets distributed over several processes."""
 
 from contextlib import suppress
 
@@ -13,11 +13,12 @@ from tricue.track.multi.targets import Targets
 
 
 class DistributedTargets:
-    """As ``Targets``, some of them in this process, the others in workers.
+    """Like ``Targets``, but some are in this process and the others in workers.
 
     A new target goes to the process with the fewest. A worker is started for it if all processes have targets
-    and there are fewer than ``processes``, which includes this one. WorkerEndedError if a worker was killed:
-    its targets are gone from :attr:`ids`, the others stay, and a new target starts another worker.
+    and there are fewer than ``processes``, which includes this one. If a worker was killed, there is a
+    WorkerEndedError: its targets are removed from :attr:`ids`, the others stay, and a new target starts
+    another worker.
     """
 
     def __init__(self, processes: int) -> None:
@@ -28,7 +29,7 @@ class DistributedTargets:
 
     @property
     def ids(self) -> set[int]:
-        """Of the targets."""
+        """The targets' ids."""
         return set[int]().union(*(each.ids for each in self._parts))
 
     def add(self, target: int, tracker: Tracker, frame: SharedFrame, box: BoxLike | None) -> Track:
@@ -36,7 +37,7 @@ class DistributedTargets:
         return self._emptiest().add(target, tracker, frame, box)
 
     def put(self, target: int, tracker: Tracker) -> None:
-        """Go on with a tracker that has started elsewhere."""
+        """Continue with a tracker that was started elsewhere."""
         self._emptiest().put(target, tracker)
 
     def remove(self, target: int) -> None:
@@ -44,7 +45,7 @@ class DistributedTargets:
         next(each for each in self._parts if target in each.ids).remove(target)
 
     def update(self, number: int, frame: SharedFrame) -> dict[int, Track]:
-        """Follow all targets into a frame. After an error, :meth:`undo` reverts it where it succeeded."""
+        """Follow all targets into a frame. After an error, :meth:`undo` reverts those that succeeded."""
         asked = [each for each in self._workers if each.ids]
         for worker in asked:
             worker.wake()
@@ -61,7 +62,7 @@ class DistributedTargets:
         """Undo an update, if it was the last one. Targets of a worker that has ended are gone."""
         self._here.undo(number)
         for worker in self._workers:
-            with suppress(WorkerEndedError):  # ``ids`` tells
+            with suppress(WorkerEndedError):  # ``ids`` shows it
                 if not worker.ended:
                     worker.undo(number)
 
@@ -73,7 +74,7 @@ class DistributedTargets:
         return found
 
     def close(self) -> None:
-        """Stop following all of them, and end the workers."""
+        """Stop following all targets, and end the workers."""
         self._here.close()
         for worker in self._workers:
             worker.close()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A frame in shared memory: one process writes its images, the others see them without a copy."""
+"""A frame in shared memory: one process writes its images, the others read them without copying."""
 
 import mmap
 import os
@@ -15,9 +15,10 @@ ALIGNMENT = 64  # bytes, of an image's first pixel
 
 
 class Layout(NamedTuple):
-    """Where a frame's images are in the memory.
+    """The places of a frame's images in the memory.
 
-    images: name, type, shape, and first byte of each. size: bytes of all. others: the frame's other parts.
+    images: the name, type, shape, and first byte of each. size: bytes in total. others: the frame's other
+    parts.
     """
 
     images: tuple[tuple[str, str, tuple[int, ...], int], ...]
@@ -26,7 +27,7 @@ class Layout(NamedTuple):
 
     @classmethod
     def of(cls, frame: SharedFrame) -> "Layout":
-        """One image after the other."""
+        """The layout with the images in sequence."""
         images, end = [], 0
         for name in IMAGES:
             image = getattr(frame, name)
@@ -37,14 +38,14 @@ class Layout(NamedTuple):
 
 
 class FrameMemory:
-    """Memory without a name, which is gone with the last process that has it open; it grows with the frames.
+    """Unnamed memory, which is freed with the last process that has it open; it grows with the frames.
 
-    file: its descriptor, which another process has inherited; None for new memory.
+    file: its descriptor, if inherited from another process; None to create new memory.
     """
 
     def __init__(self, file: int | None = None) -> None:
         self.file = os.memfd_create("tricue-frame") if file is None else file
-        self.close = weakref.finalize(self, os.close, self.file)  # what is mapped stays
+        self.close = weakref.finalize(self, os.close, self.file)  # mappings stay valid
         self._map: mmap.mmap | None = None
 
     def write(self, frame: SharedFrame) -> Layout:
@@ -57,16 +58,16 @@ class FrameMemory:
         return layout
 
     def read(self, layout: Layout) -> SharedFrame:
-        """The frame that is in the memory until the next is written; its images can't be changed."""
+        """The frame in the memory, valid until the next is written; its images are read-only."""
         return SharedFrame(**dict(self._named(layout, mmap.ACCESS_READ)), **layout.others)
 
     def copy(self, layout: Layout) -> SharedFrame:
-        """The frame that is in the memory, with images of its own."""
+        """The frame in the memory, with copies of its images."""
         images = {name: view.copy() for name, view in self._named(layout, mmap.ACCESS_READ)}
         return SharedFrame(**images, **layout.others)
 
     def _named(self, layout: Layout, access: int) -> list[tuple[str, np.ndarray[Any, Any]]]:
-        """The images' names and places."""
+        """The images' names, and arrays that view them."""
         if self._map is None or len(self._map) < layout.size:
             self._map = mmap.mmap(self.file, layout.size, access=access)
         buffer = self._map

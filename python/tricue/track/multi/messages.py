@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Messages between processes: tracks as plain values, which are pickled thirty times as fast."""
+"""Messages between processes: tracks as plain values, which pickle thirty times as fast."""
 
 import pickle
 from multiprocessing.connection import Connection
@@ -8,8 +8,8 @@ from typing import Any
 from tricue.camera.box import Box
 from tricue.track.base.track import Status, Track
 
-WAKE = "wake"  # in the place of a method, without an answer: another request follows at once
-NUMBER_BYTES = 8  # before a message, so that one that can't be unpickled can be answered
+WAKE = "wake"  # in place of a method; it has no answer, and another request follows at once
+NUMBER_BYTES = 8  # before a message, so that even one that can't be unpickled can be answered
 PlainTracks = dict[int, tuple[Any, ...]]
 
 
@@ -20,7 +20,7 @@ def send(connection: Connection, number: int, *message: Any) -> None:
 
 
 def receive(connection: Connection) -> tuple[int, memoryview]:
-    """The next message, pickled, and its number; EOFError or OSError if none can come any more."""
+    """The next message, pickled, and its number; EOFError or OSError if none can come anymore."""
     data = memoryview(connection.recv_bytes())
     return int.from_bytes(data[:NUMBER_BYTES], "little"), data[NUMBER_BYTES:]
 
@@ -31,7 +31,7 @@ def unpicklable(error: Exception) -> TypeError:
 
 
 def to_plain(tracks: dict[int, Track]) -> PlainTracks:
-    """The tracks' attributes."""
+    """The attributes of tracks, as plain values."""
     return {
         target: (
             *(tuple(track.box), track.score, track.status.value),

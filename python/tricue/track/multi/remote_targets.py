@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Targets that another process follows."""
+"""Targets followed by another process."""
 
 import os
 import pickle
@@ -22,10 +22,10 @@ PATIENCE = 5.0  # seconds that a worker gets to end by itself
 
 
 class RemoteTargets:
-    """As ``Targets``, in a process of their own, which ends with this object and with this process.
+    """Like ``Targets``, in another process, which ends with this object and with this process.
 
-    memory: where it sees the frames. It runs a module, not the script of this process, so that script needs
-    no guard against being run again.
+    memory: of the frames. The process runs a module, not this process's script, so the script needs no
+    ``__main__`` guard.
     """
 
     def __init__(self, memory: FrameMemory) -> None:
@@ -49,20 +49,20 @@ class RemoteTargets:
 
     def add(self, target: int, tracker: Tracker, frame: SharedFrame, box: BoxLike | None) -> Track:
         """Start a tracker; it is kept if that succeeds."""
-        plain = None if box is None else as_box(box)  # a class of the user's script isn't known there
+        plain = None if box is None else as_box(box)  # it can't unpickle classes of the user's script
         try:
             self._send("add", target, tracker, self._memory.write(frame), plain)
             track: Track = self._receive_seen(frame)
         except WorkerEndedError:
             raise
-        except BaseException:  # the worker may have succeeded all the same
+        except BaseException:  # the worker may have succeeded anyway
             self._ask("remove", target)
             raise
         self.ids.add(target)
         return track
 
     def put(self, target: int, tracker: Tracker) -> None:
-        """Go on with a tracker that has started elsewhere."""
+        """Continue with a tracker that was started elsewhere."""
         self._ask("put", target, tracker)
         self.ids.add(target)
 
@@ -72,19 +72,19 @@ class RemoteTargets:
         self.ids.remove(target)
 
     def wake(self) -> None:
-        """Announce an update: while this process writes the frame, the other wakes up."""
+        """Announce an update, so that the other process wakes up while this one writes the frame."""
         self._send(WAKE)
 
     def start_update(self, number: int, layout: Layout) -> None:
-        """Have all targets followed into the frame in the memory; :meth:`finish_update` gives the tracks."""
+        """Start following all targets into the frame in memory; :meth:`finish_update` gives the tracks."""
         self._send("update", number, layout)
 
     def finish_update(self, frame: SharedFrame) -> dict[int, Track]:
-        """The tracks of the started update; the messages are added to its frame."""
+        """The tracks of the started update; messages are added to its frame."""
         return from_plain(self._receive_seen(frame))
 
     def undo(self, number: int) -> None:
-        """Undo an update, whether it is running, done, or never began."""
+        """Undo an update, whether it is running, finished, or never started."""
         self._ask("undo", number)
 
     def copies(self) -> dict[int, Tracker]:
@@ -110,10 +110,10 @@ class RemoteTargets:
             raise unpicklable(error) from None
 
     def _receive(self) -> Any:
-        """The answer to the last request; earlier answers, unread as after Ctrl-C, are skipped.
+        """The answer to the last request; earlier answers that weren't read, as after Ctrl-C, are skipped.
 
-        Ctrl-C while waiting leaves the connection usable. After an answer that was read only in part, the
-        next one would start anywhere; then the worker is ended.
+        Ctrl-C while waiting leaves the connection usable. If an answer was read only in part, the next one
+        couldn't be found, so the worker is ended.
         """
         number, succeeded, value = 0, False, None
         while number != self._number:
@@ -132,7 +132,7 @@ class RemoteTargets:
         return value
 
     def _receive_seen(self, frame: SharedFrame) -> Any:
-        """The same for an answer that has messages about the frame."""
+        """The same, for an answer with messages about the frame."""
         value, messages = self._receive()
         frame.messages.extend(each for each in messages if each not in frame.messages)
         return value
@@ -147,7 +147,7 @@ class RemoteTargets:
 
 
 def _end(connection: Connection, process: "subprocess.Popen[bytes]", owner: int) -> None:
-    """End a worker, which does so by itself once its connection is closed."""
+    """End a worker; it ends by itself once its connection is closed."""
     connection.close()
     if os.getpid() != owner:
         return

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The targets that one process follows."""
+"""The targets followed by one process."""
 
 import copy
 from typing import Any
@@ -11,7 +11,7 @@ from tricue.track.base.tracker import TrackerBase
 
 
 def keeps_images(tracker: Tracker) -> bool:
-    """Whether a tracker may read a frame's images later; tricue's only keep results computed from them."""
+    """Whether a tracker may read a frame's images later; tricue's keep only results computed from them."""
     return not isinstance(tracker, TrackerBase)
 
 
@@ -20,11 +20,11 @@ class Targets:
 
     def __init__(self) -> None:
         self._trackers: dict[int, Tracker] = {}
-        self._before: tuple[int, dict[int, dict[str, Any]]] = 0, {}  # an update, and what trackers held
+        self._before: tuple[int, dict[int, dict[str, Any]]] = 0, {}  # an update, attributes before it
 
     @property
     def ids(self) -> set[int]:
-        """Of the targets."""
+        """The targets' ids."""
         return set(self._trackers)
 
     @property
@@ -39,7 +39,7 @@ class Targets:
         return track
 
     def put(self, target: int, tracker: Tracker) -> None:
-        """Go on with a tracker that has started elsewhere."""
+        """Continue with a tracker that was started elsewhere."""
         self._trackers[target] = tracker
 
     def remove(self, target: int) -> None:
@@ -49,20 +49,20 @@ class Targets:
     def update(self, number: int, frame: SharedFrame) -> dict[int, Track]:
         """Follow all targets into a frame. An error names its target; :meth:`undo` reverts the others.
 
-        number: of the update, by which :meth:`undo` knows it.
+        number: identifies the update for :meth:`undo`.
         """
         self._before = (
             number,
             {
                 target: vars(tracker).copy()
                 for target, tracker in self._trackers.items()
-                if hasattr(tracker, "__dict__")  # not of some third party's, which keep what they did
+                if hasattr(tracker, "__dict__")  # some third-party trackers have none and aren't reverted
             },
         )
         return {target: _update(target, tracker, frame) for target, tracker in self._trackers.items()}
 
     def undo(self, number: int) -> None:
-        """Undo an update, if it was the last one: trackers replace their states and never modify them."""
+        """Undo an update if it was the last one; this works because trackers replace their states."""
         last, before = self._before
         for target, values in before.items() if last == number else ():
             vars(self._trackers[target]).update(values)
@@ -72,7 +72,7 @@ class Targets:
         return {target: copy.copy(tracker) for target, tracker in self._trackers.items()}
 
     def close(self) -> None:
-        """Stop following all of them."""
+        """Stop following all targets."""
         self._trackers, self._before = {}, (0, {})
 
 

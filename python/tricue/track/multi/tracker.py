@@ -70,13 +70,13 @@ class MultiTracker:
         self.rig, self.intrinsics = validation.cameras(rig, intrinsics)
         self.seed, self.kernels = seed, kernels
         self._parameters = parameters
-        self._create(tracker, parameters)  # tells of wrong arguments now
+        self._create(tracker, parameters)  # raises for wrong arguments now
         self._tracks: dict[int, Track] = {}
         self._last_id = 0
         self._updates = 0
-        self._told: frozenset[str] = frozenset()  # what was warned of
+        self._told: frozenset[str] = frozenset()  # the warnings already shown
         self._targets = _targets(self.workers)
-        self._lock = threading.RLock()  # in the middle of a call a handler may call ``close``
+        self._lock = threading.RLock()  # a handler may call ``close`` in the middle of a call
         self._calling = False
 
     @property
@@ -107,7 +107,7 @@ class MultiTracker:
             track = self._targets.add(target, made, shared, box)
             try:
                 self._warn(shared)
-            except BaseException:  # where warnings are errors
+            except BaseException:  # also if warnings are errors
                 self._targets.remove(target)
                 raise
             self._last_id, self._tracks[target] = target, track
@@ -188,7 +188,7 @@ class MultiTracker:
         return create(kind, **{"seed": self.seed, "kernels": self.kernels, **camera, **parameters})
 
     def _tell_of(self, lost: dict[int, Track]) -> None:
-        """Call ``on_lost`` for all of them that it hasn't removed; then raise its first error, if any."""
+        """Call ``on_lost`` for each target that it hasn't removed; then raise its first error, if any."""
         on_lost, errors = self.on_lost, list[Exception]()
         if on_lost is None:
             return
@@ -209,8 +209,8 @@ class MultiTracker:
 
     @contextmanager
     def _one_call(self) -> Iterator[None]:
-        """One call at a time. If a worker ends in it, forget its targets, and raise the error that names
-        them.
+        """Allow one call at a time. If a worker ends during it, forget its targets, and raise the error that
+        names them.
         """
         with self._lock:
             if self._calling:

@@ -14,11 +14,11 @@ from tricue.track.multi.frame_memory import FrameMemory, Layout
 from tricue.track.multi.messages import WAKE, PlainTracks, receive, send, to_plain, unpicklable
 from tricue.track.multi.targets import Targets, keeps_images
 
-MAX_POLLS = 1000  # some milliseconds
+MAX_POLLS = 1000  # takes a few milliseconds
 
 
 class Worker:
-    """Answers requests, each named like its method."""
+    """Answers requests, which are named after its methods."""
 
     def __init__(self, memory: FrameMemory) -> None:
         self._memory = memory
@@ -29,7 +29,7 @@ class Worker:
     def add(
         self, target: int, tracker: Tracker, layout: Layout, box: BoxLike | None
     ) -> tuple[Track, list[str]]:
-        """The first track, and the warnings."""
+        """Start a tracker; return its first track and the warnings."""
         frame = self._frame(layout, keeps_images(tracker))
         return self._targets.add(target, tracker, frame, box), frame.messages
 
@@ -39,17 +39,17 @@ class Worker:
         return to_plain(self._targets.update(number, frame)), frame.messages
 
     def _frame(self, layout: Layout, kept: bool) -> SharedFrame:
-        """The frame in the memory, which the next one overwrites; a copy if its images may be kept."""
+        """The frame in the memory, which the next one overwrites, so a copy if its images may be kept."""
         return self._memory.copy(layout) if kept else self._memory.read(layout)
 
 
 def run(connection_file: int, memory_file: int) -> None:
-    """Answer requests until the other end is closed, as it is when its process ends.
+    """Answer requests until the other end is closed, also because its process ended.
 
     A request is its number, a method, and arguments; its answer is the number, whether the call succeeded,
     and its result or error.
     """
-    for each in signal.SIGINT, signal.SIGHUP:  # a terminal's, which are for the process that asks
+    for each in signal.SIGINT, signal.SIGHUP:  # from a terminal, meant for the parent process
         signal.signal(each, signal.SIG_IGN)
     connection, worker = Connection(connection_file), Worker(FrameMemory(memory_file))
     with suppress(EOFError, OSError):
@@ -57,7 +57,7 @@ def run(connection_file: int, memory_file: int) -> None:
             number, request = receive(connection)
             try:
                 method, arguments = pickle.loads(request)
-            except Exception as error:  # of a class that this process can't import
+            except Exception as error:  # for a class that this process can't import
                 send(connection, number, False, unpicklable(error))
                 continue
             if method == WAKE:
@@ -67,7 +67,7 @@ def run(connection_file: int, memory_file: int) -> None:
 
 
 def _stay_awake(connection: Connection) -> None:
-    """Wait for a message without sleep: it comes once a frame is copied, and waking up would take as long."""
+    """Busy-wait for a message: it comes once a frame is copied, and waking up would take as long."""
     polls = 0
     while polls < MAX_POLLS and not connection.poll():
         polls += 1
@@ -81,7 +81,7 @@ def _answer(worker: Worker, method: str, arguments: tuple[Any, ...]) -> tuple[bo
 
 
 def _portable(error: Exception) -> Exception:
-    """The error, or a RuntimeError with its text if it can't be pickled, as some of third parties can't."""
+    """The error, or a RuntimeError with its text if it can't be pickled, as some third-party ones."""
     try:
         pickle.loads(pickle.dumps(error))
     except Exception:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The color histogram of a head: of an ellipse's cells at its depth (Moreno et al. 2002, section 3.1)."""
+"""The color histogram of a head: of the ellipse's cells at its depth (Moreno et al. 2002, section 3.1)."""
 
 import math
 from collections.abc import Sequence
@@ -21,7 +21,8 @@ HAIR_CAP = 0.3  # of the head's height, from its top
 def measure_first_histogram(
     k: Kernels, region: SearchRegion, ellipse: Ellipse, step: int, p: StereoHeadParams
 ) -> Floats:
-    """The first model, (L,) of sum 1: that of the parameters, or the ellipse mixed with the hair at its top.
+    """The first model, (L,) with sum 1: that of the parameters, or the ellipse's mixed with its top's, the
+    hair's.
 
     With more hair in the model, a head is still recognized from behind.
     """
@@ -34,7 +35,7 @@ def measure_first_histogram(
 
 
 def _fill(weights: Sequence[tuple[int, float]], p: StereoHeadParams) -> Floats:
-    """(L,) of sum 1 of (bin, weight)."""
+    """A histogram (L,) with sum 1 from pairs (bin, weight)."""
     histogram = np.zeros(math.prod(p.bins))
     for index, weight in weights:
         histogram[index] = weight
@@ -42,6 +43,6 @@ def _fill(weights: Sequence[tuple[int, float]], p: StereoHeadParams) -> Floats:
 
 
 def _measure(k: Kernels, region: SearchRegion, ellipse: Ellipse, step: int, p: StereoHeadParams) -> Floats:
-    """(L,) the colors of an ellipse, as :func:`search_local` gives them of its best."""
+    """The color histogram (L,) of an ellipse, as :func:`search_local` gives it for the best match."""
     anything = np.ones(math.prod(p.bins))
     return search_local(k, region, ellipse, anything, step, (0, 0), p)[1]

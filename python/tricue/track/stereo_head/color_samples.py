@@ -13,7 +13,7 @@ from tricue.track.stereo_head.params import StereoHeadParams
 Floats = NDArray[np.float64]
 Samples = Iterable[tuple[NDArray[np.uint8], NDArray[np.bool_]]]
 
-MIN_WEIGHT = 1e-5  # of the model; bins with less are left out
+MIN_WEIGHT = 1e-5  # share of the model; bins with less are left out
 DIGITS = 6
 
 

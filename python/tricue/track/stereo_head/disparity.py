@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The disparity of a head: of the pixels in an ellipse, within a range (Moreno et al. 2002, section 3.2)."""
+"""The disparity of a head, from an ellipse's pixels, within a range (Moreno et al. 2002, section 3.2)."""
 
 import math
 from typing import NamedTuple
@@ -13,11 +13,11 @@ from tricue.track.stereo_head.prepared_pair import Disparities, Ellipse, Prepare
 from tricue.track.stereo_head.stereo_geometry import StereoGeometry
 
 MIN_MATCHED_PIXELS = 8  # of an ellipse
-MAX_CANDIDATE_DISPARITIES = 4000  # of one search
+MAX_CANDIDATE_DISPARITIES = 4000  # per search
 
 
 class EllipseDisparity(NamedTuple):
-    """The disparity of an ellipse, pixels (5), and the share of the ellipse's pixels that are near it."""
+    """The disparity (5) of an ellipse, pixels, and the share of the ellipse's pixels near it."""
 
     disparity: float
     share: float
@@ -26,9 +26,9 @@ class EllipseDisparity(NamedTuple):
 def measure_disparity(
     k: Kernels, pair: PreparedPair, ellipse: Ellipse, limits: tuple[int, int], p: StereoHeadParams
 ) -> EllipseDisparity | None:
-    """The disparity of an ellipse, by the median or the mean of its pixels (5).
+    """The disparity of an ellipse: the median or the mean (5) of its pixels.
 
-    limits: lowest and highest disparity, pixels, both included. None where too few pixels are matched.
+    limits: lowest and highest disparity, pixels, inclusive. None if too few pixels are matched.
     """
     (first, last), window = limits, pair.pixel_window(p)
     region, area = _inner_region(ellipse, window, p)
@@ -42,9 +42,9 @@ def measure_disparity(
 def find_initial_disparity(
     k: Kernels, pair: PreparedPair, ellipse: Ellipse, limits: tuple[int, int], p: StereoHeadParams
 ) -> EllipseDisparity | None:
-    """The disparity of an ellipse where none is expected yet: the one that most matches share.
+    """The disparity of an ellipse when none is expected yet: the one that most matches share.
 
-    Within wide limits, wrong matches pull even a median. None where too few pixels are matched.
+    Within wide limits, wrong matches would bias even a median. None if too few pixels are matched.
     """
     matched, area = _match(k, pair, ellipse, limits, p)
     if matched.size < MIN_MATCHED_PIXELS:
@@ -57,8 +57,8 @@ def find_initial_disparity(
 def limits_around(disparity: float, step: int, p: StereoHeadParams) -> tuple[int, int]:
     """The limits of the search around an expected disparity, pixels (4).
 
-    With fractions of a pixel they are wider, as the first and the last candidate have none. They end 2000
-    pixels away, as one search has no more candidates.
+    For subpixel disparities they are wider, because the first and the last candidate have no fraction. They
+    end 2000 pixels away, the most that one search allows.
     """
     below, above = (min(cells * step, MAX_CANDIDATE_DISPARITIES // 2) for cells in p.disparities)
     if not p.subpixel:
@@ -69,7 +69,7 @@ def limits_around(disparity: float, step: int, p: StereoHeadParams) -> tuple[int
 def limits_between(geometry: StereoGeometry, near: float, far: float, step: int) -> tuple[int, int]:
     """The disparities of the distances from far to near, meters, in units of ``step`` pixels.
 
-    They are limited to what the image is wide enough for.
+    They are limited by the image's width.
     """
     highest = min(geometry.shape[1] // step, MAX_CANDIDATE_DISPARITIES)
     first, last = (geometry.disparity(z) / step for z in (far, near))
@@ -80,19 +80,19 @@ def limits_between(geometry: StereoGeometry, near: float, far: float, step: int)
 def _match(
     k: Kernels, pair: PreparedPair, ellipse: Ellipse, limits: tuple[int, int], p: StereoHeadParams
 ) -> tuple[Disparities, float]:
-    """The disparities (N,) found in an ellipse without its margin, and how many pixels that ellipse has."""
+    """The disparities (N,) found in an ellipse without its margin, and that ellipse's number of pixels."""
     region, area = _inner_region(ellipse, pair.pixel_window(p), p)
     disparities = pair.disparities(k, region, True, limits, False, p)
     matched = disparities[np.isfinite(disparities)]
     if not p.subpixel:
-        matched = np.ceil(matched - np.float32(0.5))  # of two equal costs the smaller disparity, as (3) found
+        matched = np.ceil(matched - np.float32(0.5))  # of two equal costs the smaller disparity, as in (3)
     return matched, area
 
 
 def _inner_region(
     ellipse: Ellipse, window: int, p: StereoHeadParams
 ) -> tuple[tuple[int, int, int, int], float]:
-    """The rectangle around an ellipse without its margin, pixels, and how many pixels that ellipse has."""
+    """The rectangle, pixels, around an ellipse without its margin, and that ellipse's number of pixels."""
     margin = p.ellipse_margin * window
     x, y, minor, major = ellipse
     minor, major = max(minor - margin, minor / 2), max(major - margin, major / 2)

@@ -16,11 +16,11 @@ from tricue.track.stereo_head.stereo_geometry import Point
 
 Floats = NDArray[np.float64]
 
-MEASUREMENT_SIZE = 7  # (7): X, Y, Z, three colors, the intersection; in a state the velocity comes after
+MEASUREMENT_SIZE = 7  # (7): X, Y, Z, three colors, the intersection; a velocity, if any, comes after these
 INTERSECTION_DRIFT = 1.0  # standard deviation, section 4.1: unity
-MOVING = np.array([0, 1, 2, 7, 8, 9])  # the position and, where a state has one, the velocity
+MOVING = np.array([0, 1, 2, 7, 8, 9])  # the position and, if a state has one, the velocity
 COASTING_RATE = 30.0  # Hz
-COASTING_FACTOR = 0.9  # of the velocity, in a frame at that rate without a measurement
+COASTING_FACTOR = 0.9  # of the velocity that is kept per frame without a measurement, at that rate
 
 
 class HeadFilter(NamedTuple):
@@ -34,23 +34,23 @@ class HeadFilter(NamedTuple):
 
     @property
     def position(self) -> Point:
-        """In the left camera's frame."""
+        """The position in the left camera's frame, meters."""
         x, y, z = self.mean[:3].tolist()
         return x, y, z
 
     @property
     def color(self) -> Floats:
-        """(3,) mean color of the model."""
+        """The mean color (3,) of the model."""
         return self.mean[3:6]
 
     @property
     def position_covariance(self) -> Floats:
-        """(3, 3) square meters."""
+        """The position's covariance (3, 3), square meters."""
         return self.covariance[:3, :3]
 
 
 def initialize(measured: Floats, noise: Floats, p: StereoHeadParams) -> HeadFilter:
-    """A filter at rest at a measurement (7,), with its covariance (7, 7)."""
+    """A filter at rest, started with a measurement (7,) and its covariance (7, 7)."""
     if p.motion == "constant":
         return HeadFilter(measured, noise)
     covariance = np.zeros((10, 10))
@@ -61,7 +61,7 @@ def initialize(measured: Floats, noise: Floats, p: StereoHeadParams) -> HeadFilt
 
 def predict(k: Kernels, state: HeadFilter, seconds: float, p: StereoHeadParams) -> HeadFilter:
     """The prediction (6), or, with ``motion="velocity"``, by the velocity. Z stays between near and far, and
-    the position is known to MAX_SIGMA.
+    the position's standard deviation below MAX_SIGMA.
     """
     limit = p.max_speed if p.motion == "constant" else p.acceleration_noise
     dynamics = _dynamics(len(state.mean), seconds, limit, p.color_drift)
@@ -75,7 +75,7 @@ def mahalanobis_distance(predicted: HeadFilter, measured: Point, noise: Floats) 
     (xx, xy, xz), (_, yy, yz), (_, _, zz) = predicted.position_covariance.tolist()
     (noise_xx, noise_xy, noise_xz), (_, noise_yy, noise_yz), (_, _, noise_zz) = noise[:3, :3].tolist()
     (x, y, z), (there_x, there_y, there_z) = measured, predicted.position
-    # The sum and the three steps of Cholesky written out: NumPy takes longer than the whole correction.
+    # The sum and Cholesky's three steps are written out, because NumPy is slower than the whole correction.
     a = math.sqrt(xx + noise_xx)
     b, c = (xy + noise_xy) / a, (xz + noise_xz) / a
     d = math.sqrt(yy + noise_yy - b * b)
@@ -88,7 +88,7 @@ def mahalanobis_distance(predicted: HeadFilter, measured: Point, noise: Floats) 
 
 
 def correct(k: Kernels, predicted: HeadFilter, measured: Floats, noise: Floats) -> HeadFilter:
-    """The correction, steps 3 to 5 of section 4.2, by a measurement (7,) as (8) and its covariance (7, 7)."""
+    """The correction, steps 3 to 5 of section 4.2, by a measurement (8), (7,), and its covariance (7, 7)."""
     selection = _selection(len(predicted.mean))
     mean, covariance, *_ = k.kalman_update(predicted.mean, predicted.covariance, measured, selection, noise)
     return HeadFilter(mean, covariance)
@@ -96,12 +96,12 @@ def correct(k: Kernels, predicted: HeadFilter, measured: Floats, noise: Floats) 
 
 @lru_cache(maxsize=2)
 def _selection(size: int) -> Floats:
-    """(7, size) of a state of that size what is measured."""
+    """The matrix (7, size) that selects the measured part of a state."""
     return np.eye(MEASUREMENT_SIZE, size)
 
 
 def coast(predicted: HeadFilter, seconds: float) -> HeadFilter:
-    """The state after so many seconds without a measurement: the prediction with a smaller velocity."""
+    """The state after ``seconds`` without a measurement: the prediction, with a smaller velocity."""
     mean = predicted.mean.copy()
     mean[MEASUREMENT_SIZE:] *= velocity_kept(COASTING_FACTOR, seconds, COASTING_RATE)
     return HeadFilter(mean, predicted.covariance)
@@ -111,9 +111,9 @@ def coast(predicted: HeadFilter, seconds: float) -> HeadFilter:
 def _dynamics(
     size: int, seconds: float, limit: float, color_drift: tuple[float, float, float]
 ) -> tuple[Floats, Floats]:
-    """Transition F and process noise Q of a state of 7 or 10 numbers.
+    """Transition F and process noise Q of a state with 7 or 10 numbers.
 
-    limit: with 7 numbers the maximum speed, m/s; with 10 the deviation of the acceleration, m/s².
+    limit: the maximum speed, m/s, with 7 numbers; the acceleration's standard deviation, m/s², with 10.
     """
     transition, noise = np.eye(size), np.zeros((size, size))
     positions, velocities = np.arange(3), np.arange(MEASUREMENT_SIZE, size)

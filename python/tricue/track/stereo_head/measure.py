@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The measurement of a head in a stereo pair: its best match, its disparity, its position and color."""
+"""The measurement of a head in a stereo pair: best match, disparity, position and color."""
 
 from functools import lru_cache
 from typing import NamedTuple
@@ -18,14 +18,14 @@ from tricue.track.stereo_head.stereo_geometry import Point, StereoGeometry
 
 Floats = NDArray[np.float64]
 
-MIN_SCORE_LOSS = 0.02  # how far a mean score is taken to be below 1, at least
+MIN_SCORE_LOSS = 0.02  # the least assumed difference of a mean score from 1
 
 
 class HeadMeasurement(NamedTuple):
     """A measured head.
 
-    match, depth: its best match and the disparity there. histogram: (L,) its colors, C of (2).
-    noise: (7, 7) covariance of the measurement of (8).
+    match, depth: its best match and the disparity there. histogram: (L,) of its colors, C in (2).
+    noise: (7, 7) covariance of the measurement (8).
     """
 
     match: EllipseMatch
@@ -35,15 +35,15 @@ class HeadMeasurement(NamedTuple):
     noise: Floats
 
     def values(self, color: Floats) -> Floats:
-        """(7,) the measurement of (8), with the mean color (3,) of the updated model."""
+        """The measurement (8), (7,), with the mean color (3,) of the updated model."""
         return np.array([*self.position, *color.tolist(), self.match.intersection])
 
     def inflated(self, mean_score: float, p: StereoHeadParams) -> "HeadMeasurement":
-        """The same with a larger covariance of the position, where the score is below the running mean.
+        """The same with a larger position covariance, if the score is below the running mean.
 
-        The noise by the paper's polynomial of the distance, (9), stays as it is.
+        The noise by the paper's polynomial (9) isn't changed.
         """
-        # Rounded, so that both sets of kernels, whose scores differ by 1e-6, give the same track.
+        # Rounded so that both sets of kernels, whose scores differ by 1e-6, give the same track.
         factor = round((1 - self.match.score) / max(1 - mean_score, MIN_SCORE_LOSS), 2)
         if factor <= 1 or p.noise_model == "polynomial":
             return self
@@ -61,10 +61,10 @@ def measure(
     model: Floats | None,
     p: StereoHeadParams,
 ) -> HeadMeasurement | None:
-    """Measure the head around an ellipse, at about a disparity, pixels.
+    """Measure the head near an ellipse and a disparity, pixels.
 
     model: (L,) the color model to search for. Without one the match is the ellipse itself, and its colors
-    are the first model. None where nothing is matched, or at a distance outside near to far.
+    become the first model. None if nothing is matched, or the distance isn't between near and far.
     """
     region = crop_region(k, pair, ellipse, disparity, p)
     if model is None:
@@ -76,7 +76,7 @@ def measure(
     if depth is None:
         return None
     point, covariance = geometry.triangulate(k, *match.ellipse[:2], depth.disparity, pair.step, p)
-    if not p.near <= point[2] <= p.far:  # also of NaN, from a disparity of 0
+    if not p.near <= point[2] <= p.far:  # also for NaN, from a disparity of 0
         return None
     noise = _color_noise(p.color_noise, p.intersection_noise).copy()
     noise[:3, :3] = covariance
@@ -85,5 +85,5 @@ def measure(
 
 @lru_cache(maxsize=16)
 def _color_noise(color: tuple[float, float, float], intersection: float) -> Floats:
-    """(7, 7) covariance of a measurement without that of the position."""
+    """The covariance (7, 7) of a measurement, without the position's part."""
     return np.diag([0.0, 0.0, 0.0, *(each**2 for each in color), intersection**2])

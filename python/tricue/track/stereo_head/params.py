@@ -10,8 +10,8 @@ from tricue.track.base.params import Params, parameter
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-MAX_COLOR_BINS = 65535  # that 16 bits can number, one value left for "none"
-NEVER = 1e9  # seconds, or standard deviations, that no frame reaches
+MAX_COLOR_BINS = 65535  # that 16 bits can number, with one value left for "none"
+NEVER = 1e9  # seconds or standard deviations, never reached
 OURS = "our experiment: benchmarks/README.md"
 
 

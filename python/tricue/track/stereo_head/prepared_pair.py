@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A stereo pair prepared for the search: its light; its color bins and disparities where they are needed."""
+"""A stereo pair prepared for the search: its light, and its color bins and disparities on demand."""
 
 from typing import NamedTuple
 
@@ -14,18 +14,18 @@ Region = tuple[int, int, int, int]
 Ellipse = tuple[float, float, float, float]  # center x, y, semi-axes minor (along x), major; pixels
 
 Color = tuple[float, float, float]  # blue, green, red
-Limits = tuple[int, int]  # lowest and highest disparity, both included
+Limits = tuple[int, int]  # lowest and highest disparity, inclusive
 Disparities = NDArray[np.float32]
 
-DARKEST = 1.0  # level of a channel for which the light is still compensated
-# Pixels, sides of the matching window up to which its costs fit 16 bits: gray levels differ by up to 255,
-# the prefilter's slopes by no more than 31 each.
+DARKEST = 1.0  # lowest mean level of a channel that is fully compensated
+# The largest matching windows, pixels, whose costs fit 16 bits: gray levels differ by up to 255, the
+# prefilter's slopes by at most 31 each.
 MAX_WINDOW_GRAY, MAX_WINDOW_PREFILTERED = 15, 31
-NO_LEFT_RIGHT_CHECK = -1  # the tolerance by which sad_disparity doesn't compare left with right
+NO_LEFT_RIGHT_CHECK = -1  # the tolerance with which sad_disparity skips that check
 
 
 class PreparedPair(NamedTuple):
-    """A rectified stereo pair, in whose cells of ``step`` x ``step`` pixels the head is searched.
+    """A rectified stereo pair; the head is searched in cells of ``step`` x ``step`` pixels.
 
     left, right: left BGR (H, W, 3), right the same, or gray (H, W) where the frame is.
     mean: color of the cells' middle pixels, a measure of the light while the scene stays the same.
@@ -44,7 +44,7 @@ class PreparedPair(NamedTuple):
     ) -> "PreparedPair":
         """Prepare the images of a frame, left BGR, right as it is.
 
-        first_mean: mean color of the first left image; None: the light isn't compensated.
+        first_mean: mean color of the first left image; None to not compensate the light.
         """
         height, width = left.shape[:2]
         step = max(1, min(round(width / p.resolution), height, width))
@@ -81,6 +81,6 @@ class PreparedPair(NamedTuple):
         )
 
     def pixel_window(self, p: StereoHeadParams) -> int:
-        """The side of the window by which pixels are matched."""
+        """The side of the matching window, pixels."""
         widest = MAX_WINDOW_PREFILTERED if p.prefilter else MAX_WINDOW_GRAY
         return min(p.window + 2 * (self.step - 1), widest)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Re-detection: search the whole image, at every distance, for a lost head, by color and depth."""
+"""Re-detection: searches the whole image at all distances for a lost head, by color and depth."""
 
 import math
 from typing import NamedTuple
@@ -17,15 +17,15 @@ from tricue.track.stereo_head.stereo_geometry import Point, StereoGeometry
 Floats = NDArray[np.float64]
 
 CELL_STRIDE = 3  # every third cell is searched, in both directions
-DISTANCE_RATIO = 0.85  # of one searched distance to the next farther one
+DISTANCE_RATIO = 0.85  # ratio of a searched distance to the next farther one
 MIN_SEMI_AXIS = 1.0  # of an ellipse, in searched cells
 
 
 class LostHead(NamedTuple):
-    """What is searched for, and where it can be.
+    """A lost head, and where it can be.
 
     size: width and height, meters. histogram: (L,) its color model. last_seen: (3,) meters.
-    radius: meters from there within which it can be.
+    radius: its largest distance from there, meters.
     """
 
     size: tuple[float, float]
@@ -34,7 +34,7 @@ class LostHead(NamedTuple):
     radius: float
 
     def distances(self, p: StereoHeadParams) -> tuple[float, float]:
-        """The smallest and the greatest distance at which it can be, meters."""
+        """The smallest and the largest distance at which it can be, meters."""
         z = self.last_seen[2]
         return max(z - self.radius, p.near), min(z + self.radius, p.far)
 
@@ -42,7 +42,7 @@ class LostHead(NamedTuple):
 def search_frame(
     k: Kernels, pair: PreparedPair, geometry: StereoGeometry, head: LostHead, p: StereoHeadParams
 ) -> tuple[Ellipse, float] | None:
-    """The ellipse and the disparity, pixels, most like the head; None where it can't be in the image."""
+    """The ellipse and the disparity, pixels, most like the head; None if it can't be in the image."""
     step = pair.step * CELL_STRIDE
     disparities = _match_cells(k, pair, geometry, head, p)
     rows, columns = disparities.shape
@@ -70,20 +70,20 @@ def search_frame(
 
 
 def _sample_distances(near: float, far: float) -> list[float]:
-    """Distances from near to far, both included, in equal ratios."""
+    """Distances from near to far, inclusive, with equal ratios."""
     count = max(1, math.ceil(math.log(far / near) / -math.log(DISTANCE_RATIO)))
     return [float(z) for z in np.geomspace(near, far, count + 1)]
 
 
 def _grid_centers(count: int) -> Floats:
-    """(count,) the centers that ``ellipse_search`` tries around the middle of so many cells."""
+    """The centers (count,) that ``ellipse_search`` tries around the middle of this many cells."""
     return np.arange(float(count)) + (count / 2 - count // 2)
 
 
 def _select_reachable(
     head: LostHead, geometry: StereoGeometry, x: Floats, y: Floats, z: float
 ) -> NDArray[np.bool_]:
-    """(rows, columns) whether the head can be at x and y, box coordinates, and a distance z, meters."""
+    """Whether (rows, columns) the head can be at x and y, box coordinates, and a distance z, meters."""
     fx, fy, cx, cy, _ = geometry.rig.tolist()
     dx = (x - 0.5 - cx) * z / fx - head.last_seen[0]
     dy = (y - 0.5 - cy) * z / fy - head.last_seen[1]
@@ -94,7 +94,7 @@ def _select_reachable(
 def _match_cells(
     k: Kernels, pair: PreparedPair, geometry: StereoGeometry, head: LostHead, p: StereoHeadParams
 ) -> Disparities:
-    """The disparity of every searched cell, in cells, within the range that the head can have."""
+    """The disparity of each searched cell, in cells, within the head's possible range."""
     height, width = pair.shape
     first, last = limits_between(geometry, *head.distances(p), pair.step)
     disparities = pair.disparities(k, (0, 0, width, height), False, (first - 1, last + 1), True, p)

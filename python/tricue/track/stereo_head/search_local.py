@@ -13,11 +13,11 @@ from tricue.track.stereo_head.search_region import SearchRegion
 
 Floats = NDArray[np.float64]
 
-MIN_COHERENT_CELLS = 8  # with fewer at the head's depth, all of the ellipse count
+MIN_COHERENT_CELLS = 8  # with fewer at the head's depth, all of the ellipse's cells count
 
 
 class EllipseMatch(NamedTuple):
-    """An ellipse, its score, its intersection with the model (1), and its share at the head's depth."""
+    """An ellipse, its score, its intersection (1) with the model, its share of cells at the head's depth."""
 
     ellipse: Ellipse
     score: float
@@ -34,10 +34,11 @@ def search_local(
     search: tuple[int, int],
     p: StereoHeadParams,
 ) -> tuple[EllipseMatch, Floats]:
-    """The best match around an ellipse, and its colors, C of (2), (L,) of sum 1, or of zeros without a cell.
+    """The best match around an ellipse, and its color histogram, C in (2), (L,) with sum 1, or 0 without
+    cells.
 
-    histogram: (L,) the model. search: how far the center may move, cells to each side, and up and down.
-    With ``learn="coherent"`` only the cells at the head's depth count for the colors.
+    histogram: (L,) the model. search: how far the center may move, cells, sideways and up or down. With
+    ``learn="coherent"`` only the cells at the head's depth count for the colors.
     """
     across, down = search
     cells, grid = region.to_cells(ellipse, step), (2 * down + 1, 2 * across + 1, 1)
@@ -52,9 +53,9 @@ def search_local(
 
 
 def score_matches(measured: Floats, p: StereoHeadParams) -> Floats:
-    """(...,) scores of what ``ellipse_search`` measures, (..., 4).
+    """The scores (...,) of the measurements (..., 4) of ``ellipse_search``.
 
-    The four are the intersections of ellipse and ring with the model, and the coherent shares of both.
+    The four measurements are the intersections of ellipse and ring with the model, and their coherent shares.
     """
     depth = p.depth_ring * measured[..., 3]
     np.subtract(measured[..., 2], depth, depth)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The cells that the local search touches: their color bins, and whether they are at the head's depth."""
+"""The cells that the local search reads: their color bins, and whether they are at the head's depth."""
 
 import math
 from typing import NamedTuple
@@ -11,11 +11,11 @@ from tricue.kernels import Kernels
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.prepared_pair import Ellipse, Image, PreparedPair
 
-FILL_WINDOW = 7  # cells, side of the square that fills gaps in the disparity, as in hair of one color
+FILL_WINDOW = 7  # cells, side of the square that fills gaps in the disparity, as in textureless hair
 
 
 class SearchRegion(NamedTuple):
-    """A rectangle of cells, which may reach over the image's edge.
+    """A rectangle of cells, which may extend beyond the image.
 
     left, top: of its first cell. bins: (h, w) color bins. coherent: (h, w) 1 at the head's depth, else 0.
     """
@@ -26,7 +26,7 @@ class SearchRegion(NamedTuple):
     coherent: Image
 
     def to_cells(self, ellipse: Ellipse, step: int) -> NDArray[np.float64]:
-        """(4,) an ellipse in pixels of the image as center and semi-axes in cells of the region."""
+        """The center and semi-axes (4,), in cells of the region, of an ellipse in image pixels."""
         x, y, minor, major = ellipse
         return np.array([x / step - self.left, y / step - self.top, minor / step, major / step])
 
@@ -34,7 +34,7 @@ class SearchRegion(NamedTuple):
 def crop_region(
     k: Kernels, pair: PreparedPair, ellipse: Ellipse, disparity: float, p: StereoHeadParams
 ) -> SearchRegion:
-    """The region that the search around an ellipse touches, for a head at about a disparity, pixels."""
+    """The region that the search around an ellipse reads, for a head near a disparity, pixels."""
     step, (across, down) = pair.step, p.search
     x, y, minor, major = ellipse
     x, y, minor, major = x / step, y / step, minor / step, major / step

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the stereo head tracker keeps from frame to frame."""
+"""The state that the stereo head tracker keeps from frame to frame."""
 
 from typing import NamedTuple
 
@@ -15,14 +15,14 @@ Floats = NDArray[np.float64]
 
 
 class HeadState(NamedTuple):
-    """All that changes from frame to frame."""
+    """Everything that changes from frame to frame."""
 
     shape: tuple[int, ...]  # of the left image
     geometry: StereoGeometry
     size: tuple[float, float]  # width and height of the head, meters
     first_histogram: Floats  # (L,) the color model of the first frame
     learned_histogram: Floats  # (L,) M of (2)
-    model: Floats  # (L,) what is searched for: the first one mixed with the learned one
+    model: Floats  # (L,) the model to search for: the first mixed with the learned one
     filter: HeadFilter
     last_seen: Point  # position
     score: float  # of the match in this frame, 0 where the head isn't recognized
@@ -34,7 +34,7 @@ class HeadState(NamedTuple):
     missed: float = 0.0  # seconds since the head was last recognized
 
     def min_intersection_to_learn(self, p: StereoHeadParams) -> float:
-        """The intersection (1) from which colors are learned."""
+        """The intersection (1) from which on colors are learned."""
         of = self.mean_intersection if p.learning_gate == "relative" else 1.0
         return p.min_intersection_to_learn * of
 

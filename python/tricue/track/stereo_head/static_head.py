@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The noise of a head's measurements, from a head at rest (Moreno et al. 2002, section 4.1)."""
+"""The measurement noise, from a head at rest (Moreno et al. 2002, section 4.1)."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -21,16 +21,16 @@ from tricue.track.stereo_head.tracker import StereoHeadTracker
 Floats = NDArray[np.float64]
 
 MIN_FRAMES = 10  # with a measurement
-MAX_LAG = 15  # frames, of the changes by which noise and drift are told apart
+MAX_LAG = 15  # frames, of the changes used to separate noise from drift
 MIN_COLOR_DEVIATION = 0.1  # levels; a filter without noise or drift would never learn another color
 MIN_INTERSECTION_DEVIATION = 0.001
 MIN_DISPARITY_DEVIATION = 0.01  # pixels
-MIN_REST_RATIO = 0.33  # von Neumann's ratio of a coordinate: 2 is usual at rest, 0.34 the least of 300 scenes
+MIN_REST_RATIO = 0.33  # von Neumann's ratio of a coordinate: about 2 at rest, at least 0.34 in 300 scenes
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StaticHead:
-    """What is measured of a head at rest in M frames, each from the same prediction and by the same model."""
+    """Measurements of a head at rest in M frames, each with the same prediction and the same model."""
 
     positions: Floats
     """(M, 3) meters."""
@@ -39,13 +39,13 @@ class StaticHead:
     colors: Floats
     """(M, 3) mean colors, levels."""
     intersections: Floats
-    """(M,) of (1)."""
+    """(M,) intersections (1)."""
     frames: int
-    """How many frames there were after the first; those beyond M had no disparity."""
+    """The number of frames after the first; those beyond M had no disparity."""
 
     @property
     def noise(self) -> dict[str, Any]:
-        """The parameters of :class:`StereoHeadParams` that the head tells: e and Q of the mean color, e of
+        """The parameters of :class:`StereoHeadParams` that follow from it: e and Q of the mean color, e of
         the intersection.
         """
         noise, drift = zip(*(split_noise(channel) for channel in self.colors.T), strict=True)
@@ -57,12 +57,12 @@ class StaticHead:
 
     @property
     def moves(self) -> bool:
-        """Whether the head seems to move: its positions differ far more than from one frame to the next."""
+        """Whether the head seems to move: its positions differ far more overall than from frame to frame."""
         changes = np.mean(np.diff(self.positions, axis=0) ** 2, axis=0)
         return bool((changes < MIN_REST_RATIO * self.positions.var(axis=0, ddof=1)).any())
 
     def disparity_noise(self, rig: StereoRig, distance: float) -> float:
-        """Pixels, root mean square error of the disparities of a head at a known distance, meters."""
+        """The root mean square error, pixels, of the disparities of a head at a known distance, meters."""
         true = rig.intrinsics.fx * rig.baseline / distance
         return max(float(np.sqrt(np.mean((self.disparities - true) ** 2))), MIN_DISPARITY_DEVIATION)
 
@@ -74,11 +74,11 @@ def measure_static_head(
     params: StereoHeadParams | None = None,
     kernels: kernel_sets.Name = "native",
 ) -> StaticHead:
-    """Measure a head that stays in ``box`` in a recording of stereo pairs, without filter and learning.
+    """Measure a head that stays in ``box`` in a recording of stereo pairs, without filtering or learning.
 
-    The first frame gives size, disparity and model; each other one is measured from there. Without a rig a
+    The first frame gives size, disparity and model, from which all others are measured. Without a rig a
     default one is assumed, and positions mean little. ValueError for a box as :meth:`StereoHeadTracker.init`,
-    and where the head is measured in fewer than ten of the others or in less than half of them.
+    and if the head is measured in fewer than ten, or less than half, of the others.
     """
     stream = iter(frames)
     first = next(stream, None)
@@ -111,15 +111,15 @@ def measure_static_head(
 
 
 def split_noise(values: Floats) -> tuple[float, float]:
-    """Standard deviations of a series (M,): of its noise, and of its drift from one frame to the next.
+    """Standard deviations of a series (M,): of its noise, and of its drift per frame.
 
-    The squared change over n frames is 2 noise² + n drift² in the mean; both are fitted to the changes over
-    up to 15 frames. Where the series drifts so smoothly that this leaves no noise, the noise is what deviates
-    from a straight line through three frames.
+    The mean squared change over n frames is 2 noise² + n drift²; both are fitted to the changes over up to 15
+    frames. If the series drifts so smoothly that this gives no noise, the noise is the deviation from a
+    straight line through three frames.
     """
     lags = np.arange(1, max(2, min(len(values) // 4, MAX_LAG)) + 1)
     changes = np.array([np.mean((values[lag:] - values[:-lag]) ** 2) for lag in lags])
-    drift, twice_noise = np.polyfit(lags, changes, 1, w=1 / lags)  # long lags repeat themselves
+    drift, twice_noise = np.polyfit(lags, changes, 1, w=1 / lags)  # changes over long lags overlap
     if drift < 0:
         drift, twice_noise = 0.0, changes.mean()
     if twice_noise < 0:

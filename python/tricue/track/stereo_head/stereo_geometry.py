@@ -14,14 +14,14 @@ from tricue.track.stereo_head.params import StereoHeadParams
 Floats = NDArray[np.float64]
 Point = tuple[float, float, float]  # meters
 
-MIN_POSITION_NOISE = 1e-4  # meters, where a polynomial has a zero
-POLYNOMIAL_SAMPLES = 64  # of the working range, to which the cubic polynomials are fitted
+MIN_POSITION_NOISE = 1e-4  # meters, for zeros of a polynomial
+POLYNOMIAL_SAMPLES = 64  # of the working range, for fitting the cubic polynomials
 
 
 class StereoGeometry(NamedTuple):
     """rig: (5,) fx, fy, cx, cy, pixels, and the baseline, meters. shape: height and width of its images.
 
-    numbers: those of the rig, for sums one by one, which are faster so. camera: (4,), all but the baseline.
+    numbers: the rig as a tuple, because scalar arithmetic is faster. camera: (4,), without the baseline.
     """
 
     rig: Floats
@@ -47,7 +47,7 @@ class StereoGeometry(NamedTuple):
         return fx * x / z + cx + 0.5, fy * y / z + cy + 0.5, fx * baseline / z
 
     def ellipse(self, position: Point, size: tuple[float, float]) -> tuple[float, float, float, float]:
-        """Center and semi-axes, pixels, of an upright ellipse of a size, meters, at a position."""
+        """Center and semi-axes, pixels, of an upright ellipse with a size, meters, at a position."""
         x, y, z = position
         fx, fy, cx, cy, _ = self.numbers
         return fx * x / z + cx + 0.5, fy * y / z + cy + 0.5, size[0] / 2 * fx / z, size[1] / 2 * fy / z
@@ -59,9 +59,9 @@ class StereoGeometry(NamedTuple):
     def triangulate(
         self, k: Kernels, x: float, y: float, disparity: float, step: int, p: StereoHeadParams
     ) -> tuple[Point, Floats]:
-        """The position of x, y in box coordinates with a disparity, and its covariance (3, 3).
+        """The position at x, y (box coordinates) with a disparity, and its covariance (3, 3).
 
-        step: pixels of a cell, in which ``place_noise`` counts.
+        step: pixels per cell, the unit of ``place_noise``.
         """
         measured = np.array([[x - 0.5, y - 0.5, disparity]])
         variances = measurement_variances(p.place_noise * step, p.disparity_noise)
@@ -73,7 +73,7 @@ class StereoGeometry(NamedTuple):
 
 
 def _cubic_noise(geometry: StereoGeometry, point: Point, p: StereoHeadParams) -> Floats:
-    """e of (9), (3,) meters: the error of each coordinate, by cubic polynomials of it."""
+    """e of (9), (3,) meters: the error of each coordinate, as a cubic polynomial of it."""
     errors = [
         np.polyval(each, value) for each, value in zip(fit_polynomials(geometry, p), point, strict=True)
     ]
@@ -81,7 +81,7 @@ def _cubic_noise(geometry: StereoGeometry, point: Point, p: StereoHeadParams) ->
 
 
 def fit_polynomials(geometry: StereoGeometry, p: StereoHeadParams) -> list[Floats]:
-    """The coefficients a_i0 .. a_i3 of (9) for X, Y and Z, (4,) each, the highest power first.
+    """The coefficients a_i0 .. a_i3 of (9) for X, Y and Z, (4,) each, highest power first.
 
     They are fitted to the errors of the back-projection between near and far.
 

@@ -29,8 +29,8 @@ from tricue.track.stereo_head.stereo_geometry import StereoGeometry
 
 Floats = NDArray[np.float64]
 
-MIN_SEARCH_RADIUS = 0.3  # meters, from where a head that was just missed was last seen
-MIN_INITIAL_SHARE = 0.3  # of the box's ellipse at one disparity; what is beyond ``far`` has chance matches
+MIN_SEARCH_RADIUS = 0.3  # meters from where a head that was just missed was last seen
+MIN_INITIAL_SHARE = 0.3  # of the box's ellipse at one disparity; things beyond ``far`` match at random
 MAX_BOX_SIDE = 4000  # pixels
 MEAN_RATE = 0.05  # per frame, of running means
 
@@ -128,7 +128,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         return self._keep(self._follow(before, pair, seconds, timestamp), frame)
 
     def _measure_first(self, pair: PreparedPair, geometry: StereoGeometry, head: Box) -> HeadMeasurement:
-        """Measure the head in a box; NoDepthInBoxError where nothing in it has a disparity."""
+        """Measure the head in a box; NoDepthInBoxError if nothing in it has a disparity."""
         k, p = self._k, self.params
         depth = find_initial_disparity(k, pair, head.ellipse, limits_between(geometry, p.near, p.far, 1), p)
         first = None
@@ -150,7 +150,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         position = predicted.position
         disparity = geometry.disparity(position[2])
         ellipse = geometry.ellipse(position, state.size)
-        # A missed head may be predicted so near to the camera that kernels don't take its size.
+        # A missed head may be predicted so near the camera that kernels reject its size.
         fits = 2 * max(ellipse[2:]) <= MAX_BOX_SIDE
         measured = measure(k, pair, geometry, ellipse, disparity, state.model, p) if fits else None
         if measured is not None:
@@ -160,12 +160,12 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         detected = self._redetect(state, pair) if state.missed > p.search_frame_after else None
         if detected is not None:
             return self._learn(state, detected, None, timestamp)
-        coasting = head_filter.coast(predicted, seconds)  # neither size nor model changes
+        coasting = head_filter.coast(predicted, seconds)  # size and model don't change
         missed = state.missed + seconds
         return state._replace(filter=coasting, missed=missed, score=0.0, timestamp=timestamp)
 
     def _redetect(self, state: HeadState, pair: PreparedPair) -> HeadMeasurement | None:
-        """The head anywhere in the image, as far as it can have moved; None if it isn't recognized."""
+        """The head anywhere in the image within its possible motion; None if it isn't recognized."""
         k, p = self._k, self.params
         radius = MIN_SEARCH_RADIUS + p.max_speed * state.missed
         head = LostHead(state.size, state.model, state.last_seen, radius)
@@ -178,7 +178,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         return measured
 
     def _recognizes(self, state: HeadState, measured: HeadMeasurement, predicted: HeadFilter) -> bool:
-        """Whether a measurement is like the head, and near the predicted position."""
+        """Whether a measurement matches the head and is near the predicted position."""
         distance = head_filter.mahalanobis_distance(predicted, measured.position, measured.noise)
         if not distance < self.params.max_deviations:
             return False
@@ -198,9 +198,9 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         predicted: HeadFilter | None,
         timestamp: float | None,
     ) -> HeadState:
-        """The state after a frame with the head; its colors are learned where they are like the model's.
+        """The state after a frame with the head; its colors are learned if they are like the model's.
 
-        predicted: what the measurement corrects; without it the filter starts anew.
+        predicted: the prediction to correct; without it the filter restarts.
         """
         p, match = self.params, measured.match
         unlike = match.intersection < state.min_intersection_to_learn(p)
@@ -236,7 +236,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
     def _mix(
         self, histogram: Floats, measured: Floats, rate: float, first: Floats
     ) -> tuple[Floats, Floats, Floats]:
-        """A histogram (L,) that learns from a measured one; the model, mixed of it and the first; its mean
+        """The histogram (L,) updated with a measured one; the model, a mix of it and the first; its mean
         color (3,).
         """
         p = self.params

@@ -127,7 +127,7 @@ def _nearest(offset: Floats) -> Places:
 
 
 def _taper() -> Plane:
-    """The weights (32, 32) that fade out towards the smallest and the largest radius; angles have no ends."""
+    """The weights (32, 32) that fade out toward the smallest and the largest radius; angles have no ends."""
     profile = np.sin(np.pi * (np.arange(WINDOW_CELLS) + 0.5) / WINDOW_CELLS)
     return np.tile(profile, (WINDOW_CELLS, 1)).astype(np.float32)
 
