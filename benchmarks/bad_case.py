@@ -20,7 +20,7 @@ class Case(NamedTuple):
     second: Any
     starts: bool = True
     camera: Any = None
-    truth: Any = None  # the box in ``second``, for what else is followed; None where there is no target
+    truth: Any = None  # the true box in ``second``, if it isn't the default; None if there is no target
 
 
 class Made(NamedTuple):

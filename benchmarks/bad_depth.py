@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Bad input of depth, and our trackers of it; run by bad_input.py."""
+"""Bad depth input, and our trackers that take it; run by bad_input.py."""
 
 from collections.abc import Callable
 from typing import Any
@@ -22,27 +22,27 @@ TINY, HUGE = DEPTH[60:61, 80:81].copy(), np.tile(DEPTH, (21, 23))[:3000, :4000].
 
 
 def case(name: str, first: Any = DEPTH, box: Any = BOX, second: Any = NEXT, **others: Any) -> Case:
-    """A case in which all else is as it should be."""
+    """A case in which everything else is valid."""
     return Case(name, first, box, second, **{"camera": CAMERA, **others})
 
 
 def alone(name: str, image: Any) -> Case:
-    """An update with what isn't put into a Frame."""
+    """A case whose update gets the value without a Frame around it."""
     return case(name, second=Made(lambda: image))
 
 
 def both(name: str, change: Callable[[Any], Any], **others: Any) -> Case:
-    """Both frames changed."""
+    """A case with both frames changed."""
     return case(name, change(DEPTH), second=change(NEXT), **others)
 
 
 def scaled(name: str, image: Any, scale: Any) -> Case:
-    """An update with a scale."""
+    """A case whose update has a depth scale."""
     return case(name, second=Made(lambda: Frame(depth=image, depth_scale=scale)))
 
 
 def colored(name: str, change: Callable[[Any], Any]) -> Case:
-    """Both depths changed, beside a picture of the unchanged ones."""
+    """A case with both depths changed, beside a picture of the unchanged ones."""
 
     def frame(meters: Any) -> Made:
         levels = np.nan_to_num(255 / 8 * meters).clip(0, 255).astype(np.uint8)
@@ -52,7 +52,7 @@ def colored(name: str, change: Callable[[Any], Any]) -> Case:
 
 
 def timed(name: str, first: Any, second: Any) -> Case:
-    """Timestamps."""
+    """A case with these timestamps."""
     return case(
         name,
         Made(lambda: Frame(depth=DEPTH, timestamp=first)),
@@ -137,7 +137,7 @@ CASES = (
 
 
 def framed(value: Any) -> Any:
-    """A frame of depth, or what a case makes instead."""
+    """A frame of depth, or what the case makes instead."""
     return made(value) if isinstance(value, Made) else Frame(depth=value)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Bad input of stereo pairs, and our trackers of it; run by bad_input.py."""
+"""Bad stereo pairs, and our trackers that take stereo; run by bad_input.py."""
 
 from collections.abc import Callable
 from typing import Any
@@ -25,7 +25,7 @@ SECONDS = 1 / 30
 
 
 def pair(left: Any, right: Any, seconds: Any = None) -> Made:
-    """A frame that is made when the case runs, so that what it refuses is seen."""
+    """A frame that is made when the case runs, so that its errors are reported."""
     return Made(lambda: Frame(left, right=right, timestamp=seconds))
 
 
@@ -33,22 +33,22 @@ GOOD, AFTER = pair(LEFT, RIGHT, 0.0), pair(NEXT, NEXT_RIGHT, SECONDS)
 
 
 def case(name: str, first: Any = GOOD, box: Any = BOX, second: Any = AFTER, **others: Any) -> Case:
-    """A case in which all else is as it should be."""
+    """A case in which everything else is valid."""
     return Case(name, first, box, second, **{"camera": RIG, **others})
 
 
 def later(name: str, left: Any = NEXT, right: Any = NEXT_RIGHT) -> Case:
-    """Another second stereo pair."""
+    """A case with a different second stereo pair."""
     return case(name, second=pair(left, right, SECONDS))
 
 
 def alone(name: str, image: Any) -> Case:
-    """An update with what isn't a stereo pair, or with what makes it."""
+    """A case whose update gets something that isn't a stereo pair, or a function that makes it."""
     return case(name, second=Made(image if callable(image) else lambda: image))
 
 
 def both(name: str, change: Callable[[Any], Any], **others: Any) -> Case:
-    """All four images changed."""
+    """A case with all four images changed."""
     first, second = pair(change(LEFT), change(RIGHT)), pair(change(NEXT), change(NEXT_RIGHT))
     return case(name, first, second=second, **others)
 
@@ -59,12 +59,12 @@ def gray(image: Any) -> Any:
 
 
 def darker(image: Any) -> Any:
-    """With two thirds of the light."""
+    """The image with two thirds of the light."""
     return (image // 3 * 2).astype(np.uint8)
 
 
 def rig(degrees: float, baseline: float) -> StereoRig:
-    """A rig of that angle of view."""
+    """A rig with this angle of view."""
     return StereoRig(Intrinsics.from_fov(WIDTH, HEIGHT, degrees), baseline)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The page in which one draws boxes, tracks, and corrects: ``tricue open`` (extra ``app``)."""
+"""The page for drawing boxes, tracking and correcting: ``tricue open`` (extra ``app``)."""
 
 import importlib.util
 from pathlib import Path
@@ -12,7 +12,7 @@ NEEDED = ("av", "starlette", "uvicorn", "websockets")
 
 
 def require() -> None:
-    """ImportError that names the extra where one of its packages is missing."""
+    """Raise ImportError, which names the extra, if one of its packages is missing."""
     missing = [name for name in NEEDED if importlib.util.find_spec(name) is None]
     if missing:
         raise ImportError(f"tricue open needs {', '.join(missing)}: pip install 'tricue[app]'")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a page can have done."""
+"""The commands that a page can send."""
 
 from collections.abc import Callable
 from typing import Any
@@ -11,7 +11,7 @@ from tricue.camera.box import as_box
 
 
 def do(serving: Serving, command: dict[str, Any]) -> dict[str, Any]:
-    """Have a command done; its answer. ValueError or TypeError for what is none."""
+    """Execute a command; return its answer. ValueError or TypeError for an invalid one."""
     name = command.pop("do", None)
     if name not in COMMANDS:
         raise ValueError(f"do: expected one of {', '.join(COMMANDS)}, got {name!r:.40}")
@@ -51,7 +51,7 @@ def _video(serving: Serving, trail: Any = False) -> None:
 
 
 def _select(serving: Serving) -> None:
-    """End the serving with the boxes that were drawn."""
+    """Stop serving, and return the drawn boxes."""
     if not serving.selecting:
         raise ValueError("do: this page wasn't opened to select boxes")
     targets = serving.session.project.targets
@@ -74,4 +74,4 @@ OF_SESSION: dict[str, Callable[..., dict[str, Any] | None]] = {
     "cancel-video": Session.cancel_video,
 }
 COMMANDS = {**OF_SESSION, "video": _video, "select": _select}
-"""What a page can have done; the values of a command are the function's arguments."""
+"""Functions by command; the values of a command are the function's arguments."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What leaves a project: tables and annotations as text, and the overlay video."""
+"""Exports of a project: tables and annotations as text, and the overlay video."""
 
 import csv
 import io
@@ -28,9 +28,9 @@ from tricue.track.base.track import Status, Track
 
 @dataclass(frozen=True)
 class Tracked:
-    """What an export is made of: the targets' tracks, and the recording that they were tracked in.
+    """The data for exports: the targets' tracks, and the recording that they were tracked in.
 
-    about: what the JSON says of the run. world: whether the camera's pose is known.
+    about: the JSON's entries about the run. world: whether the camera's pose is known.
     """
 
     project: Project
@@ -40,11 +40,11 @@ class Tracked:
 
     @property
     def form(self) -> TableForm:
-        """Of its tables."""
+        """The form of its tables."""
         return TableForm(self.world, several=True)
 
     def tracks(self) -> Iterator[tuple[int, Target, Track]]:
-        """Frame, target and track, by frame and then by id."""
+        """Frame, target and track, sorted by frame and then by id."""
         rows = [(at, target.id) for target in self.project.targets for at in target.tracks]
         by_id = {target.id: target for target in self.project.targets}
         for at, number in sorted(rows):
@@ -53,7 +53,7 @@ class Tracked:
 
 @dataclass(frozen=True)
 class Export:
-    """A kind of text that a project can be written as: the end of the file's name, its type, the function."""
+    """A text format for a project: the ending of the file's name, its media type, and the function."""
 
     suffix: str
     media_type: str
@@ -70,7 +70,7 @@ def as_csv(tracked: Tracked) -> str:
 
 
 def as_json(tracked: Tracked) -> str:
-    """One object: what is known of the run, its targets, and "tracks", objects with the columns as keys."""
+    """One object: the run, its targets, and "tracks", objects with the columns as keys."""
     targets = [
         {"id": target.id, "name": target.name, "tracker": target.tracker}
         for target in tracked.project.targets
@@ -108,10 +108,10 @@ EXPORTS = {
 
 
 def write_video(path: Path, tracked: Tracked, progress: Callable[[int], bool], trail: bool = False) -> str:
-    """Write the overlay video of all frames; what OverlayWriter says about the file.
+    """Write the overlay video of all frames; return OverlayWriter's note about the file.
 
-    progress: called with the number of frames written; False from it ends the writing. trail: whether the
-    targets' trails are drawn.
+    progress: called with the number of frames written; it returns False to stop. trail: whether to draw the
+    targets' trails.
     """
     from tricue.draw.video import OverlayWriter
 
@@ -130,9 +130,10 @@ def write_video(path: Path, tracked: Tracked, progress: Callable[[int], bool], t
 def draw_targets(
     frame: Frame, tracks: Sequence[tuple[Target, Track]], trails: Mapping[int, Trail] | None = None
 ) -> Image:
-    """The frame's image, enlarged if it is small, with each target's box and name, and what isn't tracked.
+    """The frame's image, enlarged if it is small, with each target's box, its name, and its status unless
+    TRACKED.
 
-    trails: those to be drawn, by the targets' ids.
+    trails: to draw, by the targets' ids.
     """
     image = picture(frame)
     scale = choose_scale(*image.shape[:2])
@@ -157,7 +158,7 @@ def boxed_channel(frame: Frame) -> str:
 def picture(frame: Frame, channel: str | None = None, span: tuple[float, float] | None = None) -> Image:
     """A channel of a frame as BGR; by default the one in whose pixels boxes are.
 
-    span: the depths of the nearest and the farthest color, meters. ValueError for a channel that isn't there.
+    span: the depths of the nearest and the farthest color, meters. ValueError for a missing channel.
     """
     name = channel or boxed_channel(frame)
     image: NDArray[Any] | None = getattr(frame, name) if name in ("color", "depth", "right") else None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What pages are told of a session over their WebSockets: the state, tracks, pictures of a run, errors."""
+"""Sends pages the news of a session over WebSockets: the state, tracks, pictures of a run, errors."""
 
 import asyncio
 import math
@@ -17,7 +17,7 @@ from tricue.app.serving import Serving
 from tricue.app.web import jpeg, talk, tell
 from tricue.track.base.track import Status, Track
 
-LIVE_INTERVAL = 0.08  # seconds between what a page is told of a run
+LIVE_INTERVAL = 0.08  # seconds between messages about a run
 STATUSES = tuple(Status)
 
 
@@ -29,17 +29,17 @@ async def tell_page(serving: Serving, socket: WebSocket) -> None:
 
 
 class _Page:
-    """What one page has been told, so that it is told only what is new."""
+    """What one page has been sent, so that only news is sent."""
 
     def __init__(self, serving: Serving, socket: WebSocket) -> None:
         self.serving, self.socket = serving, socket
-        self.known: dict[int, Any] = {}  # the tracks of each target
+        self.known: dict[int, Any] = {}  # the tracks of each target that were sent
         self.state: dict[str, Any] | None = None
         self.run: Run | None = None
-        self.found = 0  # tracks of the run
-        self.mixed: set[int] = set()  # targets of which some of the run's tracks were told
+        self.found = 0  # how many of the run's tracks were sent
+        self.mixed: set[int] = set()  # targets with some of the run's tracks sent
         self.errors = len(serving.session.errors)
-        self.shown, self.sent = True, -1  # whether the last picture has arrived, and its frame
+        self.shown, self.sent = True, -1  # whether the last picture was shown, and its frame
 
     def hear(self, message: Any) -> None:
         """The page has shown a picture."""
@@ -51,7 +51,7 @@ class _Page:
         await tell(self.socket, {"type": "times", "times": times})
         await self._tell_state(await run_in_threadpool(state, self.serving))
         while True:
-            now = await run_in_threadpool(state, self.serving)  # before the tracks, which have all of it then
+            now = await run_in_threadpool(state, self.serving)  # before the tracks, which then have all of it
             await self._tell_tracks()
             await self._tell_run(self.serving.session.run)
             await self._tell_state(now)
@@ -63,7 +63,7 @@ class _Page:
             self.run, self.found, self.sent = run, 0, -1
         if run is None:
             return
-        latest = run.latest  # before the tracks, so that its own are among them
+        latest = run.latest  # before the tracks, so that they include its own
         count = len(run.found)
         tracks, self.found = run.tracks(self.found, count), count
         self.mixed |= tracks.keys()
@@ -84,11 +84,11 @@ class _Page:
         if now != self.state:
             self.state = now
             await tell(self.socket, {"type": "state", **now})
-            there = {each["id"] for each in now["targets"]}  # the page forgets the tracks of others
+            there = {each["id"] for each in now["targets"]}  # the page forgets the tracks of all others
             self.known = {number: tracks for number, tracks in self.known.items() if number in there}
 
     async def _tell_tracks(self) -> None:
-        over = self.serving.session.run is not self.run  # and maybe undone
+        over = self.serving.session.run is not self.run  # and perhaps undone
         for target in self.serving.session.history.present.targets:
             if self.known.get(target.id) is not target.tracks or (over and target.id in self.mixed):
                 self.known[target.id] = target.tracks
@@ -104,9 +104,9 @@ class _Page:
 
 
 def state(serving: Serving) -> dict[str, Any]:
-    """All that a page shows but tracks: the recording, the targets, the run, what can be done."""
+    """Everything that a page shows except tracks: the recording, targets, the run, possible commands."""
     session = serving.session
-    # A run may end meanwhile. Read in this order, none is told as on and as ended at once.
+    # A run may end meanwhile. Read in this order, it is never reported as both running and ended.
     last, ended = session.last_run, session.runs
     run, recording, history, job = session.run, session.recording, session.history, session.job
     source = recording.source
@@ -140,7 +140,7 @@ def state(serving: Serving) -> dict[str, Any]:
 
 
 def _times(recording: Recording) -> list[float]:
-    """The frames' times from the first one on; those of robots' recordings are seconds since 1970."""
+    """The frames' times relative to the first; those of robot recordings are seconds since 1970."""
     begin = recording.seconds(0)
     return [round(recording.seconds(number) - begin, 4) for number in range(recording.length)]
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Any frame of a recording at once, whatever it is: a video, a folder of images, a robot's recording."""
+"""Random access to the frames of any recording: a video, a folder of images, a robot recording."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -16,13 +16,13 @@ from tricue.data.recordings.seekable import SeekableChannel, SeekableRecording
 from tricue.data.source import Source
 from tricue.data.streams import Stream, Video
 
-MAX_UNREADABLE = 30  # frames in a row, after which a recording is broken
+MAX_UNREADABLE = 30  # consecutive frames, after which a recording counts as broken
 
 
 class Recording:
-    """The frames of a source in any order, with their number known. One thread uses it at a time.
+    """A source's frames in any order, with a known number of frames. For one thread at a time.
 
-    ValueError for a live camera, for one without frames, and where the channels differ in length.
+    ValueError for a live camera, for a source without frames, and if the channels differ in length.
     """
 
     def __init__(self, source: Source) -> None:
@@ -45,8 +45,8 @@ class Recording:
         return other
 
     def frame(self, number: int) -> Frame:
-        """One frame by its number from 0; ValueError for one of another size than the first, in whose pixels
-        boxes are.
+        """One frame by its number from 0; ValueError if its size differs from the first one's, in whose
+        pixels boxes are.
         """
         frame = self._read(number)
         if (size := _size_of(frame)) != self.size:
@@ -68,10 +68,11 @@ class Recording:
         return number / self.source.fps
 
     def frames(self, start: int, stop: int) -> Iterator[tuple[int, Frame]]:
-        """Frames with their numbers from ``start`` to before ``stop``, backwards if that is less.
+        """Frames with their numbers from ``start`` to before ``stop``, backward if that is less.
 
-        Backwards, time runs on as if the recording were mirrored: trackers know no other. Frames that
-        :meth:`frame` refuses are left out; ValueError for the first one, and for MAX_UNREADABLE in a row.
+        Backward, time increases as if the recording were mirrored, because trackers need increasing times.
+        Frames that :meth:`frame` refuses are left out; ValueError for the first one, and for MAX_UNREADABLE
+        in a row.
         """
         step = 1 if stop > start else -1
         unreadable = 0
@@ -100,7 +101,7 @@ def image_of(frame: Frame) -> NDArray[Any]:
 
 
 def _seekable(source: Source) -> dict[str, Stream]:
-    """The source's channels as streams whose images can be had in any order, where that is possible."""
+    """The source's channels as streams whose images can be had in any order, if possible."""
     joints: dict[int, SeekableRecording] = {}
 
     def seekable(stream: Stream) -> Stream:
@@ -117,7 +118,7 @@ def _seekable(source: Source) -> dict[str, Stream]:
 
 
 def _again(source: Source) -> dict[str, Stream]:
-    """The channels for another thread; those that are read together still are."""
+    """The channels for another thread; channels that are read together stay together."""
     joints: dict[int, SeekableRecording] = {}
 
     def again(stream: Stream) -> Stream:

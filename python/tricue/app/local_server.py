@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""An HTTP server on 127.0.0.1, at a port of one's own choice or a free one, until it is ended."""
+"""An HTTP server on 127.0.0.1, at a chosen or a free port, until it is stopped."""
 
 import errno
 import logging
@@ -18,12 +18,12 @@ from starlette.types import ASGIApp
 
 ADDRESS = "127.0.0.1"
 DEFAULT_PORT, MAX_PORT = 8765, 65535
-CLOSING_TIME = 2  # seconds that open connections get at the end
+CLOSING_TIME = 2  # seconds for open connections to finish at the end
 
 
 @dataclass(kw_only=True)
 class Served:
-    """What is served: its token, the folder that it may write to meanwhile, and what ends the serving."""
+    """What is served: its token, a folder for temporary files, and a function that stops it."""
 
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
     folder: Path = field(default_factory=lambda: Path(tempfile.gettempdir()))
@@ -40,8 +40,8 @@ def serve_until_ended(
 ) -> None:
     """Serve until Ctrl-C or ``finish``.
 
-    port: None for DEFAULT_PORT, or a free one where that is in use. browser: whether to open a browser. say:
-    gets the line with the address, announce: the address. OSError where the port is in use.
+    port: None for DEFAULT_PORT, or a free one if that is in use. browser: whether to open a browser. say:
+    gets the line with the address, announce: the address. OSError if the port is in use.
     """
     with listening(port) as listener, tempfile.TemporaryDirectory(prefix="tricue-") as folder:
         served.folder = Path(folder)
@@ -67,7 +67,7 @@ def serve_until_ended(
 
 @contextmanager
 def _quiet_at_the_end(server: uvicorn.Server) -> Iterator[None]:
-    """Keep uvicorn from telling of the requests that it ends with itself; other errors are told."""
+    """Keep uvicorn from logging the requests that it aborts at its end; other errors are logged."""
 
     def is_told(_: logging.LogRecord) -> bool:
         return not server.should_exit
@@ -81,7 +81,7 @@ def _quiet_at_the_end(server: uvicorn.Server) -> Iterator[None]:
 
 
 def listening(port: int | None) -> socket.socket:
-    """A socket at this port; without a wish at the default one, or at a free one if that is in use."""
+    """A socket at this port; for None at the default one, or at a free one if that is in use."""
     if port is not None and not 0 <= port <= MAX_PORT:
         raise ValueError(f"--port {port}: expected a port from 0 to {MAX_PORT}")
     try:
@@ -95,6 +95,6 @@ def listening(port: int | None) -> socket.socket:
 
 
 def show(url: str, browser: bool) -> None:
-    """Open the page, if it is wished."""
+    """Open the page, if requested."""
     if browser:
         webbrowser.open(url)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A project: targets with their drawn boxes and tracks, as a value, and the history that undo walks."""
+"""A project, immutable: targets with their drawn boxes and tracks; and the undo history."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -15,9 +15,9 @@ MAX_UNDO = 200  # steps
 
 @dataclass(frozen=True)
 class Target:
-    """One target: ``drawn`` has the boxes that the user drew, ``tracks`` what is known, by frame.
+    """One target: ``drawn`` has the boxes that the user drew, ``tracks`` all known tracks, by frame.
 
-    A drawn box is also in ``tracks``, with score 1, until the tracker that starts on it gives its own.
+    A drawn box is also in ``tracks``, with score 1, until the tracker that starts on it gives its own track.
     """
 
     id: int
@@ -34,13 +34,13 @@ class Target:
 
 @dataclass(frozen=True)
 class Project:
-    """The targets, in order of their ids, and the id that the next one gets: ids are never used again."""
+    """The targets, in order of their ids, and the next one's id; ids are never reused."""
 
     targets: tuple[Target, ...] = ()
     next_id: int = 1
 
     def target(self, number: int) -> Target:
-        """The target of an id; ValueError where there is none."""
+        """The target of an id; ValueError if there is none."""
         for target in self.targets:
             if target.id == number:
                 return target
@@ -48,18 +48,18 @@ class Project:
 
 
 def add_target(project: Project, frame: int, box: Any, tracker: str) -> Project:
-    """A new target, with a box drawn in a frame; BoxError for no box."""
+    """The project with a new target, with a box drawn in a frame; BoxError for an invalid box."""
     new = Target(project.next_id, f"Target {project.next_id}", tracker)
     return Project((*project.targets, _with_drawn(new, frame, as_box(box))), project.next_id + 1)
 
 
 def draw_box(project: Project, number: int, frame: int, box: Any) -> Project:
-    """The box of a target in a frame, drawn or drawn anew."""
+    """The project with a target's box in a frame drawn or redrawn."""
     return _changed(project, number, lambda target: _with_drawn(target, frame, as_box(box)))
 
 
 def erase_box(project: Project, number: int, frame: int) -> Project:
-    """A target without its drawn box, and track, in a frame; ValueError where it has none."""
+    """The project without a target's drawn box and track in a frame; ValueError if it has none."""
 
     def without(target: Target) -> Target:
         if frame not in target.drawn and frame not in target.tracks:
@@ -78,27 +78,27 @@ def delete_target(project: Project, number: int) -> Project:
 
 
 def checked_name(name: Any) -> str:
-    """A target's name with single spaces; ValueError for none, or one of more than MAX_NAME characters."""
+    """A target's name with single spaces; ValueError if it is empty or longer than MAX_NAME characters."""
     words = " ".join(name.split()) if isinstance(name, str) else ""
-    words = words.encode(errors="replace").decode()  # half of a character couldn't be written to a file
+    words = words.encode(errors="replace").decode()  # a lone surrogate couldn't be written to a file
     if not 0 < len(words) <= MAX_NAME:
         raise ValueError(f"name: expected 1 to {MAX_NAME} characters, got {name!r:.100}")
     return words
 
 
 def rename_target(project: Project, number: int, name: Any) -> Project:
-    """The target by another name, of 1 to MAX_NAME characters."""
+    """The project with a target renamed; 1 to MAX_NAME characters."""
     words = checked_name(name)
     return _changed(project, number, lambda target: replace(target, name=words))
 
 
 def choose_tracker(project: Project, number: int, tracker: str) -> Project:
-    """The target followed by another tracker from its next run on."""
+    """The project with another tracker for a target, from its next run on."""
     return _changed(project, number, lambda target: replace(target, tracker=tracker))
 
 
 def add_tracks(project: Project, found: Mapping[int, Mapping[int, Track]]) -> Project:
-    """The project with these tracks, by target and frame, in place of those before."""
+    """The project with these tracks, by target and frame, replacing existing ones."""
     return replace(
         project,
         targets=tuple(
@@ -111,7 +111,7 @@ def add_tracks(project: Project, found: Mapping[int, Mapping[int, Track]]) -> Pr
 
 
 def cut(project: Project, length: int) -> Project:
-    """The project without what is in frames from this one on."""
+    """The project limited to its first ``length`` frames."""
 
     def before(values: Mapping[int, Any]) -> Mapping[int, Any]:
         return _frozen({at: value for at, value in values.items() if at < length})
@@ -126,34 +126,34 @@ def cut(project: Project, length: int) -> Project:
 
 @dataclass(frozen=True)
 class History:
-    """The present project, and those that undo and redo lead to."""
+    """The present project, and those to which undo and redo lead."""
 
     present: Project = field(default_factory=Project)
     past: tuple[Project, ...] = ()
     future: tuple[Project, ...] = ()
 
     def do(self, project: Project) -> "History":
-        """A step to this project; the same one is no step."""
+        """Add a step to this project; an unchanged project adds none."""
         if project == self.present:
             return self
         return self.step().amend(project)
 
     def step(self) -> "History":
-        """A step whose project comes bit by bit, by :meth:`amend`."""
+        """Add a step whose project grows by :meth:`amend`."""
         return History(self.present, (*self.past, self.present)[-MAX_UNDO:])
 
     def amend(self, project: Project) -> "History":
-        """The same step, to this project."""
+        """Change the last step to lead to this project."""
         return History(project, self.past)
 
     def undo(self) -> "History":
-        """A step back, if there is one."""
+        """Go back a step, if there is one."""
         if not self.past:
             return self
         return History(self.past[-1], self.past[:-1], (self.present, *self.future))
 
     def redo(self) -> "History":
-        """The step that was undone last, again."""
+        """Redo the step that was undone last."""
         if not self.future:
             return self
         return History(self.future[0], (*self.past, self.present), self.future[1:])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The file of a project, beside its video: read, written whole, and tied to the video it was made for."""
+"""The file of a project, beside its video: read, written atomically, and tied to its video."""
 
 import hashlib
 import json
@@ -23,14 +23,14 @@ from tricue.track.base.track import Status, Track
 
 SUFFIX = ".tricue.json"
 FORMAT = 1
-MAX_NAME_BYTES = 225  # of a project's name: file systems take 255, and some are added to it for a while
-SAMPLES, SAMPLE_BYTES = 16, 1 << 16  # of a video, that tell it from another of the same length
+MAX_NAME_BYTES = 225  # of a project's file name: file systems allow 255, and some are added temporarily
+SAMPLES, SAMPLE_BYTES = 16, 1 << 16  # of a video, to distinguish it from another of the same length
 COLUMNS = "frame status score x y width height [X Y Z] [XX XY XZ YY YZ ZZ] depth"
 
 
 @dataclass(frozen=True)
 class Footprint:
-    """What tells a recording from another: its bytes, samples of them, its frames and their size."""
+    """Identifies a recording: its number of bytes, samples of them, its frames and their size."""
 
     name: str
     bytes: int
@@ -41,7 +41,7 @@ class Footprint:
     height: int
 
     def differences(self, before: "Footprint") -> list[str]:
-        """How it differs from what it was, in words; a copy with another time of change doesn't."""
+        """The differences from an earlier footprint, in words; a different modification time isn't one."""
         found = []
         if self.frames != before.frames:
             found.append(f"{before.frames} frames then, {self.frames} now")
@@ -55,7 +55,7 @@ class Footprint:
 
 
 def footprint(place: Path, frames: int, size: tuple[int, int]) -> Footprint:
-    """The footprint of a video file or a folder; a folder's sample are its images' names and sizes."""
+    """The footprint of a video file or a folder; a folder's samples are its images' names and sizes."""
     stat = place.stat()
     if place.is_dir():
         files = image_paths(place) or sorted(each for each in place.rglob("*") if each.is_file())
@@ -84,13 +84,13 @@ def readable(name: Path | str) -> str:
 
 
 def path_beside(place: Path) -> Path:
-    """Where a recording's project is if it can be there."""
+    """The path of a recording's project beside it."""
     place = place.resolve()
     return place.with_name(place.name + SUFFIX)
 
 
 def project_path(place: Path) -> Path:
-    """Where a recording's project is: beside it, or in the user's data folder where that can't be written."""
+    """The path of a recording's project: beside it, or in the user's data folder if that isn't writable."""
     beside = path_beside(place)
     fits = len(os.fsencode(beside.name)) <= MAX_NAME_BYTES
     if fits and all(os.access(each, os.W_OK) for each in (beside.parent, beside) if each.exists()):
@@ -101,7 +101,7 @@ def project_path(place: Path) -> Path:
 
 
 def data_folder() -> Path:
-    """The user's folder for data of tricue, made if it isn't there."""
+    """The user's data folder for tricue, created if missing."""
     if sys.platform == "win32":
         base = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
     elif sys.platform == "darwin":
@@ -114,9 +114,9 @@ def data_folder() -> Path:
 
 
 def load(path: Path, pose: Pose | None = None) -> tuple[Project, Footprint]:
-    """A project and the footprint of its video; ValueError for a file that isn't one.
+    """A project and the footprint of its video; ValueError for a file that isn't a project.
 
-    pose: of the camera, which tracks with a position get.
+    pose: the camera's, added to tracks with a position.
     """
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
@@ -135,8 +135,8 @@ def load(path: Path, pose: Pose | None = None) -> tuple[Project, Footprint]:
 
 
 def save(path: Path, project: Project, video: Footprint) -> None:
-    """Write the project: the file has all of it, or all of what it was before."""
-    path = path.resolve()  # a link stays one
+    """Write the project atomically: the file has all of it, or stays as it was."""
+    path = path.resolve()  # a link stays a link
     part = path.with_name(f".{path.name}.part")
     try:
         with part.open("w", encoding="utf-8") as file:
@@ -150,7 +150,7 @@ def save(path: Path, project: Project, video: Footprint) -> None:
 
 
 def put_aside(path: Path) -> Path:
-    """Rename a project that isn't to be overwritten; its new path."""
+    """Rename a project that must not be overwritten; return its new path."""
     count = 1
     while (kept := path.with_name(path.name.removesuffix(SUFFIX) + f".{count}{SUFFIX}")).exists():
         count += 1
@@ -158,7 +158,7 @@ def put_aside(path: Path) -> Path:
 
 
 def _lines(project: Project, video: Footprint) -> Iterator[str]:
-    """The file's text: an entry a line, a track a line."""
+    """The file's text: one line per entry and per track."""
     import tricue
 
     yield f'{{\n "tricue": {json.dumps(tricue.__version__)},\n "format": {FORMAT},\n'
@@ -176,7 +176,7 @@ def _lines(project: Project, video: Footprint) -> Iterator[str]:
 
 
 def row(frame: int, track: Track) -> list[Any]:
-    """A track as in the file; what was not measured is left out at the end."""
+    """A track's values in the file, without missing ones at the end."""
     values: list[Any] = [frame, str(track.status), round(track.score, 6), *_rounded(track.box)]
     if track.position is None and track.depth is None:
         return values

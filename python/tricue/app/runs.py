@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs of trackers over a recording, forwards or backwards, which can be paused and go on."""
+"""Runs of trackers over a recording, forward or backward, which can be paused and resumed."""
 
 import threading
 import time
@@ -22,7 +22,7 @@ Report = Callable[[Exception, str], None]
 
 @dataclass
 class Run:
-    """A tracking run: ``found`` grows while it lasts, frame by frame. step: 1, or -1 backwards."""
+    """A tracking run; ``found`` grows frame by frame while it runs. step: 1, or -1 backward."""
 
     start: int
     step: Direction
@@ -36,11 +36,11 @@ class Run:
 
     @property
     def reached(self) -> int:
-        """The last frame in which it has found a target."""
+        """The last frame in which it has a track."""
         return self.found[-1][1] if self.found else self.start
 
     def tracks(self, first: int = 0, end: int | None = None) -> dict[int, dict[int, Track]]:
-        """Those found, from the ``first`` to before the ``end``, by target and frame."""
+        """The tracks found, from index ``first`` to before ``end``, by target and frame."""
         by_target: dict[int, dict[int, Track]] = {}
         for number, at, track in self.found[first:end]:
             by_target.setdefault(number, {})[at] = track
@@ -49,7 +49,7 @@ class Run:
 
 @dataclass(frozen=True)
 class Paused:
-    """A tracker that can go on where it stopped, as long as its last track is still the one shown."""
+    """A tracker that can resume where it stopped, as long as its last track is still the shown one."""
 
     tracker: Tracker
     frame: int
@@ -59,10 +59,9 @@ class Paused:
 
 
 class Follower:
-    """Makes the trackers, and runs them until each target's next drawn box.
+    """Creates the trackers, and runs them until each target's next drawn box.
 
-    cameras: the trackers' keywords intrinsics or rig, where they are known. report: gets a tracker's error,
-    and where it was.
+    cameras: the trackers' keywords intrinsics or rig, if known. report: gets a tracker's error and its place.
     """
 
     def __init__(self, recording: Recording, cameras: Mapping[str, Any], seed: int, report: Report) -> None:
@@ -74,13 +73,13 @@ class Follower:
         return has_box(target, frame) or self._resumed(target, frame, step) is not None
 
     def end(self, target: Target, frame: int, step: Direction) -> int:
-        """The frame before which a run of a target ends: its next drawn box, or that beyond the last one."""
+        """The frame before which a target's run ends: its next drawn box, or the end of the recording."""
         last = self.recording.length if step > 0 else -1
         drawn = target.next_drawn(frame, step)
         return last if drawn is None else drawn
 
     def follow(self, run: Run, targets: Sequence[Target]) -> None:
-        """Follow the targets; what is found is put into the run while it lasts."""
+        """Follow the targets, adding tracks to the run as they are found."""
         ends = {each.id: self.end(each, run.start, run.step) for each in targets}
         stop = max(end * run.step for end in ends.values()) * run.step
         resumed = {each.id: self._resumed(each, run.start, run.step) for each in targets}
@@ -98,12 +97,12 @@ class Follower:
                 if run.stop.is_set() or not following:
                     return
         if run.latest is not None and run.latest[0] != stop - run.step:
-            recording.frame(stop - run.step)  # its error tells why the run ended before
+            recording.frame(stop - run.step)  # raises the reason why the run ended early
 
     def _step(
         self, run: Run, target: Target, following: dict[int, Tracker], number: int, frame: Frame
     ) -> None:
-        """One target in one frame; an error ends the run for this target alone."""
+        """Follow one target into one frame; an error ends the run only for this target."""
         tracker, before = following[target.id], time.perf_counter()
         try:
             if number == run.start:
@@ -119,7 +118,7 @@ class Follower:
             self.report(error, f"{target.name}, {target.tracker}, frame {number}: ")
             return
         if not self.cameras:
-            track = track.in_image()  # in a default camera, positions would be no meters
+            track = track.in_image()  # with a default camera, positions wouldn't be in meters
         run.seconds += time.perf_counter() - before
         run.updates += 1
         run.found.append((target.id, number, track))
@@ -129,7 +128,7 @@ class Follower:
         return make_tracker(target.tracker, self.recording.source, self.cameras, self.seed)
 
     def _resumed(self, target: Target, frame: int, step: Direction) -> Tracker | None:
-        """The tracker that paused in this frame, if nothing was changed there since."""
+        """The tracker that paused in this frame, if nothing has changed there since."""
         paused = self._paused.get(target.id)
         if paused is None or (paused.frame, paused.step, paused.name) != (frame, step, target.tracker):
             return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Saves a project as it changes, in a thread: after each change, and now and then while a tracker runs."""
+"""Saves a project in a thread: after each change, and from time to time while a tracker runs."""
 
 import threading
 import time
@@ -11,17 +11,17 @@ from tricue.app.project import Project
 from tricue.app.project_file import Footprint
 from tricue.errors import one_line
 
-SAVE_INTERVAL = 2.0  # seconds between savings while a tracker runs
-MAX_SAVE_SHARE = 0.1  # of the time while a tracker runs
+SAVE_INTERVAL = 2.0  # seconds between saves while a tracker runs
+MAX_SAVE_SHARE = 0.1  # of the time, while a tracker runs
 
 
 class Saver:
-    """Keeps a project's file up to date; a file that another program has changed isn't overwritten.
+    """Keeps a project's file up to date; it doesn't overwrite a file that another program changed.
 
-    path: the file, None to keep nothing. present: gives the project to be saved, None for not now. growing:
-    whether the project changes by itself. report: gets an error of writing.
-    version: counts the changes. saved: whether all of them are in the file. failed: why they aren't, "" while
-    writing does; it is tried again and again.
+    path: the file, None to save nothing. present: returns the project to save, None for not now. growing:
+    whether the project changes by itself. report: gets write errors.
+    version: counts the changes. saved: whether all of them are in the file. failed: why writing fails, ""
+    while it works; it is retried.
     """
 
     def __init__(
@@ -34,26 +34,26 @@ class Saver:
     ) -> None:
         self.path, self.footprint = path, footprint
         self.version, self.saved, self.failed = 0, True, ""
-        self._tried = 0  # the version that was to be written last
+        self._tried = 0  # the version of the last attempt to write
         self._present, self._growing, self._report = present, growing, report
-        self._written_at: int | None = None  # the file's time of change after our last saving
+        self._written_at: int | None = None  # the file's modification time after our last save
         self._wake = threading.Condition()
         self._closed = False
         self._thread = threading.Thread(target=self._save_on_and_on, name="saver", daemon=True)
 
     def start(self) -> None:
-        """Begin to save."""
+        """Start saving."""
         self._thread.start()
 
     def changed(self, save: bool = True) -> None:
-        """The project has changed. save: whether that is to be written."""
+        """Notify of a change of the project. save: whether to write it."""
         with self._wake:
             self.version += 1
             self.saved = self.saved and not save
             self._wake.notify()
 
     def known(self) -> None:
-        """What is in the file now was read, or is ours."""
+        """Note that the file's present content was read or written by us."""
         self._written_at = None if self.path is None or not self.path.exists() else _time_of(self.path)
 
     def close(self) -> None:

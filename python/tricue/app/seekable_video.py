@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Any frame of a video file, exactly and at once: it is sought by the key frames."""
+"""Exact random access to the frames of a video file, by seeking to key frames."""
 
 import os
 from collections import OrderedDict
@@ -17,18 +17,18 @@ from numpy.typing import NDArray
 
 from tricue.data.streams import FIRST_FRAMES, Image, checked_fps, plausible_fps
 
-KEPT_BYTES = 128 << 20  # of decoded frames, in YUV: what stepping back and tracking backwards fall back on
-MIN_KEPT = 4  # frames, however large
+KEPT_BYTES = 128 << 20  # of decoded frames, in YUV, kept for stepping and tracking backward
+MIN_KEPT = 4  # frames to keep, however large
 GUESSED_TIMES = {("avi", "h264"), ("avi", "hevc")}
-"""Containers without times for codecs that reorder frames: after a seek FFmpeg guesses, and guesses wrong."""
+"""Containers without timestamps for codecs that reorder frames: after a seek FFmpeg guesses them wrong."""
 
 
 @dataclass(frozen=True)
 class VideoIndex:
-    """When the frames of a video are shown, from its packets.
+    """The display times of a video's frames, from its packets.
 
-    times: (N,) int64, rising, in units of ``unit`` seconds. keys: the numbers of the key frames, the first of
-    which is 0. Without times that tell the frames apart, frames are counted from the video's start.
+    times: (N,) int64, ascending, in units of ``unit`` seconds. keys: the numbers of the key frames, the first
+    of which is 0. Without unique times, frames are counted from the video's start.
     """
 
     times: NDArray[np.int64]
@@ -38,16 +38,16 @@ class VideoIndex:
     timed: bool
 
     def key_before(self, number: int) -> int:
-        """The number of the last key frame up to this frame."""
+        """The number of the last key frame at or before this frame."""
         return int(self.keys[np.searchsorted(self.keys, number, side="right") - 1])
 
     def seconds(self, number: int) -> float:
-        """From the first frame on."""
+        """The time since the first frame."""
         return float((int(self.times[number]) - int(self.times[0])) * self.unit)
 
 
 def read_index(path: Path) -> VideoIndex:
-    """Read all packets of a video once, decoding none; ValueError where it holds no frames."""
+    """Read all packets of a video once, without decoding; ValueError if it has no frames."""
     with _opened(path) as container:
         stream = container.streams.video[0]
         packets = [
@@ -66,7 +66,7 @@ def read_index(path: Path) -> VideoIndex:
     if guessed or len(set(shown)) < len(packets):
         step = Fraction(1) / Fraction(fps or 30.0).limit_denominator(1001)
         return VideoIndex(np.arange(len(packets)), np.zeros(1, np.int64), step, fps, False)
-    start = packets[0][0] or 0  # frames shown before the first key frame depend on one that is missing
+    start = packets[0][0] or 0  # frames shown before the first key frame depend on a missing one
     times = np.array(sorted(pts for pts in shown if pts >= start), np.int64)
     keys = np.array(sorted(pts for pts, is_key in packets if is_key and pts is not None), np.int64)
     fps = checked_fps(fps, [float(time * unit) for time in times[:FIRST_FRAMES].tolist()])
@@ -74,11 +74,11 @@ def read_index(path: Path) -> VideoIndex:
 
 
 class SeekableVideo:
-    """A video file whose frames can be had in any order; a stream as those of :mod:`tricue.data.streams`.
+    """A video file whose frames can be read in any order; a stream, see :mod:`tricue.data.streams`.
 
     The images are those that :class:`tricue.data.streams.Video` gives. It decodes from the key frame before
-    the wanted one and keeps the last frames that it decoded. Used by one thread at a time: :meth:`again`
-    is for another. ValueError names a frame that can't be decoded.
+    the wanted frame, and keeps the last decoded frames. For one thread at a time; :meth:`again` gives one for
+    another thread. ValueError names a frame that can't be decoded.
     """
 
     def __init__(self, path: Path, index: VideoIndex | None = None) -> None:
@@ -87,10 +87,10 @@ class SeekableVideo:
         self.fps, self.timed = self.index.fps or 30.0, self.index.timed
         self._numbers = {int(time): number for number, time in enumerate(self.index.times)}
         self._container: Any = None
-        self._reformatter = VideoReformatter()  # one for all frames: to make it takes longer than to use it
+        self._reformatter = VideoReformatter()  # one for all, as creating it takes longer than its use
         self._kept: OrderedDict[int, Any] = OrderedDict()
         self._decoded: Iterator[tuple[int, Any]] = iter(())
-        self._coming: int | None = None  # the least number that may come next
+        self._coming: int | None = None  # the smallest number that may come next
 
     @property
     def length(self) -> int:
@@ -126,7 +126,7 @@ class SeekableVideo:
         return self._kept[number]
 
     def _decode_to(self, number: int) -> bool:
-        """Decode up to the frame; False where the video has it not."""
+        """Decode up to the frame; False if the video doesn't have it."""
         key = self.index.key_before(number)
         if self._coming is None or not key <= self._coming <= number:
             self._seek(key)
@@ -147,9 +147,9 @@ class SeekableVideo:
             self._kept.popitem(last=False)
 
     def _seek(self, key: int) -> None:
-        """Go to a key frame, or, where the file's own index leads beyond it, to one before."""
+        """Seek to a key frame, or to an earlier one if the file's own index leads past it."""
         while True:
-            self._decoded = iter(())  # which lets go of the decoder
+            self._decoded = iter(())  # releases the decoder
             self._decoded = self._numbered(key)
             first = next(self._decoded, None)
             if key == 0 or (first is not None and first[0] <= key):
@@ -161,7 +161,7 @@ class SeekableVideo:
 
     def _numbered(self, key: int) -> Iterator[tuple[int, Any]]:
         """Decoded frames with their numbers, from a key frame on."""
-        from_start = key == 0 or not self.index.timed  # where some containers can't be sought to
+        from_start = key == 0 or not self.index.timed  # some containers can't seek there
         if self._container is not None and from_start:
             self._container.close()
             self._container = None
@@ -200,7 +200,7 @@ def _opened(path: Path) -> Any:
 
 
 def _packets(container: Any, stream: Any) -> Iterator[Any]:
-    """The packets up to where the file is cut off or damaged."""
+    """The packets up to where the file is truncated or damaged."""
     try:
         yield from container.demux(stream)
     except av.error.FFmpegError:
@@ -208,7 +208,7 @@ def _packets(container: Any, stream: Any) -> Iterator[Any]:
 
 
 def _frames(container: Any, stream: Any) -> Iterator[Any]:
-    """The frames that can be decoded; packets that can't are left out."""
+    """The decodable frames; packets that can't be decoded are skipped."""
     packets = container.demux(stream)
     while True:
         try:

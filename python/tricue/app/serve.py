@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Serves a session on 127.0.0.1 until it is ended; a second server of one project finds the first."""
+"""Serves a session on 127.0.0.1 until it is stopped; a second server for the same project finds the first."""
 
 import hashlib
 import json
@@ -34,11 +34,11 @@ def serve_project(
     notes: tuple[str, ...] = (),
     say: Callable[[str], None] = print,
 ) -> None:
-    """Serve a recording's project until Ctrl-C; if it is served already, open that page and return.
+    """Serve a recording's project until Ctrl-C; if it is already served, open that page and return.
 
-    port: None for DEFAULT_PORT, or a free one where that is in use. cameras: the trackers' keywords
-    intrinsics or rig. tracker: what new targets begin with. say: gets the lines for the user.
-    OSError where the port is in use.
+    port: None for DEFAULT_PORT, or a free one if that is in use. cameras: the trackers' keywords intrinsics
+    or rig. tracker: the default for new targets. say: gets the lines for the user.
+    OSError if the port is in use.
     """
     path = project_path(place)
     with _only_server(path) as own:
@@ -57,7 +57,7 @@ def serve_project(
 
 
 def _begun(path: Path, beside: Path) -> str:
-    """Where the work is, in words; if not beside the recording, it begins with what is there."""
+    """Where the project is, in words; one outside the recording's folder starts as a copy of one in it."""
     if path == beside:
         return str(path)
     kept = f"{path}, as it can't be written beside the recording"
@@ -69,7 +69,7 @@ def _begun(path: Path, beside: Path) -> str:
 
 @contextmanager
 def _saved(session: Session) -> Iterator[Session]:
-    """A session, closed in the end; a warning tells what couldn't be saved."""
+    """A session, closed at the end; a warning says what couldn't be saved."""
     try:
         yield session
     finally:
@@ -92,13 +92,13 @@ def serve_selection(
 
 
 class _Place:
-    """The place of a project's server among those of this user: ``url`` is that of another one, or ""."""
+    """A project's server among those of this user. url: that of another server of the project, or ""."""
 
     def __init__(self, file: Any, url: str) -> None:
         self._file, self.url = file, url
 
     def announce(self, url: str) -> None:
-        """Tell others where the project is served."""
+        """Publish the address at which the project is served."""
         self._file.seek(0)
         self._file.truncate()
         self._file.write(json.dumps({"url": url, "process": os.getpid()}))
@@ -107,7 +107,7 @@ class _Place:
 
 @contextmanager
 def _only_server(project: Path) -> Iterator[_Place]:
-    """Be a project's only server; the system lets go of the lock even if the process is killed."""
+    """Become a project's only server; the system releases the lock even if the process is killed."""
     key = hashlib.sha256(str(project).encode(errors="surrogateescape")).hexdigest()[:16]
     path = data_folder() / f"{key}.lock"
     descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)
@@ -127,12 +127,12 @@ def _only_server(project: Path) -> Iterator[_Place]:
 
 
 def _lock(file: Any) -> bool:
-    """Lock a file while it is open; False where another process has."""
+    """Lock a file while it is open; False if another process holds the lock."""
     if sys.platform == "win32":
         import msvcrt
 
         try:
-            file.seek(1 << 20)  # beyond the text, which others have to read
+            file.seek(1 << 20)  # beyond the text, which others must be able to read
             msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
         except OSError:
             return False
@@ -145,6 +145,6 @@ def _lock(file: Any) -> bool:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         return False
-    except OSError:  # a file system without locks, where nobody can be told
+    except OSError:  # a file system without locks, so others can't find out
         return True
     return True

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The local server of a session: its page, its frames as JPEG, commands, exports, and what is new."""
+"""The local server of a session: its page, its frames as JPEG, commands, exports, and news."""
 
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
@@ -18,7 +18,7 @@ from tricue.errors import one_line
 
 
 def make_app(serving: Serving) -> ASGIApp:
-    """The application: all of it is below the token, and only for pages of this machine."""
+    """The application: all paths begin with the token, and only pages of this machine may ask."""
     base = f"/{serving.token}"
     routes = [
         Route(f"{base}/", page_of("index.html")),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the routes of a project's server share."""
+"""State shared by the routes of a project's server."""
 
 import threading
 from collections.abc import Iterator
@@ -20,7 +20,7 @@ from tricue.draw.depth_pictures import depth_range
 
 @dataclass
 class Serving(Served):
-    """What the routes share. boxes: those drawn where only boxes are asked for."""
+    """State shared by the routes. boxes: the drawn ones, if only boxes are requested."""
 
     session: Session
     tracker: str = ""
@@ -40,14 +40,14 @@ class Serving(Served):
 
     @cached_property
     def depth_span(self) -> tuple[float, float] | None:
-        """The range of depth in five frames of the recording: one for all, so that colors don't flicker.
+        """The range of depth in five frames of the recording, used for all so that colors don't flicker.
 
-        None where none of them has a depth that can be read.
+        None if none of them has readable depth.
         """
         ranges = []
         with self.recording() as recording:
             for number in sorted({part * (recording.length - 1) // 4 for part in range(5)}):
-                with suppress(OSError, ValueError, RuntimeError):  # those that can't be read tell nothing
+                with suppress(OSError, ValueError, RuntimeError):  # skip unreadable ones
                     depth = recording.frame(number).depth
                     if depth is not None and (span := depth_range(depth)):
                         ranges.append(span)

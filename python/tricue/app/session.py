@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A session: one project in work, with edits, undo, runs of trackers, exports, and a file that keeps up."""
+"""A session: one open project, with edits, undo, runs of trackers, exports, and a file kept up to date."""
 
 import threading
 from collections.abc import Callable, Mapping, Sequence
@@ -23,8 +23,8 @@ from tricue.errors import one_line
 class Session:
     """One project on one recording. Its methods may be called from any thread.
 
-    path: the project's file, None to keep nothing. cameras: the trackers' keywords intrinsics or rig, where
-    they are known. errors: of runs and of saving, one line each.
+    path: the project's file, None to save nothing. cameras: the trackers' keywords intrinsics or rig, if
+    known. errors: of runs and of saving, one line each.
     """
 
     def __init__(
@@ -44,11 +44,11 @@ class Session:
         self.job: VideoJob | None = None
         self.errors: list[str] = []
         self.last_run: Run | None = None
-        self.runs = 0  # those that have ended
+        self.runs = 0  # number of ended runs
         self.changed_video: list[str] = []
-        self._shortened = False  # whether the file has more, in frames that aren't there any more
+        self._shortened = False  # whether the file has more, in frames that no longer exist
         self._follower = Follower(recording, self.cameras, seed, self._report)
-        self._commands, self._lock = threading.RLock(), threading.RLock()  # taken in this order
+        self._commands, self._lock = threading.RLock(), threading.RLock()  # acquired in this order
         self._video = threading.RLock()
         self._thread: threading.Thread | None = None
         self._saver = Saver(path, self.footprint, self._kept, lambda: self.run is not None, self._report)
@@ -58,22 +58,22 @@ class Session:
 
     @property
     def version(self) -> int:
-        """How often something has changed."""
+        """The number of changes so far."""
         return self._saver.version
 
     @property
     def saved(self) -> bool:
-        """Whether all of the project is in its file."""
+        """Whether the whole project is in its file."""
         return self._saver.saved
 
     @property
     def unsaved(self) -> str:
-        """Why the project can't be written to its file; "" where it can."""
+        """Why the project can't be written to its file; "" if it can."""
         return self._saver.failed
 
     @property
     def project(self) -> Project:
-        """The present project, with what a run has found until now."""
+        """The present project, with the tracks that a run has found so far."""
         with self._lock:
             run = self.run
             present = self.history.present
@@ -81,12 +81,12 @@ class Session:
 
     @property
     def camera(self) -> Intrinsics | None:
-        """The camera, or the left one of a stereo pair, where it is known."""
+        """The camera, or the left one of a stereo pair, if known."""
         rig = self.cameras.get("rig")
         return self.cameras.get("intrinsics") if rig is None else rig.intrinsics
 
     def tracked(self) -> Tracked:
-        """What exports are made of."""
+        """The data for exports."""
         import tricue
 
         source, rig = self.recording.source, self.cameras.get("rig")
@@ -101,10 +101,10 @@ class Session:
         world = self.camera is not None and self.camera.pose is not None
         return Tracked(self.project, self.recording, about, world)
 
-    # Edits. Each stops a run first, which then can be undone.
+    # Edits. Each first stops a run, which then can be undone.
 
     def edit(self, change: Callable[[Project], Project]) -> None:
-        """Replace the project by what ``change`` makes of it; a step of the history."""
+        """Replace the project by ``change(project)``, as a step of the history."""
         with self._commands:
             self.pause()
             with self._lock:
@@ -112,7 +112,7 @@ class Session:
             self._saver.changed()
 
     def add(self, frame: int, box: Any, tracker: str) -> int:
-        """Add a target; its id."""
+        """Add a target; return its id."""
         self.check_frame(frame)
         self.check_tracker(tracker)
         self.edit(lambda project: edits.add_target(project, frame, box, tracker))
@@ -124,7 +124,7 @@ class Session:
         self.edit(lambda project: edits.draw_box(project, target, frame, box))
 
     def choose_tracker(self, target: int, tracker: str) -> None:
-        """Let another tracker follow the target from its next run on."""
+        """Use another tracker for the target from its next run on."""
         self.check_tracker(tracker)
         self.edit(lambda project: edits.choose_tracker(project, target, tracker))
 
@@ -133,7 +133,7 @@ class Session:
         self._walk(History.undo)
 
     def redo(self) -> None:
-        """Take a step that was undone again."""
+        """Redo a step that was undone."""
         self._walk(History.redo)
 
     def _walk(self, way: Callable[[History], History]) -> None:
@@ -144,9 +144,9 @@ class Session:
             self._saver.changed()
 
     def keep_project(self, keep: bool) -> None:
-        """Answer to a video that was changed: keep the project for it, or put that aside and begin anew.
+        """React to a changed video: keep the project for it, or put the project aside and start a new one.
 
-        One that had more in frames that aren't there any more is put aside as it was, too.
+        A kept project with content in frames that no longer exist is also put aside as it was.
         """
         with self._lock:
             if not self.changed_video or self.path is None:
@@ -162,10 +162,10 @@ class Session:
     # Runs.
 
     def track(self, frame: int, step: Direction, targets: Sequence[int] | None = None) -> None:
-        """Follow targets, all by default, from a frame on, until their next drawn box or the end.
+        """Follow targets, by default all, from a frame on, until their next drawn box or the end.
 
-        A target starts on its box in this frame, or goes on with the tracker that paused here. ValueError
-        where none has a box, and where there is nothing to do.
+        A target starts on its box in this frame, or resumes with the tracker that paused here. ValueError if
+        none has a box, or if there is nothing to do.
         """
         self.check_frame(frame)
         with self._commands:
@@ -177,7 +177,7 @@ class Session:
             if not able:
                 who = chosen[0].name if len(chosen) == 1 else "any target" if chosen else "a target"
                 raise ValueError(f"frame {frame}: expected a box to start on; draw one around {who}")
-            for each in able:  # a project may come from where there are other trackers
+            for each in able:  # a project may come from a machine with other trackers
                 self.check_tracker(each.tracker)
             stop = max(self._follower.end(each, frame, step) * step for each in able) * step
             if abs(stop - frame) < 2:
@@ -208,7 +208,7 @@ class Session:
     def _follow(self, run: Run, targets: Sequence[Target], before: History) -> None:
         try:
             self._follower.follow(run, targets)
-        except Exception as error:  # of a reader; trackers' are caught one by one
+        except Exception as error:  # from a reader; trackers' errors are caught individually
             self._report(error)
         finally:
             with self._lock:
@@ -220,7 +220,7 @@ class Session:
     # The overlay video.
 
     def make_video(self, path: Path, trail: bool = False) -> None:
-        """Write the overlay video in a thread, with the targets' trails or without; ``job`` tells how far."""
+        """Write the overlay video in a thread, with targets' trails or without; ``job`` has the progress."""
         with self._video:
             self.cancel_video()
             self.job = VideoJob(path, self.tracked(), trail)
@@ -248,7 +248,7 @@ class Session:
         self._saver.known()
 
     def _kept(self) -> Project | None:
-        """The project to be saved; None while the user hasn't said what shall become of the one before."""
+        """The project to save; None until the user decides what to do with the previous one."""
         return None if self.changed_video else self.project
 
     # Checks.
@@ -257,18 +257,18 @@ class Session:
         self.errors.append(where + one_line(error))
 
     def check_frame(self, frame: Any) -> None:
-        """ValueError for what isn't the number of a frame."""
+        """ValueError for anything but the number of a frame."""
         last = self.recording.length - 1
         if not isinstance(frame, int) or isinstance(frame, bool) or not 0 <= frame <= last:
             raise ValueError(f"frame: expected a number from 0 to {last}, got {frame!r:.40}")
 
     def check_tracker(self, name: Any) -> None:
-        """ValueError for a tracker that doesn't run on this recording, or isn't there."""
+        """ValueError for a tracker that doesn't exist or doesn't run on this recording."""
         if name not in self.trackers:
             raise ValueError(f"tracker: expected one of {', '.join(self.trackers)}, got {name!r:.80}")
 
     def _check_video(self) -> None:
-        """The video may have gone, or become another one, before or while the page was open."""
+        """Handle a video that was removed or replaced before or while the page was open."""
         if self.changed_video:
             raise ValueError("the video has changed: first keep the boxes and tracks, or start over")
         if not self.place.exists():

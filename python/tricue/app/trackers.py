@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The trackers for what a source has: which there are, and a new one as it suits the source."""
+"""The trackers that fit a source: lists them, and creates them."""
 
 from collections.abc import Collection, Mapping
 from typing import Any
@@ -10,19 +10,19 @@ from tricue.track.base.track import Tracker
 
 
 def fitting_trackers(source: Source) -> dict[str, str]:
-    """The trackers that run on the source's channels, and what each follows."""
+    """The trackers that run on the source's channels, with what each follows."""
     return {name: traits(name).follows for name in names() if traits(name).best(source.channels) is not None}
 
 
 def default_tracker(fitting: Collection[str]) -> str:
-    """Which of the fitting trackers a page offers first; "" where there is none."""
+    """The fitting tracker that a page offers first; "" if there is none."""
     return "fused" if "fused" in fitting else next(iter(fitting), "")
 
 
 def make_tracker(name: str, source: Source, cameras: Mapping[str, Any], seed: int) -> Tracker:
-    """A tracker by its name, for all channels that it can use; ValueError where these don't do.
+    """A tracker by its name, for all channels that it can use; ValueError if these aren't enough.
 
-    cameras: the trackers' keywords intrinsics or rig, where they are known.
+    cameras: the trackers' keywords intrinsics or rig, if known.
     """
     kind = traits(name)
     best = kind.best(source.channels)

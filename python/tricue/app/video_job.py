@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The overlay video, written in a thread, which tells how far it is and can be stopped."""
+"""Writes the overlay video in a thread, with progress; it can be stopped."""
 
 import threading
 from dataclasses import replace
@@ -10,7 +10,7 @@ from tricue.errors import one_line
 
 
 class VideoJob:
-    """The overlay video in the making: frames written of all, then the file, or the error."""
+    """An overlay video being written: the number of frames written and in all, then the file or the error."""
 
     def __init__(self, path: Path, tracked: Tracked, trail: bool = False) -> None:
         self.total = tracked.recording.length
@@ -24,7 +24,7 @@ class VideoJob:
         self._thread.start()
 
     def stop(self) -> None:
-        """End the writing; the file is closed then, and another job may write it."""
+        """Stop writing and close the file, so that another job may write it."""
         self._stopped = True
         self._thread.join()
 

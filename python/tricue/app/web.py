@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the local servers share: their page's files, who may ask, commands, pictures as JPEG, downloads."""
+"""Code shared by the local servers: page files, access checks, commands, JPEG pictures, downloads."""
 
 import asyncio
 import hmac
@@ -21,7 +21,7 @@ from tricue.errors import one_line
 
 PAGE = Path(__file__).parent / "page"
 PAGE_TYPES = {".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
-LIVE_WIDTH = 1280  # pixels of the pictures of a run; a frame that one stays on is shown whole
+LIVE_WIDTH = 1280  # pixels of pictures during a run; a frame on which the user stays has full resolution
 JPEG_QUALITY = {"live": 75, "still": 92}
 MAX_COMMAND = 1 << 16  # bytes
 HEADERS = {
@@ -35,7 +35,7 @@ HEADERS = {
 
 
 class Page(Protocol):
-    """A page that is told what is new, and says what it has shown."""
+    """A page that gets news and reports what it has shown."""
 
     async def tell(self) -> None: ...
 
@@ -49,7 +49,7 @@ async def talk(page: Page, socket: WebSocket) -> None:
         done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
         error = next((found for task in done if (found := task.exception())), None)
         if isinstance(error, Exception) and not isinstance(error, WebSocketDisconnect):
-            with suppress(RuntimeError, WebSocketDisconnect):  # the page has gone meanwhile
+            with suppress(RuntimeError, WebSocketDisconnect):  # the page was closed meanwhile
                 await tell(socket, {"type": "error", "error": one_line(error)})
                 await socket.close(1011)
     finally:
@@ -69,7 +69,7 @@ async def _hear(page: Page, socket: WebSocket) -> None:
 
 
 class OwnPagesOnly:
-    """Refuses, with 403, requests without the token, and those that other sites' pages make."""
+    """Rejects, with status 403, requests without the token and those from other sites' pages."""
 
     def __init__(self, app: ASGIApp, base: str) -> None:
         self.app, self.base = app, base
@@ -90,7 +90,7 @@ class OwnPagesOnly:
         origin = headers.get("origin")
         try:
             asked_as, asker = urlsplit(f"//{host}").hostname, urlsplit(origin or "").netloc
-        except ValueError:  # neither is an address
+        except ValueError:  # one of them is malformed
             asked_as = asker = None
         if asked_as not in ("127.0.0.1", "localhost"):
             return "expected the host 127.0.0.1"
@@ -103,7 +103,7 @@ class OwnPagesOnly:
 
 
 def page_of(start: str) -> Callable[[Request], Any]:
-    """A route for the page's files. start: the one that has no name."""
+    """A route for the page's files. start: the one served at the root."""
 
     async def page(request: Request) -> Response:
         path = PAGE / request.path_params.get("name", start)
@@ -115,7 +115,7 @@ def page_of(start: str) -> Callable[[Request], Any]:
 
 
 def bound(handler: Callable[..., Any], serving: Any) -> Callable[..., Any]:
-    """A route of a handler that takes what is served and the request."""
+    """A route for a handler that takes the served state and the request."""
 
     async def handle(request: Any) -> Any:
         return await handler(serving, request)
@@ -139,7 +139,7 @@ async def answer(request: Request, do: Callable[[dict[str, Any]], dict[str, Any]
 
 
 def as_json(content: Any, status: int = 200) -> Response:
-    """An answer as JSON in ASCII, which names of files can't break that are no UTF-8."""
+    """An answer as ASCII JSON, which file names that aren't UTF-8 can't break."""
     return Response(json.dumps(content, allow_nan=False), status, HEADERS, "application/json")
 
 
@@ -155,5 +155,5 @@ def jpeg(image: Any, use: str) -> bytes:
 
 
 def attached(name: str) -> dict[str, str]:
-    """The headers of a download of this name."""
+    """The headers of a download with this name."""
     return {**HEADERS, "Content-Disposition": f"attachment; filename*=UTF-8''{quote(name, errors='replace')}"}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The command line: one module a command, and what several commands share."""
+"""The command line: one module per command, and code that several commands share."""
 
 from tricue.cli.program import main
 

@@ -77,7 +77,7 @@ class StartBox(NamedTuple):
 
 
 def start_box(text: str) -> StartBox:
-    """A box x,y,width,height, or of another frame than the first FRAME:x,y,width,height."""
+    """A box x,y,width,height, or, for a frame other than the first, FRAME:x,y,width,height."""
     number, colon, numbers = text.rpartition(":")
     if colon and not number.isdecimal():
         raise argparse.ArgumentTypeError(f"expected FRAME:x,y,width,height, got {text!r}")
@@ -132,7 +132,7 @@ def add_topics(command: argparse.ArgumentParser) -> None:
 
 
 def find_modules_here() -> None:
-    """Let modules of the working folder be imported, as Python does for a script there."""
+    """Make modules in the working folder importable, as Python does for a script there."""
     if "" not in sys.path and (here := str(Path.cwd())) not in sys.path:
         sys.path.insert(0, here)
 

@@ -35,7 +35,7 @@ RATES = (0.02, 0.05, 0.1, 0.2, 0.3)
 """False-positive rates at which the threshold is printed."""
 
 MAX_DISTANCE_RATIO = 1.5
-"""Between the given distance of a head and the measured one: matches on a blurred head may be off as much."""
+"""Between a head's given and measured distance; matches on a blurred head may be this far off."""
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -86,7 +86,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Measure, print, and write the parameters; the exit code."""
+    """Measure, print, and write the parameters; return the exit code."""
     kind = tracker_class(options.tracker).Params
     params = kind.from_toml(options.params) if options.params else kind()
     given = toml.read(options.params) if options.params else {}
@@ -184,8 +184,8 @@ def _stereo_noise(options: argparse.Namespace, params: Any) -> dict[str, Any]:
 
 
 def _check_distance(given: float, measured: float) -> None:
-    """ValueError for a distance, meters, that is another one than measured: in another unit, or of another
-    head or camera. Its difference would count as noise.
+    """ValueError if the given distance, meters, doesn't fit the measured one: it is in another unit, or of
+    another head or camera. The difference would count as noise.
     """
     if not 1 / MAX_DISTANCE_RATIO < given / measured < MAX_DISTANCE_RATIO:
         raise ValueError(f"--distance: expected about {measured:.2f} m, as the pairs measure, got {given:g}")
@@ -207,9 +207,9 @@ def _check_output(path: Path, read: Iterable[Path]) -> None:
 
 
 def _write(path: Path, kind: type[Params], values: Mapping[str, Any], measured: Mapping[str, Any]) -> None:
-    """Write the parameters, once they are known to be good: a whole file or none.
+    """Write the parameters, after checking them, as a whole file or not at all.
 
-    A link stays one. A pipe, a device, and a file in a folder that takes no other is written into.
+    A link stays a link. A pipe, a device, or a file in a folder where no file can be created is written into.
     """
     kind(**values)
     text = toml.dumps(values, dict.fromkeys(measured, "measured: tricue calibrate"))
@@ -223,7 +223,7 @@ def _write(path: Path, kind: type[Params], values: Mapping[str, Any], measured: 
 
 
 def _replace(path: Path, text: str) -> None:
-    """Write a regular file beside the one that is there, which it then replaces."""
+    """Write a regular file beside the existing one, then replace that."""
     path.parent.mkdir(parents=True, exist_ok=True)
     number, name = tempfile.mkstemp(prefix=".tricue-", dir=path.parent)
     part = Path(name)
@@ -231,7 +231,7 @@ def _replace(path: Path, text: str) -> None:
         with os.fdopen(number, "w", encoding="utf-8") as file:
             file.write(text)
         if not path.exists():
-            path.touch()  # which gets the mode of any new file
+            path.touch()  # gives it the mode of a new file
         shutil.copymode(path, part)
         part.replace(path)
     finally:

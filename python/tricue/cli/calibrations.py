@@ -22,11 +22,11 @@ OWN_CALIBRATION = "calibration: the recording's or the camera's own"
 
 
 class Calibration(NamedTuple):
-    """Intrinsics, None if unknown, and a note about their origin.
+    """Intrinsics, None if unknown, and a note on where they come from.
 
     rig: of a stereo pair, instead of intrinsics. rectify: the rectification of a raw stereo pair. register:
     the registration of depth to the color image; the intrinsics then are the color camera's. assumed: whether
-    the camera is one that the user only supposes.
+    the camera is only assumed by the user.
     """
 
     intrinsics: Intrinsics | None = None
@@ -60,9 +60,9 @@ class Calibration(NamedTuple):
 def find_calibration(options: Namespace, source: Source) -> Calibration:
     """The calibration of --calibration, --fov or --assume-fov; without them, of the file beside the sequence.
 
-    ValueError for an option that the tracker doesn't use, and for a file for another image size. A file
-    beside the sequence is left out then, with a note. Warns (UserWarning) if positions will be missing, and
-    of distortion that isn't taken out.
+    ValueError for an option that the tracker doesn't use, and for a file for another image size. Such a file
+    beside the sequence is ignored, with a note. Warns (UserWarning) if positions will be missing, and of
+    distortion that isn't corrected.
     """
     cameras = traits(options.tracker).camera
     if getattr(options, "assume_fov", None):  # not every command has it
@@ -106,7 +106,7 @@ def _find_stereo(options: Namespace, source: Source) -> Calibration:
 
 
 def _find_rig(source: Source, give: str) -> Calibration:
-    """The rig of the file beside the images. Nobody asked for it, so an unusable file is no error.
+    """The rig of the file beside the images. The user didn't ask for it, so an unusable file isn't an error.
 
     give: how the user can give one.
     """
@@ -120,20 +120,20 @@ def _find_rig(source: Source, give: str) -> Calibration:
             return Calibration(rig=rig, note=f"calibration found: {source.calibration}")
     elif isinstance(source.camera, StereoRig):
         return Calibration(rig=source.camera, note=OWN_CALIBRATION)
-    if "right" in source.channels:  # else the missing right images are reported first
+    if "right" in source.channels:  # otherwise the missing right images are reported first
         warnings.warn(f"{reason}; tracks will have no position in meters; {give}", stacklevel=2)
     return Calibration()
 
 
 def _advice(ways: str, options: Namespace) -> str:
-    """How to give a camera, by these options or by assuming one where the command can."""
+    """A hint on how to give a camera: by these options, or by assuming one if the command can."""
     return f"give {ways}, or {ASSUME}" if "assume_fov" in options else f"give {ways}"
 
 
 def _assume(options: Namespace, source: Source, cameras: Collection[str]) -> Calibration:
-    """The camera of --assume-fov, or a pair of such cameras at a usual distance.
+    """The camera of --assume-fov, or a pair of such cameras at a default distance.
 
-    The note says if a calibration that is there isn't used.
+    The note says if an existing calibration is ignored.
     """
     if not cameras:
         raise ValueError(f"--assume-fov: {options.tracker} takes no camera; leave it out")
@@ -155,9 +155,9 @@ def _intrinsics_from_angles(source: Source, fov: tuple[float, ...], option: str 
 
 
 def _read_file(path: Path, source: Source, cameras: Collection[str]) -> Calibration:
-    """The depth camera's intrinsics, or the color camera's if depth has to be registered to it."""
+    """The depth camera's intrinsics, or the color camera's if depth must be registered to it."""
     streams = source.channels
-    if "rig" in cameras and "color" in streams and "depth" in streams:  # it needs depth in color pixels
+    if "rig" in cameras and "color" in streams and "depth" in streams:  # this needs depth in color pixels
         register = read_registration(path, streams["depth"].size, streams["color"].size)
         if register is not None:
             note = f"depth registered to color by both cameras' intrinsics: {path}"
@@ -167,7 +167,7 @@ def _read_file(path: Path, source: Source, cameras: Collection[str]) -> Calibrat
 
 
 def _find_intrinsics(source: Source, cameras: Collection[str], give: str) -> Calibration:
-    """The camera of the file beside the images. Nobody asked for it, so an unusable file is no error.
+    """The camera of the file beside the images. As it wasn't requested, an unusable file isn't an error.
 
     give: how the user can give one.
     """

@@ -17,7 +17,7 @@ examples:
 """
 WORSE = 1
 MOST = 5
-"""Sequences of each tracker that are printed."""
+"""Number of sequences printed per tracker."""
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -43,7 +43,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run the command: tables on stdout. The exit code is 1 if it got worse and that was asked for."""
+    """Run the command: tables on stdout. The exit code is 1 if something got worse and that was asked for."""
     found = compare_folders(options.old, options.new, options.number)
     print(table(found))
     for note in found.notes:

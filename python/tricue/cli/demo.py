@@ -39,7 +39,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run the demo that suits the chosen tracker; the exit code."""
+    """Run the demo for the chosen tracker; return the exit code."""
     its = traits(options.tracker)
     name = next((name for suits, name in DEMOS if suits(its)), None)
     if name is None:

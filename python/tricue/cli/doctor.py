@@ -20,7 +20,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Examine the installation; the exit code is 1 if something is broken that tricue can't do without."""
+    """Examine the installation; the exit code is 1 if something that tricue needs is broken."""
     findings = examine()
     print(as_json(findings) if options.json else as_text(findings))
     return 0 if healthy(findings) else FAILED

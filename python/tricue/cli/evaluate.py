@@ -45,14 +45,14 @@ examples:
   tricue evaluate /data/all --scheduler tcp://host:8786       a Dask cluster, which sees that folder
 """
 FAILED = 1
-MAX_NAMES = 6  # of sequences in a line
+MAX_NAMES = 6  # names of sequences per line
 _SET_BY = {
     "seed": "--seeds N",
     "kernels": "this command itself, to native,",
     "intrinsics": "the sequence's calibration",
     "rig": "the sequence's calibration",
 }
-"""What sets what isn't among a tracker's parameters."""
+"""How to set the settings that aren't a tracker's parameters."""
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -159,9 +159,9 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the command: progress on stderr, the table on stdout. The exit code is 1 if a sequence couldn't be
-    read, if a tracker that was asked for was run and started nowhere, or if results fit no sequence.
+    read, if a requested tracker was run but started nowhere, or if results fit no sequence.
     """
-    svg.require()  # now, not after hours
+    svg.require()  # fail now, not after hours
     if options.raw is not None:
         check_folder(options.raw)
     check_formats(options.figures)
@@ -201,7 +201,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def chosen_protocols(options: argparse.Namespace) -> tuple[bool, tuple[str, ...]]:
-    """Whether to run with restarts, and the protocols beside these and one pass."""
+    """Whether to run with restarts, and the protocols other than restarts and one pass."""
     restarts = RESTARTS in options.protocols and not options.no_restarts
     return restarts, tuple(name for name in options.protocols if name not in (ONE_PASS, RESTARTS))
 
@@ -251,8 +251,8 @@ def _report(evaluation: Evaluation, folder: Path, options: argparse.Namespace) -
 
 
 def _errors(evaluation: Evaluation) -> list[str]:
-    """What makes the exit code 1: sequences that can't be read, trackers that were asked for and started
-    nowhere they were run, and results that fit nothing.
+    """The errors that make the exit code 1: unreadable sequences, requested trackers that started nowhere,
+    and results that fit no sequence.
     """
     asked, total = _asked(evaluation), len(evaluation.opened)
     return [
@@ -263,8 +263,8 @@ def _errors(evaluation: Evaluation) -> list[str]:
 
 
 def _troubles(evaluation: Evaluation) -> list[str]:
-    """The errors of trackers. One that started nowhere has a line a reason; it isn't a failure if it is one
-    of all: stereo-head, for one, doesn't start on what is too near.
+    """The errors of trackers. One that started nowhere has a line per reason. That isn't a failure unless it
+    was requested by name: stereo-head, for example, doesn't start on targets that are too near.
     """
     asked, unstarted = _asked(evaluation), evaluation.unstarted
     rows = [each.row for each in evaluation.results if each.row.trouble]
@@ -287,7 +287,7 @@ def _unstarted(evaluation: Evaluation, tracker: str) -> list[str]:
 
 
 def _without_results(evaluation: Evaluation) -> list[str]:
-    """The folders of results, by name, of which nothing could be compared."""
+    """The folders of results, by name, from which nothing could be compared."""
     there = {each.row.tracker for each in evaluation.results}
     return [name for name in _result_names(evaluation.options) if name not in there]
 
@@ -297,14 +297,14 @@ def _result_names(options: Options) -> list[str]:
 
 
 def _asked(evaluation: Evaluation) -> set[str]:
-    """What was asked for by its name: trackers, unless there are all, and results."""
+    """The names that were requested: trackers, unless all are run, and results."""
     options = evaluation.options
     asked = {each.name for each in evaluation.trackers} if options.trackers else set()
     return asked | {*_result_names(options)}
 
 
 def _left_out(evaluation: Evaluation) -> list[str]:
-    """What didn't run of what was asked for by its name, and why."""
+    """Which of the requested names didn't run, and why."""
     asked = _asked(evaluation)
     sequences: dict[tuple[str, str], list[str]] = {}
     for (tracker, sequence), why in evaluation.left_out.items():
@@ -318,7 +318,7 @@ def _some(names: list[str]) -> str:
 
 
 def _with_attributes(evaluation: Evaluation, folder: Path) -> Evaluation:
-    """The evaluation with what its sequences show, of which a second run reads what the first has stored."""
+    """The evaluation with its sequences' attributes; a second run reads those that the first stored."""
     with Progress() as progress:
         progress.total = len(evaluation.opened)
         found = measure_all(evaluation.opened, folder, lambda done: progress(done, "attributes"))

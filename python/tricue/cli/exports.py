@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Files of tracks in the formats of the field: MOTChallenge's text, and COCO's JSON."""
+"""Files of tracks in common formats: MOTChallenge's text and COCO's JSON."""
 
 import json
 from collections.abc import Sequence
@@ -12,7 +12,7 @@ from tricue.export.text_file import TextFile
 
 
 class MotOutput(TextFile):
-    """MOTChallenge's text, see :func:`tricue.export.mot.mot_line`. positions: whether those are written."""
+    """MOTChallenge's text, see :func:`tricue.export.mot.mot_line`. positions: whether to write them."""
 
     def __init__(self, path: Path, positions: bool = True) -> None:
         super().__init__(path)
@@ -26,7 +26,7 @@ class MotOutput(TextFile):
 class CocoOutput(TextFile):
     """COCO's JSON, see :class:`tricue.export.coco.CocoTracks`.
 
-    video: its name. fps: frames per second. names: the image files', by the frames' numbers; none of a video.
+    video: its name. fps: frames per second. names: of the image files, by frame number; empty for a video.
     """
 
     def __init__(self, path: Path, video: str, fps: float, names: Sequence[str] = ()) -> None:
@@ -35,7 +35,7 @@ class CocoOutput(TextFile):
 
     def write(self, step: Step) -> None:
         image = step.frame.depth if step.frame.color is None else step.frame.color
-        assert image is not None  # a frame has one of the two
+        assert image is not None  # every frame has one of the two
         name = self._names[step.number] if self._names else ""
         self._tracks.add(step.number, (image.shape[1], image.shape[0]), step.targets, name)
 

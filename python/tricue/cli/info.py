@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""``tricue info PLACE``: what is there, or in each sequence of a folder."""
+"""``tricue info PLACE``: describes a recording, or each sequence in a folder."""
 
 import argparse
 import json
@@ -56,7 +56,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run the command and print what was found; the exit code."""
+    """Run the command and print the facts; return the exit code."""
     try:
         source = _open(options)
     except ValueError:

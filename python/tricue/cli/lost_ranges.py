@@ -19,7 +19,7 @@ class LostRange(NamedTuple):
 
 
 class LostRanges:
-    """Collects them frame by frame."""
+    """Collects the ranges frame by frame."""
 
     def __init__(self) -> None:
         self.ranges: list[LostRange] = []
@@ -35,7 +35,7 @@ class LostRanges:
         self._is_lost = status is Status.LOST
 
     def __str__(self) -> str:
-        """As in "lost in frames 12-40 (0:00.40-0:01.33), 80 (0:02.67)"; "" where it never is."""
+        """As in "lost in frames 12-40 (0:00.40-0:01.33), 80 (0:02.67)"; "" if it is never lost."""
         if not self.ranges:
             return ""
         more = len(self.ranges) - SHOWN
@@ -45,7 +45,7 @@ class LostRanges:
 
 
 def clock_time(seconds: float) -> str:
-    """Minutes, seconds and hundredths, as in 1:02.50; hours where there are some."""
+    """Minutes, seconds and hundredths, as in 1:02.50; with hours if needed."""
     hundredths = round(100 * seconds)
     minutes, rest = divmod(hundredths, 6000)
     hours, minutes = divmod(minutes, 60)
@@ -60,6 +60,6 @@ def _text(found: LostRange) -> str:
 
 
 def as_json(ranges: Iterable[LostRange], target: int | None = None) -> list[dict[str, float]]:
-    """The ranges with their names. target: its id, where there are several."""
+    """The ranges as dictionaries. target: its id, if there are several."""
     head = {} if target is None else {"id": target}
     return [{**head, **each._asdict()} for each in ranges]

@@ -48,7 +48,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Serve the page until Ctrl-C; the exit code."""
+    """Serve the page until Ctrl-C; return the exit code."""
     app.require()
     if device := live_device(options.input):
         return _serve_camera(options, device.name)
@@ -99,7 +99,7 @@ def _calibrated(
 ) -> tuple[Source, dict[str, Any], tuple[str, ...]]:
     """The source as trackers need it, what is known of its cameras, and notes for the user.
 
-    The tracker that takes the most kinds of camera stands for all of them: the choice is made in the page.
+    The tracker that takes the most kinds of camera stands in for all, because the user chooses in the page.
     """
     given = {name: value for name, value in vars(options).items() if name != "tracker"}
     general = DEFAULT_TRACKER

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Whether the files that a command writes may be written: over nothing that it reads, and each once."""
+"""Checks that a command's output files don't overwrite its input, and that each is written once."""
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 
 def check_not_read(outputs: Sequence[Path], read: Iterable[Path]) -> None:
-    """ValueError for an output that is, by whatever name, one of the files that are read."""
+    """Raise ValueError for an output that is, by any name, one of the input files."""
     there = [path for path in outputs if _identity(path)]
     inputs = set(filter(None, map(_identity, read))) if there else set()
     for path in there:
@@ -15,7 +15,7 @@ def check_not_read(outputs: Sequence[Path], read: Iterable[Path]) -> None:
 
 
 def check_different(outputs: Sequence[Path]) -> None:
-    """ValueError for a file that is there twice."""
+    """Raise ValueError for a file that occurs twice."""
     files = [path for path in outputs if path.is_file() or not path.exists()]  # not /dev/null
     names = [_identity(path) or path.resolve() for path in files]
     for index, path in enumerate(files):
@@ -24,7 +24,7 @@ def check_different(outputs: Sequence[Path]) -> None:
 
 
 def _identity(path: Path) -> tuple[int, int] | None:
-    """What all names of a file have in common, links and hard links too; None where there is no such file."""
+    """What all names of a file, including links and hard links, have in common; None if it doesn't exist."""
     try:
         found = path.stat()
     except (OSError, ValueError):

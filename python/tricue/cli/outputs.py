@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Outputs of a run, written frame by frame: CSV, JSON, overlay video. A file is complete once closed.
 
-To make one empties its file: only a run that has started does.
+Creating an output empties its file, so only a run that has started does so.
 """
 
 import csv
@@ -39,8 +39,8 @@ RANGE_SMOOTHING = 0.1  # weight of a new frame in the depth range of the video
 class Step(NamedTuple):
     """One tracked frame: its number from 0, the frame, its track, and the tracking time in seconds.
 
-    particles, objects, mask, blocks: the tracker's own, where it has them. tracks: of several targets, by
-    their ids; ``track`` is then the first. None for one target.
+    particles, objects, mask, blocks: the tracker's, if it has them. tracks: of several targets, by their ids;
+    ``track`` is then the first one's. None for one target.
     """
 
     number: int
@@ -96,7 +96,7 @@ class CsvOutput(TextFile):
 
 class JsonOutput(TextFile):
     """One object: the entries of ``about``; "tracks", a list of objects with the columns as keys; "lost", the
-    ranges of frames in which a target is.
+    ranges of frames in which a target is lost.
 
     fps: frames per second, for frames without times.
     """
@@ -135,7 +135,7 @@ class JsonOutput(TextFile):
 
 
 class JsonLines:
-    """An object a line on standard output, with the columns as keys, for other programs."""
+    """One object per line on standard output, with the columns as keys, for other programs."""
 
     about = ""
 
@@ -163,9 +163,9 @@ class VideoOutput:
     Several targets are drawn on the color, or on the depth without it.
 
     rig: the stereo rig, if the tracker knows it; then the disparity is shown, or the target's mask if the
-    tracker has one. assumed: whether its camera is only supposed, which each picture says. length: how many
-    frames there will be; a strip for each target shows when it was tracked, occluded and lost. trail: of how
-    many seconds the targets' paths are drawn, None for none.
+    tracker has one. assumed: whether its camera is only assumed, which each picture then says. length: the
+    number of frames to come; a strip for each target shows when it was tracked, occluded and lost. trail:
+    seconds over which the targets' paths are drawn, None for no paths.
     """
 
     def __init__(
@@ -190,7 +190,7 @@ class VideoOutput:
 
     @property
     def about(self) -> str:
-        """The file's name, and what is to be said of it."""
+        """The file's name, and a note if there is one."""
         return self._writer.about
 
     def write(self, step: Step) -> None:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The command line: parses the arguments, runs the command, and prints errors on one line.
 
-Exit codes are a Unix tool's: 0, 1 where evaluate, compare or doctor has something to report, 2 for an error,
-128 and the signal's number after a signal.
+Exit codes are those of Unix tools: 0, 1 if evaluate, compare or doctor has something to report, 2 for an
+error, and 128 plus the signal's number after a signal.
 """
 
 import argparse
@@ -24,7 +24,7 @@ from tricue.errors import one_line
 USAGE = 2
 INTERRUPTED, CLOSED_PIPE = 130, 141
 
-# The help text of each command, which is in the module of the same name.
+# The help text of each command, implemented in the module of the same name.
 COMMANDS = {
     "demo": "track a scene with known truth",
     "track": "track in a video, a folder, a camera",
@@ -40,10 +40,10 @@ COMMANDS = {
 
 
 class Parser(argparse.ArgumentParser):
-    """Prints errors on one line, without the usage."""
+    """A parser that prints errors on one line, without the usage."""
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        """An error for options that it doesn't know: a command's help lists its own, tricue's doesn't."""
+        """Report unknown options here, so that the error names the command, whose help lists its options."""
         options, unknown = super().parse_known_args(args, namespace)
         if unknown:
             self.error(f"unrecognized arguments: {' '.join(unknown)}")
@@ -54,10 +54,10 @@ class Parser(argparse.ArgumentParser):
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line; the exit code, of which 2 is an error (one line on stderr), 130 Ctrl-C."""
+    """Run the command line; return the exit code: 2 for an error (one line on stderr), 130 for Ctrl-C."""
     silence_opencv()
     _replace_closed_streams()
-    for stream in (sys.stdout, sys.stderr):  # a terminal may not know all letters of a file's name
+    for stream in (sys.stdout, sys.stderr):  # a terminal may not support all letters of a file's name
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     words = list(sys.argv[1:] if arguments is None else arguments)
@@ -99,7 +99,7 @@ def parser(chosen: str = "") -> argparse.ArgumentParser:
 
 @contextmanager
 def _one_line_warnings(command: str) -> Iterator[None]:
-    """Print warnings on one line, and those that differ in numbers alone once, because frames repeat them."""
+    """Print warnings on one line, and those that differ only in numbers once, because frames repeat them."""
     shown: set[tuple[str, int, str]] = set()
 
     def show(message: Warning | str, _category: object, filename: str, lineno: int, *_: object) -> None:
@@ -114,7 +114,7 @@ def _one_line_warnings(command: str) -> Iterator[None]:
 
 
 def _replace_closed_streams() -> None:
-    """Read nothing, and write nowhere, where a service starts the command without standard streams."""
+    """Read nothing and write nowhere if a service starts the command without standard streams."""
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         if getattr(sys, name) is None:
             setattr(sys, name, Path(os.devnull).open(mode, encoding="utf-8"))  # noqa: SIM115 (until the end)

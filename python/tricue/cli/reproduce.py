@@ -54,7 +54,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run the command and print the summary; the exit code."""
+    """Run the command and print the summary; return the exit code."""
     from tricue.papers.reproduce import run
 
     with Progress() as progress:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Signals that end a command: Ctrl-C, what `kill` sends, and a closed terminal. All leave whole files."""
+"""Signals that end a command: Ctrl-C, what `kill` sends, and a closed terminal. All leave complete files."""
 
 import signal
 import threading
@@ -17,7 +17,7 @@ ENDING = tuple(
 
 @contextmanager
 def clean_exits() -> Iterator[None]:
-    """SIGTERM and SIGHUP raise SystemExit, with 128 and their number, so that open files are finished."""
+    """SIGTERM and SIGHUP raise SystemExit, with 128 plus their number, so that open files are finished."""
 
     def leave(number: int, _frame: FrameType | None) -> None:
         raise SystemExit(128 + number)
@@ -28,8 +28,8 @@ def clean_exits() -> Iterator[None]:
 
 @contextmanager
 def catch_signals() -> Iterator[Callable[[], int]]:
-    """Yields a function that returns the number of the signal that came, 0 before; the current frame can be
-    finished then. A second signal interrupts.
+    """Yield a function that returns the number of the signal received, 0 if none, so that the current frame
+    can be finished. A second signal interrupts.
     """
     caught = 0
 
@@ -45,9 +45,9 @@ def catch_signals() -> Iterator[Callable[[], int]]:
 
 @contextmanager
 def _handled(numbers: tuple[signal.Signals, ...], handler: Any) -> Iterator[None]:
-    """The handler for these signals in the main thread, the only one that Python lets handle any.
+    """Install the handler for these signals in the main thread, the only one that can handle signals.
 
-    A closed terminal that is ignored stays so: that is how nohup keeps a command alive.
+    If SIGHUP is ignored, it stays ignored, because that is how nohup keeps a command alive.
     """
     main = threading.current_thread() is threading.main_thread()
     chosen = [each for each in numbers if main and not _is_kept_alive(each)]

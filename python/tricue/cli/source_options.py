@@ -12,7 +12,7 @@ OPENING = ("depth", "depth_scale", "fps", "right", "topics")
 
 
 def add_source_options(command: argparse.ArgumentParser) -> Any:
-    """Add them to a command's parser; the group of those of which one alone can tell the camera."""
+    """Add them to a command's parser; return the group of mutually exclusive camera options."""
     command.add_argument(
         "--fps",
         type=float,
@@ -49,10 +49,10 @@ def add_source_options(command: argparse.ArgumentParser) -> Any:
 
 
 def opening(options: argparse.Namespace) -> dict[str, Any]:
-    """What ``open_source`` takes of them."""
+    """The keywords for ``open_source``."""
     return {name: getattr(options, name) for name in OPENING}
 
 
 def open_input(options: argparse.Namespace) -> Source:
-    """The source that the command's INPUT is."""
+    """Open the source named by INPUT."""
     return open_source(options.input, **opening(options))

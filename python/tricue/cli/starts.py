@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How trackers start: on a box, on a face, on a sequence's first true box, or by its own detection."""
+"""How trackers start: on a box, a face, a sequence's first true box, or by their own detection."""
 
 import re
 from argparse import Namespace
@@ -27,8 +27,8 @@ BOX_HINT, FACE_HINT = "give --box x,y,width,height", "--detect face"
 
 
 def default_tracker(options: Namespace, source: Source) -> str:
-    """The tracker if none is chosen: the one for all channels, or, for depth without a box to start on, the
-    one that detects people.
+    """The tracker if none is chosen: the one for all channels, or, for depth without an initial box, the one
+    that detects people.
     """
     has_start = options.box is not None or options.detect == "face"
     has_start = has_start or (options.detect is None and source.true_box(options.start) is not None)
@@ -49,7 +49,7 @@ def choose_start(
 ) -> Start | None:
     """The function that gives the first box; None if the tracker detects its target.
 
-    rig, camera: of stereo pairs and of depth, in which a head is found by its size in meters.
+    rig, camera: of stereo pairs and of depth, to find a head by its size in meters.
     """
     if options.detect == "person" and tracker.traits.detects != "person":
         raise ValueError(
@@ -63,7 +63,7 @@ def choose_start(
 
 
 def start_hint(error: ValueError, source: Source, tracker: Tracker) -> str:
-    """How to fix an error on the first frame; "" if the error says enough."""
+    """A hint on how to fix an error on the first frame; "" if the message suffices."""
     if isinstance(error, NoDepthInBoxError) and tracker.traits.disparity_range is not None:
         near, far = tracker.traits.disparity_range
         return f"; --set {near}=METERS and --set {far}=METERS change the range of the search"
@@ -78,12 +78,12 @@ def start_hint(error: ValueError, source: Source, tracker: Tracker) -> str:
             "depth": "; ".join(("", "give its depth images with --depth FOLDER", *source.notes)),
             "right": "; give the right camera's images with --right PLACE",
             "color": f"; --tracker {depth_tracker()} tracks in depth",
-        }.get(error.channel, "")  # a third party may leave it out
+        }.get(error.channel, "")  # a third-party error may lack it
     return ""
 
 
 def in_options(text: str) -> str:
-    """A tracker's error as the command line has its parameters: --set cues=flow for cues=('flow',)."""
+    """A tracker's message with parameters as in the command line: --set cues=flow for cues=('flow',)."""
     return _PARAMETER.sub(lambda found: f"--set {found[1]}={','.join(_WORD.findall(found[2]))}", text)
 
 

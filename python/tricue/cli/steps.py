@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs a tracker, or several, over a source frame by frame, and measures times."""
+"""Runs one or several trackers over a source, frame by frame, and measures times."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -22,7 +22,7 @@ Start = Callable[[Frame], Box | None]
 class RunClock:
     """Seconds spent on decoding and on tracking, and counts of the tracker's statuses.
 
-    not_found_reason: why a tracker that detects its target found none in the last frame before it started.
+    not_found_reason: why a tracker that detects its target found none in the last frame so far.
     """
 
     decoding: float = 0.0
@@ -44,8 +44,8 @@ def steps(
 ) -> Iterator[Step]:
     """Start the tracker on the first box that ``start`` gives, and track.
 
-    Without ``start`` the tracker starts in the first frame in which it detects a target. first: the number of
-    the first frame.
+    Without ``start`` the tracker starts in the first frame in which it detects a target. first: the first
+    frame's number.
     """
     started = False
     for index, frame in enumerate(_decoded(frames, clock), first):
@@ -77,7 +77,7 @@ def steps_of_targets(
     clock: RunClock,
     first: int = 0,
 ) -> Iterator[Step]:
-    """Start a target on each box in the frame of its number, and track all, from the first start on."""
+    """Start a target on each box in its frame, and track all of them from the first start on."""
     for index, frame in enumerate(_decoded(frames, clock), first):
         starting = [box for number, box in boxes if number == index]
         before = perf_counter()
@@ -98,7 +98,7 @@ def steps_of_targets(
 
 
 def with_known_numbers(found: Iterable[Step]) -> Iterator[Step]:
-    """The steps, with what files and pictures can tell of third parties' tracks: see
+    """The steps, with third parties' tracks made fit for files and pictures: see
     :func:`tricue.track.base.adapter.with_known_numbers`.
     """
     last: dict[int, Box] = {}
@@ -114,7 +114,7 @@ def with_known_numbers(found: Iterable[Step]) -> Iterator[Step]:
 
 @contextmanager
 def _naming_frame(number: int, box: Box | None = None) -> Iterator[None]:
-    """Put a frame's number before what an error says: it may be one of thousands. box: which starts there."""
+    """Put the frame's number, one of thousands, before an error's message. box: one that starts there."""
     try:
         yield
     except ValueError as error:

@@ -31,7 +31,7 @@ __all__ = ["EXAMPLES", "add_options", "run"]
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run the command and print the results; the exit code."""
+    """Run the command and print the results; return the exit code."""
     run, notes = prepare(options)
     clock = RunClock()
     tracks: dict[int, dict[int, Track]] = {}
@@ -47,7 +47,7 @@ def run(options: argparse.Namespace) -> int:
             targets = files.enter_context(run.targets)
             found = steps_of_targets(targets, frames, run.boxes, clock, run.first)
         for step in with_known_numbers(map(run.known, _with_start_hint(found, run, clock))):
-            if not tracks:  # only now: a run that never starts leaves the files of an earlier one alone
+            if not tracks:  # only now, so that a run that never starts keeps an earlier one's files
                 outputs.extend(map(files.enter_context, _outputs(options, run)))
             for output in outputs:
                 output.write(step)
@@ -81,7 +81,7 @@ def _with_start_hint(found: Iterator[Step], run: TrackRun, clock: RunClock) -> I
 
 
 def _outputs(options: argparse.Namespace, run: TrackRun) -> Iterator[Output]:
-    """Open the outputs one by one, so that the first is closed if the second can't be opened."""
+    """Open the outputs one at a time, so that the first is closed if the second can't be opened."""
     if options.output:
         yield VideoOutput(options.output, run.source.fps, run.rig, run.assumed, run.frames, options.trail)
     world = run.intrinsics is not None and run.intrinsics.pose is not None
@@ -102,7 +102,7 @@ def _outputs(options: argparse.Namespace, run: TrackRun) -> Iterator[Output]:
 def _results(
     options: argparse.Namespace, run: TrackRun, outputs: Sequence[Output], first: Mapping[int, Track]
 ) -> Iterator[str]:
-    """What was written; first: the tracks of the first target by frame, for the plot."""
+    """Lines on what was written. first: the first target's tracks by frame, for the plot."""
     yield from (f"wrote {output.about}" for output in outputs if output.about)
     if options.plot:
         yield plot(options.plot, run, first)
@@ -135,5 +135,5 @@ def _params(tracker: Tracker) -> dict[str, Any]:
 
 
 def _plain(value: Any) -> Any:
-    """JSON has no infinity."""
+    """A value for JSON, which has no infinity."""
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What ``tricue track`` runs: the source opened, the tracker made, its start chosen, from the options."""
+"""Prepares a run of ``tricue track`` from the options: the source, the tracker, and its start."""
 
 import argparse
 import math
@@ -31,10 +31,10 @@ from tricue.track.multi.tracker import MultiTracker
 class TrackRun(NamedTuple):
     """The source, the tracker, how it starts, and the known intrinsics or stereo rig.
 
-    targets, boxes: of several targets, for each of which there is such a tracker, and the numbers of their
-        first frames; None for one.
+    targets, boxes: for several targets, which all have such a tracker, with the numbers of their first
+        frames; None for one.
     first, end: the numbers of the first frame and of the one after the last, None for all.
-    assumed: whether the camera is only supposed.
+    assumed: whether the camera is only assumed.
     """
 
     source: Source
@@ -49,7 +49,7 @@ class TrackRun(NamedTuple):
     assumed: bool = False
 
     def known(self, step: Step) -> Step:
-        """The step, without positions where no camera is known by which they would be meters."""
+        """The step, without positions if no camera is known that would make them meters."""
         if self.intrinsics is not None:
             return step
         tracks = step.tracks and {target: track.in_image() for target, track in step.tracks.items()}
@@ -61,7 +61,7 @@ class TrackRun(NamedTuple):
 
     @property
     def frames(self) -> int | None:
-        """How many there are; None where that isn't known."""
+        """The number of frames; None if unknown."""
         ends = [each for each in (self.source.length, self.end) if each is not None]
         return max(min(ends) - self.first, 0) if ends else None
 
@@ -106,14 +106,14 @@ def prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
 
 
 def _time_note(source: Source) -> str:
-    """What is assumed of the times of frames, "" where they are known."""
+    """A note on the assumed times of frames, "" if they are known."""
     rate = f"{source.fps:g} frames/s assumed, as the images have no times; give another rate with --fps N"
     return "" if source.knows_times else rate
 
 
 def _check_outputs(options: argparse.Namespace, source: Source) -> None:
-    """ValueError for an output that would be written over what is read, or over another output; OSError for
-    one that can't be written. All before the first frame, and without touching a file.
+    """ValueError for an output that would overwrite an input or another output, OSError for one that can't be
+    written; before the first frame, and without touching a file.
     """
     _check_standard_output(options)
     if options.output:
@@ -138,7 +138,7 @@ def _check_standard_output(options: argparse.Namespace) -> None:
 
 
 def _selected(options: argparse.Namespace) -> list[StartBox]:
-    """The boxes that the user draws in the browser; ValueError where there is none."""
+    """The boxes that the user draws in the browser; ValueError if there are none."""
     from tricue.app import select_boxes
 
     found = [StartBox(box, frame) for frame, box in select_boxes(options.input, **opening(options))]
@@ -160,7 +160,7 @@ def _numbered(options: argparse.Namespace) -> list[tuple[int, Box]]:
 
 
 def _check_boxes(boxes: Sequence[tuple[int, Box]], source: Source) -> None:
-    """ValueError that names a box on which no tracker could start, before hours with the others."""
+    """ValueError names a box on which no tracker could start, before hours are spent on the others."""
     first = min(frame for frame, _ in boxes)
     width, height = map(max, zip(*(stream.size for stream in source.channels.values()), strict=True))
     for frame, box in boxes:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What ``tricue track`` prints at its end, and the plot of the path."""
+"""The final report of ``tricue track``, and the plot of the path."""
 
 from collections import Counter
 from collections.abc import Mapping
@@ -22,7 +22,7 @@ def report(
     lost: Mapping[int, LostRanges],
     interrupted: bool,
 ) -> None:
-    """Print how many frames were tracked and lost, where, how fast, and how near to the true boxes."""
+    """Print how many frames were tracked and lost, where, how fast, and how close to the true boxes."""
     frames = f"{run.source.name}: {_frames(clock.decoded)}{' until interrupted' if interrupted else ''}"
     if len(tracks) > 1:
         print(frames)
@@ -60,7 +60,7 @@ def not_started(run: TrackRun, clock: RunClock) -> str:
 
 
 def require_all_started(run: TrackRun, clock: RunClock) -> None:
-    """ValueError where the frame of a target's box never came."""
+    """ValueError if the frame of a target's box was never reached."""
     end = run.first + clock.decoded
     if left := [number for number, _ in run.boxes if number >= end]:
         raise ValueError(f"--box {left[0]}:...: expected a frame from {run.first} to {end - 1}")
@@ -69,7 +69,7 @@ def require_all_started(run: TrackRun, clock: RunClock) -> None:
 def plot(path: Path, run: TrackRun, tracks: Mapping[int, Track]) -> str:
     """Write the path seen from above; a note about the result.
 
-    Where there is none, an earlier run's picture is removed, which would be taken for this one's.
+    Without a path, an earlier run's picture is removed, because it would be mistaken for this one's.
     """
     from tricue.draw.paths import save_path
 
@@ -92,8 +92,8 @@ def _counts(statuses: Mapping[Status, int]) -> str:
 
 
 def _starts_on_another(truth: Any, tracks: Mapping[int, Track]) -> bool:
-    """Whether the first box doesn't touch the true one of its frame: a box that was found or drawn may be of
-    another target.
+    """Whether the first box doesn't touch the frame's true box, because it was detected or drawn on another
+    target.
     """
     from tricue.evaluation import metrics
 

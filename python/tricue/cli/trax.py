@@ -86,8 +86,8 @@ def _read_tracker(options: argparse.Namespace, environment: Mapping[str, str]) -
 def _quit_at_end_of_input() -> None:
     """Treat the end of standard input as a quit.
 
-    vot-trax 4.0.2 takes it for a broken message or, between initialize and its frame, reads on forever and
-    fills the memory. So a thread forwards the input, and adds the quit that a killed client can't send.
+    vot-trax 4.0.2 takes it for a broken message or, between initialize and its frame, reads forever and fills
+    the memory. So a thread forwards the input, and appends the quit that a killed client can't send.
     """
     source = os.dup(0)
     readable, writable = os.pipe()

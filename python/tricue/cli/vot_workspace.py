@@ -40,7 +40,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run the command and print what to run next; the exit code."""
+    """Run the command and print what to run next; return the exit code."""
     folder, trackers = options.folder, list(dict.fromkeys(options.trackers))
     report = write_workspace(folder, trackers, _recordings(options.sequences), options.python)
     for note in report.notes:

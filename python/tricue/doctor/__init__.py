@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What ``tricue doctor`` says of an installation.
+"""The checks of ``tricue doctor``.
 
-It imports nothing of the package outside of this folder, so that it also runs where nothing else can be
-imported. What may crash or hang is tried in a process of its own (:mod:`tricue.doctor.probe`).
+It imports nothing of the package outside of this folder, so that it also runs if nothing else can be
+imported. Whatever may crash or hang is tried in a separate process (:mod:`tricue.doctor.probe`).
 """

@@ -27,7 +27,7 @@ _LIBRARIES = {
 
 
 def find_cameras() -> list[Finding]:
-    """Findings on video devices, and on RealSense and OAK cameras where their libraries are installed."""
+    """Findings on video devices, and on RealSense and OAK cameras if their libraries are installed."""
     found = [_device(path, ABOUT) for path in _devices(DEVICES)]
     if not found:
         found = [Finding(SECTION, "video devices", Verdict.ABSENT, "none in /dev")]

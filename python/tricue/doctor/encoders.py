@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Video encoders, each of which writes a few frames that are then read again."""
+"""Checks each video encoder by writing a few frames and reading them again."""
 
 from concurrent.futures import Executor
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The whole examination, and its report as text or JSON."""
+"""The complete examination, and its report as text or JSON."""
 
 import json
 import os
@@ -26,8 +26,8 @@ FORMAT = 1  # of the JSON
 
 
 def examine() -> list[Finding]:
-    """All findings, section by section. What tracks runs only where its parts can be loaded, and alone, for
-    its speed.
+    """All findings, section by section. The self-test runs only if its parts can be loaded, and by itself,
+    since it measures speed.
     """
     with ThreadPoolExecutor(max(os.cpu_count() or 1, 2)) as pool:
         versions, opencv, cameras = (pool.submit(each) for each in (find_versions, find_opencv, find_cameras))
@@ -44,12 +44,12 @@ def examine() -> list[Finding]:
 
 
 def healthy(findings: Sequence[Finding]) -> bool:
-    """Whether nothing is broken that tricue's core needs."""
+    """Whether everything that tricue's core needs works."""
     return all(each.verdict is not Verdict.FAILED for each in findings)
 
 
 def as_text(findings: Sequence[Finding]) -> str:
-    """A line for each finding, below it what fixes it, and at the end what it all comes to."""
+    """A line for each finding, below it the fix, and a conclusion at the end."""
     width = max(len(each.name) for each in findings)
     lines: list[str] = []
     section = ""

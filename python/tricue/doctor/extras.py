@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""tricue's extras: whether their packages are there, new enough, and can be imported."""
+"""tricue's extras: whether their packages are installed, new enough, and importable."""
 
 from collections.abc import Iterable, Mapping
 from concurrent.futures import Executor, Future
@@ -13,7 +13,7 @@ SECTION = "Extras"
 
 
 def find_extras(pool: Executor) -> list[Finding]:
-    """A finding for each extra; packages are imported one a process, those that are installed."""
+    """A finding for each extra; installed packages are imported, each in its own process."""
     extras = {name: needs for name, needs in required().items() if name and name not in FOR_DEVELOPERS}
     if not extras:
         return [Finding(SECTION, "extras", Verdict.ABSENT, "unknown, as pip didn't install this tricue")]
@@ -27,7 +27,7 @@ def find_extras(pool: Executor) -> list[Finding]:
 
 
 def judge(name: str, needs: Iterable[Requirement], imports: Mapping[str, Future[Answer]]) -> Finding:
-    """What an extra's packages are like. imports: what came of importing those that are installed."""
+    """The finding on an extra's packages. imports: the results of importing the installed ones."""
     there, missing, old, broken = [], [], [], []
     for each in needs:
         version = installed(each.package)

@@ -30,7 +30,7 @@ def find_versions() -> list[Finding]:
 
 
 def pip(*packages: str) -> str:
-    """The command that installs packages where this Python finds them."""
+    """The command that installs packages for this Python."""
     return f"{short(sys.executable)} -m pip install {' '.join(packages)}"
 
 
@@ -43,7 +43,7 @@ def short(path: str | Path) -> str:
 
 
 def commit() -> str:
-    """The commit that the package was built from, "+" behind it if files were changed; "" if unknown."""
+    """The commit that the package was built from, with "+" appended if files were changed; "" if unknown."""
     if (PACKAGE.parents[1] / "pyproject.toml").is_file():
         return _git_commit(PACKAGE.parents[1])
     try:
@@ -115,7 +115,7 @@ def _numpy() -> Finding:
 
 
 def _core() -> list[Finding]:
-    """The native core, which is loaded without the package that needs it."""
+    """The finding on the native core, which is loaded without the rest of the package."""
     files = [*PACKAGE.glob("_core*.so"), *PACKAGE.glob("_core*.pyd")]
     if not files:
         return [Finding(SECTION, "native core", Verdict.FAILED, f"there is none in {short(PACKAGE)}", BUILD)]

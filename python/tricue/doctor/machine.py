@@ -18,13 +18,13 @@ FEATURES = (
     *("sse4_2", "avx", "avx2", "fma", "avx512f", "avx512bw", "avx512dq", "avx512vl", "avx512vbmi"),  # x86-64
     *("asimd", "neon", "sve"),  # ARM
 )
-ADDRESS, PORT = "127.0.0.1", 8765  # of tricue open, unless told otherwise
-MIN_FREE = 100e6  # bytes, which an overlay video may take
+ADDRESS, PORT = "127.0.0.1", 8765  # defaults of tricue open
+MIN_FREE = 100e6  # bytes, which an overlay video may need
 _GROUPS = Path("/sys/fs/cgroup")
 
 
 def find_machine() -> list[Finding]:
-    """Findings on what tricue runs on."""
+    """Findings on the machine."""
     system = f"{platform.system()} {platform.release()}, {platform.machine()}"
     return [
         Finding(SECTION, "system", Verdict.OK, system),
@@ -40,12 +40,12 @@ def find_places() -> list[Finding]:
 
 
 def processor() -> str:
-    """The processor's name, as far as the system tells it."""
+    """The processor's name, as far as the system reports it."""
     return _cpuinfo("model name") or platform.processor() or "an unknown processor"
 
 
 def _cpuinfo(*keys: str) -> str:
-    """The first value of any of the keys in Linux's list of processors, "" where there is none."""
+    """The first value of any of the keys in Linux's list of processors, "" if there is none."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError:
@@ -61,7 +61,7 @@ def _features() -> str:
 
 
 def _cores() -> str:
-    """How many there are, how many this process may use, and what limits numeric libraries."""
+    """How many cores there are, how many this process may use, and what limits numeric libraries."""
     total = os.cpu_count() or 1
     usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else total
     parts = [f"{total}" if usable == total else f"{total}, of which this process may use {usable}"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""cv2: its package, whether several fight for its folder, which trackers it has, and what detects faces."""
+"""cv2: its package, whether several share its folder, which trackers it has, and what detects faces."""
 
 from importlib import metadata
 
@@ -12,7 +12,7 @@ SECTION = "cv2, OpenCV for Python"
 HEADLESS = "opencv-python-headless"
 CONTRIB = "opencv-contrib-python-headless"
 TRACKERS = ("CSRT", "KCF", "MIL", "MOSSE", "MedianFlow")
-"""OpenCV's, with which tricue evaluate compares."""
+"""OpenCV's trackers, with which tricue evaluate compares."""
 CASCADE = "haarcascade_frontalface_default.xml"
 SCIKIT_IMAGE = "scikit-image"
 _LOAD = """
@@ -46,7 +46,7 @@ def find_opencv() -> list[Finding]:
 
 
 def provider_packages() -> dict[str, str]:
-    """The installed packages that put a cv2 into one and the same folder, with their versions."""
+    """The installed packages that put a cv2 into the same folder, with their versions."""
     names = {
         str(each.metadata["Name"]).lower().replace("_", "-")
         for each in metadata.distributions()
@@ -82,7 +82,7 @@ def _import(answer: Answer, providers: dict[str, str]) -> Finding:
 
 
 def _several(providers: dict[str, str]) -> Finding:
-    """The known trap: the last one installed wins, and to uninstall either breaks the other."""
+    """A finding on the known trap: the last one installed wins, and uninstalling either breaks the other."""
     kept = max(providers, key=lambda name: ("contrib" in name, "headless" in name))
     text = (
         f"{', '.join(providers)} share one folder: the last one installed counts, to uninstall one breaks all"
@@ -102,7 +102,7 @@ def _trackers(present: list[str]) -> Finding:
 
 
 def _faces(has_cascade: bool) -> Finding:
-    """What detects faces in video of one camera."""
+    """A finding on what detects faces in single-camera video."""
     if has_cascade:
         return Finding(SECTION, "faces", Verdict.OK, "detected by cv2's cascade")
     version = installed(SCIKIT_IMAGE)

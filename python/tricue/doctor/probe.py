@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Code that is tried in a process of its own: a crash or a hang of it is an answer like any other."""
+"""Runs code in a separate process, so that a crash or a hang is just another answer."""
 
 import json
 import signal
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 SECONDS = 60.0
-"""After which an import hangs, also on a slow and busy machine."""
+"""After this an import counts as hanging, even on a slow and busy machine."""
 _FRAME = """\
 import sys
 sys.path[:] = {path!r}
@@ -27,7 +27,7 @@ MAX_ERROR = 300  # characters of an error that are shown
 
 @dataclass(frozen=True)
 class Answer:
-    """What the code reported, or why it didn't."""
+    """The code's report, or why there is none."""
 
     values: dict[str, Any]
     error: str = ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What tricue requires, by its installed metadata, and which versions there are."""
+"""tricue's requirements, by its installed metadata, and the installed versions."""
 
 import re
 import sys
@@ -13,7 +13,7 @@ MODULES = {
     "scikit-image": "skimage",
     "vot-trax": "trax",
 }
-"""Modules by their packages, where the names differ by more than hyphens."""
+"""Modules by package, if the names differ by more than hyphens."""
 FOR_DEVELOPERS = {"dev", "docs"}
 _REQUIREMENT = re.compile(
     r"(?P<name>[A-Za-z0-9][\w.-]*)\s*(\[(?P<extras>[^\]]*)\])?\s*(?P<versions>[^;]*)(;(?P<marker>.*))?"
@@ -29,14 +29,14 @@ class Requirement:
 
     @property
     def module(self) -> str:
-        """What Python imports."""
+        """The name of the module to import."""
         return MODULES.get(self.package, self.package.replace("-", "_"))
 
     def __str__(self) -> str:
         return f"'{self.package}{self.versions}'" if self.versions else self.package
 
     def admits(self, version: str) -> bool:
-        """Whether a version is one of those that are required, by the numbers that it begins with."""
+        """Whether a version satisfies the requirement, by its leading numbers."""
         return all(
             _holds(version, *clause) for clause in re.findall(r"(>=|<=|==|!=|<|>)\s*([\w.]+)", self.versions)
         )
@@ -52,7 +52,7 @@ def installed(package: str) -> str:
 
 @cache
 def required() -> dict[str, tuple[Requirement, ...]]:
-    """What is required by extra, "" for the core; nothing where tricue itself has no metadata."""
+    """The requirements by extra, "" for the core; empty if tricue has no metadata."""
     try:
         lines = metadata.requires("tricue") or []
     except metadata.PackageNotFoundError:
@@ -61,7 +61,7 @@ def required() -> dict[str, tuple[Requirement, ...]]:
 
 
 def parse(lines: list[str]) -> dict[str, tuple[Requirement, ...]]:
-    """What lines of metadata require, by extra, "" for the core; extras of tricue's own are opened."""
+    """The requirements in lines of metadata, by extra, "" for the core; tricue's own extras are expanded."""
     direct: dict[str, list[Requirement]] = {}
     nested: dict[str, list[str]] = {}
     for line in lines:
@@ -85,7 +85,7 @@ def _open(name: str, direct: dict[str, list[Requirement]], nested: dict[str, lis
 
 
 def _for_this_python(marker: str) -> bool:
-    """Of markers, tricue's metadata have extras and Python's version alone."""
+    """Whether a marker holds; in tricue's metadata markers are only extras and Python versions."""
     clauses = re.findall(r"""python_version\s*(>=|<=|==|!=|<|>)\s*['"]([\d.]+)['"]""", marker)
     version = ".".join(map(str, sys.version_info[:2]))
     return all(_holds(version, *clause) for clause in clauses)

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""A tracker on a rendered target, for about a second: is it right, the same every time, and how fast?"""
+"""Runs a tracker on a rendered target for about a second: is it right and reproducible, and how fast?"""
 
 from tricue.doctor.finding import Finding, Verdict
 from tricue.doctor.probe import Answer, probe
 
 SECTION = "Self test"
 MAX_ERROR = 3.0
-"""Pixels of the center, on a target without noise that moves by two a frame."""
+"""Error of the center, pixels, on a noise-free target that moves by two pixels per frame."""
 MAX_DIFFERENCE = 1e-6
-"""Pixels between native and reference kernels, which add float64 numbers in another order."""
+"""Pixels between native and reference kernels, which add float64 numbers in a different order."""
 _TRACK = """
 import time
 import numpy, tricue
@@ -52,7 +52,7 @@ def find_self_test() -> list[Finding]:
 
 
 def judge(answer: Answer) -> Finding:
-    """What the test's numbers say."""
+    """The finding from the test's numbers."""
     name = "color-particle"
     if answer.error:
         return Finding(SECTION, name, Verdict.FAILED, answer.error)

@@ -14,15 +14,15 @@ Image = NDArray[np.uint8]
 Color = tuple[int, int, int]
 """BGR."""
 
-STATUS_COLORS: dict[Status, Color] = {  # they differ in lightness too, for red-green color blindness
+STATUS_COLORS: dict[Status, Color] = {  # also different in lightness, for red-green color blindness
     Status.TRACKED: (90, 220, 60),
     Status.OCCLUDED: (0, 160, 250),
     Status.LOST: (80, 60, 255),
 }
 WHITE, BLACK = (255, 255, 255), (0, 0, 0)
-MIN_ROWS = 480  # smaller images are enlarged, so that lines and letters stay fine
-MAX_COLUMNS = 4096  # to which they are, as encoders and players take no picture that is much wider
-MAX_DRAWN_COORDINATE = 30000  # pixels, which OpenCV's integers can hold
+MIN_ROWS = 480  # smaller images are enlarged, so that lines and letters look fine
+MAX_COLUMNS = 4096  # the limit of this enlargement, because encoders and players reject much wider pictures
+MAX_DRAWN_COORDINATE = 30000  # pixels, within OpenCV's integer range
 _FONT = cv2.FONT_HERSHEY_SIMPLEX
 
 
@@ -37,7 +37,7 @@ def to_gray(image: NDArray[Any]) -> Image:
 
 
 def choose_scale(rows: int, columns: int) -> int:
-    """The whole number by which an image of so many rows and columns is enlarged before it is drawn on."""
+    """The whole number by which to enlarge an image of this size before drawing on it."""
     return max(1, min(MIN_ROWS // rows, MAX_COLUMNS // columns))
 
 
@@ -53,13 +53,13 @@ def enlarge(image: NDArray[Any], scale: int, interpolation: int) -> Image:
 
 
 def to_pixels(coordinates: ArrayLike, scale: int) -> list[int]:
-    """Image coordinates, scaled, rounded, and clipped to what OpenCV's integers can hold."""
+    """Image coordinates, scaled, rounded, and clipped to OpenCV's integer range."""
     scaled = np.rint(np.asarray(coordinates, np.float64) * scale)
     return [int(n) for n in np.clip(scaled, -MAX_DRAWN_COORDINATE, MAX_DRAWN_COORDINATE)]
 
 
 def draw_box(canvas: Image, box: Box, scale: int, color: Color, thickness: int) -> None:
-    """Outline a box, given in the pixels of the image before it was enlarged by ``scale``."""
+    """Outline a box, given in pixels of the image before its enlargement by ``scale``."""
     left, top, right, bottom = to_pixels(box.xyxy, scale)
     cv2.rectangle(canvas, (left, top), (right - 1, bottom - 1), color, thickness, cv2.LINE_AA)
 
@@ -71,7 +71,7 @@ def draw_ellipse(canvas: Image, box: Box, scale: int, color: Color) -> None:
 
 
 def draw_dots(canvas: Image, points: NDArray[np.float64], scale: int, color: Color) -> None:
-    """A dot at each of the points (N, 2 or more), x and y first."""
+    """Draw a dot at each of the points (N, 2 or more), with x and y first."""
     for x, y in points[:, :2]:
         cv2.circle(canvas, tuple(to_pixels((x, y), scale)), 2, color, -1, cv2.LINE_AA)
 
@@ -82,10 +82,10 @@ def choose_font_scale(canvas: Image) -> float:
 
 
 def put_text(canvas: Image, text: str, position: tuple[int, int], color: Color) -> None:
-    """Write outlined text whose baseline begins at (x, y), pixels, or farther left so that it fits; no text
-    leaves the picture as it is.
+    """Write outlined text whose baseline begins at (x, y), pixels, or farther left if needed to fit; empty
+    text leaves the picture as it is.
 
-    The picture is darker behind it, so that it can be read on clutter, too.
+    The picture is darkened behind it, so that it can be read on clutter.
     """
     if not text:
         return
@@ -94,7 +94,7 @@ def put_text(canvas: Image, text: str, position: tuple[int, int], color: Color) 
     x, y = max(0, min(position[0], canvas.shape[1] - width - 2)), position[1]
     plate = canvas[max(y - height - 3, 0) : max(y + below, 0), max(x - 3, 0) : x + width + 3]
     plate[...] = plate // 3
-    # A thick line for the outline would be a bolder, wider font in cv2 5, whose letters lie elsewhere.
+    # A thick line as outline would be a bolder, wider font in cv2 5, with letters at other places.
     around = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if (dx, dy) != (0, 0)]
     for (dx, dy), ink in [*((step, BLACK) for step in around), ((0, 0), color)]:
         cv2.putText(canvas, text, (x + dx, y + dy), _FONT, size, ink, 1, cv2.LINE_AA)

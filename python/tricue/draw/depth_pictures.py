@@ -8,14 +8,14 @@ from numpy.typing import NDArray
 from tricue.draw.canvas import Image
 
 MIN_RANGE = 0.01  # meters
-_DEPTH_COLORMAP = cv2.COLORMAP_CIVIDIS  # even in lightness, and readable with red-green color blindness
+_DEPTH_COLORMAP = cv2.COLORMAP_CIVIDIS  # perceptually uniform, and readable with red-green color blindness
 
 
 def depth_picture(depth: NDArray[np.float32], near: float | None = None, far: float | None = None) -> Image:
     """A depth image (H, W), meters, as a BGR image (H, W, 3): near is bright, far is dark, NaN is black.
 
     near, far: the depths of the brightest and of the darkest color, meters; by default the 2nd and the 98th
-    percentile of the image. ValueError where near isn't below far.
+    percentile of the image. ValueError unless near is below far.
     """
     if near is not None and far is not None and not near < far:
         raise ValueError(f"near, far: expected near below far, meters, got {near} and {far}")
@@ -30,11 +30,11 @@ def depth_picture(depth: NDArray[np.float32], near: float | None = None, far: fl
 
 
 def depth_range(depth: NDArray[np.float32]) -> tuple[float, float] | None:
-    """The 2nd and the 98th percentile of the measured depths, meters; None where nothing was measured.
+    """The 2nd and the 98th percentile of the measured depths, meters; None if nothing was measured.
 
-    That of a flat wall is MIN_RANGE wide, so that it can be drawn.
+    It is at least MIN_RANGE wide, so that a flat wall can be drawn.
     """
-    rows, columns = (max(1, n // 120) for n in depth.shape)  # some ten thousand pixels suffice
+    rows, columns = (max(1, n // 120) for n in depth.shape)  # some tens of thousands of pixels suffice
     sample = depth[::rows, ::columns]
     measured = sample[np.isfinite(sample)]
     if measured.size == 0:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What all matplotlib figures share: colors, style, saving (matplotlib is in the ``demo`` extra)."""
+"""Colors, style and saving for all matplotlib figures (matplotlib is in the ``demo`` extra)."""
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -14,7 +14,7 @@ S = TypeVar("S")
 Draw = Callable[[Any, Sequence[C], Mapping[str, S]], None]
 """Fills an empty matplotlib figure from curves C; the scenes S, by name, illustrate them."""
 
-# Okabe and Ito's colors, which color-blind readers can tell apart.
+# Okabe and Ito's colors, which color-blind readers can distinguish.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999999")
 STYLE: dict[Any, Any] = {
     "font.size": 9,
@@ -27,7 +27,7 @@ STYLE: dict[Any, Any] = {
 
 
 def require() -> None:
-    """Raise ImportError, which names the extra, where matplotlib is missing."""
+    """Raise ImportError, which names the extra, if matplotlib is missing."""
     try:
         import matplotlib.figure  # noqa: F401
     except ImportError:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Overlays: an image with a track in it, as box, ellipse, particles, status, score and position."""
+"""Overlays: images with a track drawn as box, ellipse, particles, status, score and position."""
 
 import math
 from collections.abc import Iterable
@@ -89,7 +89,7 @@ def depth_overlay(
 
 
 def _write_track(canvas: Image, track: Track, note: str) -> None:
-    """Status and score, the note, and the position with the standard deviation of its depth."""
+    """Write status and score, the note, and the position with the standard deviation of its depth."""
     put_line(canvas, f"{track.status}  {track.score:.2f}", 0, STATUS_COLORS[track.status])
     put_line(canvas, note, 1, WHITE)
     if track.position is not None:

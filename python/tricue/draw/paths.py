@@ -15,7 +15,7 @@ from tricue.track.base.track import Status, Track
 
 PLOT_STATUS_COLORS = {Status.TRACKED: COLORS[2], Status.OCCLUDED: COLORS[4], Status.LOST: COLORS[1]}
 _CAMERA_SYMBOL_SIZE = 0.05  # as a share of the depth shown
-_SHOWN_DEPTH = 1.1  # of the farthest point: how deep the field of view is drawn
+_SHOWN_DEPTH = 1.1  # depth of the drawn field of view, relative to the farthest point
 
 
 def path_from_above(
@@ -25,7 +25,7 @@ def path_from_above(
 
     The camera is at (0, 0) and looks up the page; with ``intrinsics`` its field of view is drawn. The color
     of a point is its status. truth: (N, 3) true positions, meters in the camera frame, NaN where unknown,
-    drawn as a thin line. ValueError where no track has a position.
+    drawn as a thin line. ValueError if no track has a position.
     """
     require()
     from matplotlib import rc_context
@@ -65,7 +65,7 @@ def save_path(
 
 
 def check_format(path: Path) -> None:
-    """Raise ImportError where matplotlib is missing, ValueError for a suffix that it can't write."""
+    """Raise ImportError if matplotlib is missing, ValueError for a suffix that it can't write."""
     require()
     from matplotlib.figure import Figure
 
@@ -85,7 +85,7 @@ def _draw_camera(axes: Any, intrinsics: Intrinsics | None, depth: float) -> None
     side = _CAMERA_SYMBOL_SIZE * depth
     axes.fill([0, -side / 2, side / 2], [0, -side, -side], color="0.3", label="camera")
     if intrinsics is not None:
-        # The outer edges of the first and of the last pixel, whose centers are at 0 and width - 1.
+        # The outer edges of the first and last pixels, whose centers are at 0 and width - 1.
         edges = [(u - intrinsics.cx) / intrinsics.fx for u in (-0.5, intrinsics.width - 0.5)]
         angle = math.degrees(math.atan(edges[1]) - math.atan(edges[0]))
         left, right = (edge * depth for edge in edges)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A strip along the bottom of an overlay: when a target was tracked, occluded and lost, up to now."""
+"""A strip along the bottom of an overlay: when a target was tracked, occluded and lost so far."""
 
 import numpy as np
 
@@ -7,8 +7,8 @@ from tricue.draw.canvas import STATUS_COLORS, Image
 from tricue.track.base.track import Status
 
 MIN_HEIGHT = 6  # pixels
-SHARE = 80  # of the image's height
-AHEAD = (40, 40, 40)  # BGR of frames that are still to come
+SHARE = 80  # the image's height over the strip's
+AHEAD = (40, 40, 40)  # BGR of frames still to come
 
 _CODES = {status: code for code, status in enumerate(Status, 1)}
 _PALETTE = np.array([AHEAD, *(STATUS_COLORS[status] for status in Status)], np.uint8)
@@ -17,7 +17,7 @@ _PALETTE = np.array([AHEAD, *(STATUS_COLORS[status] for status in Status)], np.u
 class StatusStrip:
     """The statuses of a target, frame by frame, drawn as one strip.
 
-    length: how many frames there will be; None where that isn't known, and the strip always is full.
+    length: the number of frames to come; None if unknown, the strip is then always full.
     """
 
     def __init__(self, length: int | None = None) -> None:
@@ -25,11 +25,11 @@ class StatusStrip:
         self._codes = bytearray()
 
     def add(self, status: Status) -> None:
-        """The status in the next frame."""
+        """Add the status in the next frame."""
         self._codes.append(_CODES[status])
 
     def draw(self, canvas: Image, line: int = 0) -> None:
-        """Draw it into the canvas (H, W, 3), lines from the bottom counted from 0."""
+        """Draw it into the canvas (H, W, 3). line: from the bottom, from 0."""
         height = max(MIN_HEIGHT, canvas.shape[0] // SHARE)
         count = max(self._length, len(self._codes), 1)
         codes = np.zeros(count, np.uint8)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Overlays on stereo pairs: the left image with the track, and an inset with the target's disparity."""
+"""Overlays for stereo pairs: the left image with the track, and an inset with the target's disparity."""
 
 import math
 from typing import NamedTuple
@@ -19,19 +19,19 @@ from tricue.track.base.track import Track
 
 Disparity = NDArray[np.float32]
 
-SURROUND_SCALE = 1.6  # of the target's ellipse: the region whose disparity is shown
-DISPARITY_RANGE = 0.3  # on both sides of the target's disparity, as a share of it
+SURROUND_SCALE = 1.6  # relative to the target's ellipse; the region whose disparity is shown
+DISPARITY_RANGE = 0.3  # on each side of the target's disparity, as a share of it
 MIN_DISPARITY_RANGE = 4.0  # pixels
-COLUMNS_PER_WINDOW_STEP = 160  # the matching window grows by 2 pixels for each of them
+COLUMNS_PER_WINDOW_STEP = 160  # the matching window grows by 2 pixels per this many columns
 MATCHING_WINDOW, MAX_MATCHING_WINDOW = 5, 31  # pixels
-MATCHING_UNIQUENESS, NO_LEFT_RIGHT_CHECK = 10, -1  # as the kernel sad_disparity takes them
+MATCHING_UNIQUENESS, NO_LEFT_RIGHT_CHECK = 10, -1  # arguments of the kernel sad_disparity
 MAX_INSET_SHARE = 0.35  # of the image's height and width
 INSET_MARGIN = 8  # pixels between the inset and the image's edge
 _UNMATCHED_BRIGHTNESS = 0.5
 
 
 class DisparityPatch(NamedTuple):
-    """The disparities (h, w), pixels, of the part of the left image that begins at (left, top).
+    """Disparities (h, w), pixels, of the part of the left image that begins at (left, top).
 
     They are NaN where nothing was matched.
     """
@@ -47,9 +47,9 @@ def stereo_overlay(
 ) -> Image:
     """The left image with the track in it (see :func:`tricue.draw.overlay`), and an inset of its disparity.
 
-    The inset shows the target and its surround: near is bright, far is dark, and where nothing was matched
-    it is the darkened image. Without a position there is no inset. truth: the true box. note: text below the
-    status. ValueError for a frame without a stereo pair.
+    The inset shows the target and its surround: near is bright, far is dark, and unmatched pixels show the
+    darkened image. Without a position there is no inset. truth: the true box. note: text below the status.
+    ValueError for a frame without a stereo pair.
     """
     frame.require("color", "right")
     assert frame.color is not None
@@ -65,8 +65,7 @@ def stereo_overlay(
 def measure_disparity(frame: Frame, track: Track, rig: StereoRig) -> DisparityPatch | None:
     """The disparity of a track's target and its surround.
 
-    None where the track has no position or is outside the image. ValueError for a frame without a stereo
-    pair.
+    None if the track has no position or is outside the image. ValueError for a frame without a stereo pair.
     """
     frame.require("color", "right")
     assert frame.color is not None
@@ -88,7 +87,7 @@ def measure_disparity(frame: Frame, track: Track, rig: StereoRig) -> DisparityPa
 
 
 def _surround(box: Box, width: int, height: int) -> tuple[int, int, int, int] | None:
-    """The region x0, y0, x1, y1 of a target's surround, whole pixels; None where it is outside the image."""
+    """The region x0, y0, x1, y1 of a target's surround, whole pixels; None if it is outside the image."""
     x, y, minor, major = box.ellipse
     part = Box.from_ellipse(x, y, SURROUND_SCALE * minor, SURROUND_SCALE * major).clip(width, height)
     if part.area <= 0:
@@ -99,7 +98,7 @@ def _surround(box: Box, width: int, height: int) -> tuple[int, int, int, int] | 
 
 
 def _disparity_range(expected: float) -> float:
-    """How far from the target's disparity others are searched and shown, pixels."""
+    """The searched and shown range on each side of the target's disparity, pixels."""
     return max(DISPARITY_RANGE * expected, MIN_DISPARITY_RANGE)
 
 
@@ -120,7 +119,7 @@ def _inset(image: NDArray[np.uint8], track: Track, patch: DisparityPatch, shape:
 
 
 def _color_patch(part: Image, patch: DisparityPatch) -> Image:
-    """The colors (h, w, 3) of the disparities; where there is none, the gray image, darkened."""
+    """The colors (h, w, 3) of the disparities; unmatched pixels show the darkened gray image."""
     span = _disparity_range(patch.expected)
     # The negative disparity grows with distance, as depth does.
     colors = depth_picture(np.negative(patch.disparity), -patch.expected - span, -patch.expected + span)
@@ -132,7 +131,7 @@ def _color_patch(part: Image, patch: DisparityPatch) -> Image:
 def _paste(canvas: Image, inset: Image, patch: DisparityPatch, target: Box) -> None:
     """Paste the inset with a caption into the corner that overlaps the target least.
 
-    The upper left corner isn't used, for it holds the text.
+    The upper left corner isn't used, because it has the text.
     """
     height, width = inset.shape[:2]
     caption = round(32 * choose_font_scale(canvas))

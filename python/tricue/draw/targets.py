@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""An overlay of several targets, each in a color of its own, with its id."""
+"""Overlays of several targets, each with its own color and its id."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -22,7 +22,7 @@ from tricue.draw.canvas import (
 )
 from tricue.track.base.track import Status, Track
 
-# Okabe and Ito's, which differ for all kinds of color vision, but black, in BGR; then they begin again.
+# Okabe and Ito's colors without black, in BGR, distinct for all kinds of color vision; used in a cycle.
 TARGET_COLORS: tuple[Color, ...] = (
     (0, 159, 230),
     (233, 180, 86),
@@ -36,29 +36,29 @@ THICKNESS = {Status.TRACKED: 2, Status.OCCLUDED: 1, Status.LOST: 1}
 
 
 def target_color(target: int) -> Color:
-    """The color of a target's id, which counts from 1."""
+    """The color of a target by its id, which counts from 1."""
     return TARGET_COLORS[(target - 1) % len(TARGET_COLORS)]
 
 
 def targets_overlay(image: NDArray[Any], tracks: Mapping[int, Track], *, note: str = "") -> Image:
     """A copy of an image, BGR (H, W, 3) or gray (H, W), with the tracks of several targets by their ids.
 
-    A small image is enlarged by a whole number. Each box has its target's color and id; one that is occluded
-    or lost is drawn thin, and says so. note: text in the upper left corner.
+    A small image is enlarged by a whole number. Each box has its target's color and id; occluded or lost ones
+    are drawn thin, with their status. note: text in the upper left corner.
     """
     scale = choose_scale(*image.shape[:2])
     canvas = enlarge(image, scale, cv2.INTER_CUBIC)
     for target, track in tracks.items():
         draw_box(canvas, track.box, scale, BLACK, THICKNESS[track.status] + 2)
         draw_box(canvas, track.box, scale, target_color(target), THICKNESS[track.status])
-    for target, track in tracks.items():  # over all boxes
+    for target, track in tracks.items():  # on top of all boxes
         _write_id(canvas, target, track, scale)
     put_line(canvas, note, 0, WHITE)
     return canvas
 
 
 def _write_id(canvas: Image, target: int, track: Track, scale: int) -> None:
-    """Above the box, or in it where there is no room."""
+    """Write the id above the box, or in it if there is no room."""
     left, top, _, _ = to_pixels(track.box.xyxy, scale)
     height = round(30 * choose_font_scale(canvas))
     text = str(target) if track.status is Status.TRACKED else f"{target} {track.status}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The trail of a target: where its box's center was in the last seconds, fading, broken where it was lost."""
+"""The trail of a target: the path of its box's center in the last seconds, fading, interrupted where lost."""
 
 from collections import deque
 from itertools import pairwise
@@ -12,8 +12,8 @@ from tricue.draw.canvas import BLACK, Color, Image, to_pixels
 from tricue.track.base.track import Status, Track
 
 DEFAULT_SECONDS = 2.0
-SHARE = 240  # of the image's height: the width of the line
-MARGIN = 8  # pixels round the line that are drawn anew
+SHARE = 240  # the image's height over the line's width
+MARGIN = 8  # pixels around the line that are redrawn
 
 Point = tuple[int, int]
 
@@ -29,14 +29,14 @@ class Trail:
         self._centers: deque[tuple[float, tuple[float, float] | None]] = deque()
 
     def add(self, time: float, track: Track | None) -> None:
-        """The track of the frame of this time, in seconds, which must not fall; None without one."""
+        """Add the track at a time in seconds, which must not decrease; None without a track."""
         center = None if track is None or track.status is Status.LOST else track.box.center
         self._centers.append((time, center))
         while self._centers[0][0] < time - self.seconds:
             self._centers.popleft()
 
     def draw(self, canvas: Image, scale: int, color: Color) -> None:
-        """Draw it into a BGR image (H, W, 3), enlarged by ``scale``, the older the fainter."""
+        """Draw it into a BGR image (H, W, 3), enlarged by ``scale``; older parts are fainter."""
         lines = [
             (*to_pixels((*before, *after), scale), self._share(time))
             for (_, before), (time, after) in pairwise(self._centers)
@@ -60,5 +60,5 @@ class Trail:
             part[...] = part + weight * (np.array(ink, np.float32) - part)
 
     def _share(self, time: float) -> float:
-        """How strong the line is that ends at this time: 1 for now, 0 for the oldest."""
+        """The opacity of the line that ends at this time: 1 for now, 0 for the oldest."""
         return 1 - (self._centers[-1][0] - time) / self.seconds

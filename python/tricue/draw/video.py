@@ -18,15 +18,14 @@ SUFFIXES = (".mp4", ".mkv", ".webm", ".avi")
 class OverlayWriter:
     """Writes images to a video file; use it in ``with``.
 
-    .mp4 and .mkv are H.264, .webm is VP9, by PyAV (``tricue[video]``). Without PyAV they become
-    .mp4.webm and .mkv.webm, VP8 by OpenCV, and ``note`` says so. .avi is MJPG, by OpenCV. ``path`` is the
-    file written.
-    The file is made by the first image, so that one that was there stays without any. It is complete when
-    ``with`` is left, also by an exception; of a process that is killed it has what was written until a second
-    or so before. The first image sets the size; odd ones get one more row or column.
-    fps: frames per second of images without times, and of all that OpenCV writes, where it shows an image
-    for as long as its time asks by repeating it. ValueError for another suffix and for a path that isn't
-    UTF-8, OSError where the file can't be written.
+    .mp4 and .mkv are H.264, .webm is VP9, by PyAV (``tricue[video]``). Without PyAV they become .mp4.webm and
+    .mkv.webm, VP8 by OpenCV, and ``note`` says so. .avi is MJPG, by OpenCV. ``path`` is the file written. The
+    file is made by the first image, so that one that was there stays without any. It is complete when
+    ``with`` is left, also by an exception; if the process is killed, it has what was written up to about a
+    second before. The first image sets the size; odd ones get one more row or column.
+    fps: frames per second of images without times, and of files that OpenCV writes, where images are repeated
+    until the time of the next one. ValueError for another suffix and for a path that isn't UTF-8, OSError if
+    the file can't be written.
     """
 
     def __init__(self, path: str | os.PathLike[str], fps: float) -> None:
@@ -56,10 +55,10 @@ class OverlayWriter:
         return f"{self.path} ({self.note})" if self.note else str(self.path)
 
     def write(self, picture: Image, seconds: float | None = None) -> None:
-        """Append a BGR image (H, W, 3); one of another size than the first is scaled to that.
+        """Append a BGR image (H, W, 3); it is scaled to the size of the first one.
 
-        seconds: its time, rising from any on, so that the video plays as long as the frames took; without it
-        an image is shown for a frame at ``fps``. ValueError for another kind of image.
+        seconds: its time, increasing from any start, so that the video plays as long as the frames took;
+        without it an image is shown for one frame at ``fps``. ValueError for other kinds of images.
         """
         if picture.dtype != np.uint8 or picture.ndim != 3 or picture.shape[2] != 3:
             raise ValueError(f"picture: expected BGR (H, W, 3) uint8, got {picture.dtype} {picture.shape}")
@@ -69,12 +68,12 @@ class OverlayWriter:
         if self._encoder is None:
             self._size = picture.shape[1], picture.shape[0]
             self._encoder = self._open(self._size)
-        elif picture.shape[1::-1] != self._size:  # OpenCV would leave it out
+        elif picture.shape[1::-1] != self._size:  # OpenCV would skip it
             picture = np.asarray(cv2.resize(picture, self._size, interpolation=cv2.INTER_AREA), np.uint8)
         self._encoder.write(picture, seconds)
 
     def close(self) -> None:
-        """Finish the file; without any image there is none."""
+        """Finish the file; without images there is none."""
         encoder, self._encoder = self._encoder, None
         if encoder is not None:
             encoder.close()
@@ -85,7 +84,7 @@ class OverlayWriter:
         return (PyAVEncoder if self._by_pyav else OpenCVEncoder)(self.path, self.fps, size)
 
     def _check_whole(self, written: int) -> None:
-        """OSError where frames are missing from the file: OpenCV doesn't tell a full disk."""
+        """Raise OSError if frames are missing in the file, since OpenCV doesn't report a full disk."""
         if not self.path.exists():
             raise OSError(f"{self.path}: was removed while it was written")
         found = count_frames(self.path)
@@ -94,7 +93,7 @@ class OverlayWriter:
 
 
 def check_name(path: Path) -> None:
-    """ValueError for another suffix than SUFFIXES, and for a path that isn't UTF-8, of which OpenCV dies."""
+    """ValueError for a suffix not in SUFFIXES, and for a path that isn't UTF-8, which crashes OpenCV."""
     if path.suffix.lower() not in SUFFIXES:
         raise ValueError(f"{path}: expected a video file's name that ends in {', '.join(SUFFIXES)}")
     try:
@@ -113,10 +112,10 @@ def written_path(path: Path) -> Path:
 
 
 def count_frames(path: Path) -> int:
-    """The frames of a video file, by PyAV its packets.
+    """The number of frames of a video file; with PyAV, of its packets.
 
-    Without PyAV they are those that the file says it has, of one that doesn't say those that can be decoded;
-    containers may tell of a rate and a duration instead, which is right at a constant rate alone.
+    Without PyAV it is the number stated in the file, or else that of decodable frames. Some containers only
+    imply it by rate and duration, which is right only for a constant rate.
     """
     if PyAVEncoder.available():
         return count_packets(path)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Encoders of video files: PyAV where it is installed, else OpenCV."""
+"""Encoders of video files: PyAV if installed, else OpenCV."""
 
 import importlib
 import importlib.util
@@ -17,9 +17,9 @@ import cv2
 from tricue.draw.canvas import Image
 
 MAX_DENOMINATOR = 1001  # of frames per second, as in 30000/1001
-MIN_TICKS = 10_000  # a second, in which frames' times are written
-MAX_STILL = 60.0  # seconds for which OpenCV's encoder repeats an image, however long none came
-H264 = ("libx264", {"preset": "veryfast", "crf": "20", "bf": "0"})  # with B-frames a fragment begins late
+MIN_TICKS = 10_000  # per second, the resolution of frames' times
+MAX_STILL = 60.0  # seconds for which OpenCV's encoder repeats an image at most, even if none comes for longer
+H264 = ("libx264", {"preset": "veryfast", "crf": "20", "bf": "0"})  # with B-frames fragments begin late
 VP9 = ("libvpx-vp9", {"deadline": "realtime", "cpu-used": "8", "row-mt": "1", "crf": "30", "b": "0"})
 CODECS = {".mp4": H264, ".mkv": H264, ".webm": VP9}
 FOURCC = {".avi": "MJPG", ".webm": "VP80"}
@@ -32,7 +32,7 @@ class Encoder(Protocol):
     """
 
     written: int
-    """The frames so far."""
+    """The number of frames so far."""
 
     def __init__(self, path: Path, fps: float, size: tuple[int, int]) -> None: ...
 
@@ -42,15 +42,15 @@ class Encoder(Protocol):
 
 
 def ffmpeg_name(path: Path) -> str:
-    """The name by which FFmpeg opens a file: it takes the "T12:" of a relative name for a protocol."""
+    """The name by which FFmpeg opens a file: it would take the "T12:" of a relative name for a protocol."""
     return os.path.join(os.curdir, path)  # noqa: PTH118 (Path drops the dot)
 
 
 class PyAVEncoder:
-    """H.264 or VP9, a key frame at least every second, and each second on the disk once it is encoded.
+    """H.264 or VP9, with a key frame at least every second; each second is on the disk once it is encoded.
 
-    Images have their own times. An .mp4 is made of fragments while it grows, so that one cut off plays, and
-    at its end is copied into an ordinary one, so that one can seek in it everywhere.
+    Images have their own times. An .mp4 consists of fragments while it grows, so that a truncated one plays.
+    At the end it is copied into an ordinary one, in which all players can seek.
     """
 
     @staticmethod
@@ -72,11 +72,11 @@ class PyAVEncoder:
         self._stream.width, self._stream.height = size
         self._stream.pix_fmt = "yuv420p"
         self._stream.options = {**options, "g": str(max(round(fps), 1))}
-        self._ticks = rate.numerator * -(-MIN_TICKS // rate.numerator)  # a second, a whole number a frame
+        self._ticks = rate.numerator * -(-MIN_TICKS // rate.numerator)  # per second, a whole number per frame
         self._step = int(self._ticks / rate)
         self._stream.codec_context.time_base = Fraction(1, self._ticks)
         self._start = 0.0
-        self._time, self._key = -self._step, -self._ticks  # of the last frame and key frame, ticks
+        self._time, self._key = -self._step, -self._ticks  # times of the last frame and key frame, ticks
         self._frame = av.VideoFrame
         self._key_frame = av.video.frame.PictureType.I
 
@@ -91,7 +91,7 @@ class PyAVEncoder:
         self.written += 1
 
     def close(self) -> None:
-        with _naming(self._path), self._file:  # which closes the file
+        with _naming(self._path), self._file:  # this closes the file
             if self._error is not None:
                 raise self._error
             self._mux(None)
@@ -99,8 +99,8 @@ class PyAVEncoder:
             _defragment(self._path)
 
     def _mux(self, frame: Any) -> None:
-        """Encode a frame, None for the last ones, and write what comes of it; after an error, as on a full
-        disk, FFmpeg would crash in the next packet.
+        """Encode a frame, None to flush, and write the packets; after an error, as on a full disk, FFmpeg
+        would crash in the next packet.
         """
         try:
             self._file.mux(self._stream.encode(frame))
@@ -109,7 +109,7 @@ class PyAVEncoder:
             raise
 
     def _due(self, seconds: float | None) -> int:
-        """When the next image is shown, ticks from the start; after the one before in any case."""
+        """The time to show the next image, ticks from the start; always after the previous one."""
         if seconds is None:
             return self._time + self._step
         if not self.written:
@@ -118,10 +118,10 @@ class PyAVEncoder:
 
 
 def _defragment(path: Path) -> None:
-    """Copy the packets of a fragmented .mp4 into an ordinary one, which takes its place if that succeeds."""
+    """Copy the packets of a fragmented .mp4 into an ordinary one, which replaces it if that succeeds."""
     av: Any = importlib.import_module("av")
-    path = path.resolve()  # a link stays one
-    with suppress(OSError):  # such as of a full disk: the fragments play, too
+    path = path.resolve()  # a link stays a link
+    with suppress(OSError):  # such as a full disk; the fragments play, too
         number, name = tempfile.mkstemp(prefix=".tricue-", dir=path.parent)
         os.close(number)
         whole = Path(name)
@@ -143,7 +143,7 @@ def _defragment(path: Path) -> None:
 
 
 def count_packets(path: Path) -> int:
-    """The packets of a file's video, each a frame, by PyAV; up to where the file can't be read."""
+    """The number of packets in a file's video, each a frame, by PyAV, up to where the file can't be read."""
     av: Any = importlib.import_module("av")
     count = 0
     with suppress(av.FFmpegError), av.open(ffmpeg_name(path)) as file:
@@ -153,10 +153,10 @@ def count_packets(path: Path) -> int:
 
 
 class OpenCVEncoder:
-    """VP8 in .webm, MJPG in .avi. OSError where this OpenCV can't.
+    """VP8 in .webm, MJPG in .avi. OSError if this OpenCV can't write it.
 
-    The rate is constant: an image is repeated until the time of the next one, for MAX_STILL at most, and
-    each is written once at least.
+    The rate is constant: an image is written at least once and repeated until the time of the next one, at
+    most for MAX_STILL.
     """
 
     def __init__(self, path: Path, fps: float, size: tuple[int, int]) -> None:
@@ -164,7 +164,7 @@ class OpenCVEncoder:
         self._start = 0.0
         self._last: Image | None = None
         code = FOURCC[path.suffix.lower()]
-        with _without_stderr():  # OpenCV says that WebM has no such codes, and writes it
+        with _without_stderr():  # OpenCV prints that WebM has no such codes, and writes it
             self._writer = cv2.VideoWriter(ffmpeg_name(path), cv2.VideoWriter.fourcc(*code), fps, size)
         if not self._writer.isOpened():
             path.unlink(missing_ok=True)
@@ -180,7 +180,7 @@ class OpenCVEncoder:
         self._writer.release()
 
     def _repeat_until(self, seconds: float) -> None:
-        """Show the last image until the time of the next one."""
+        """Repeat the last image until the time of the next one."""
         if self._last is None:
             self._start = seconds
             return
@@ -188,7 +188,7 @@ class OpenCVEncoder:
         most = round(MAX_STILL * self._fps)
         for _ in range(min(missing, most)):
             self._put(self._last)
-        self._start += max(missing - most, 0) / self._fps  # the rest of a pause is left out
+        self._start += max(missing - most, 0) / self._fps  # leave out the rest of a pause
 
     def _put(self, picture: Image) -> None:
         self._writer.write(picture)
@@ -197,7 +197,7 @@ class OpenCVEncoder:
 
 @contextmanager
 def _naming(path: Path) -> Iterator[None]:
-    """Name the file in an error of PyAV; those of its libraries become OSErrors, which most others are."""
+    """Name the file in PyAV's errors; those of its libraries become OSErrors, as most others are."""
     av: Any = importlib.import_module("av")
     try:
         yield
@@ -209,7 +209,7 @@ def _naming(path: Path) -> Iterator[None]:
 
 @contextmanager
 def _without_stderr() -> Iterator[None]:
-    """Leave out what native code writes to the process's stderr."""
+    """Suppress what native code writes to the process's stderr."""
     kept = os.dup(2)
     try:
         with Path(os.devnull).open("wb") as nothing:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Whether a file can be written, found out without touching it."""
+"""Checks whether a file can be written, without touching it."""
 
 import errno
 import os
@@ -8,21 +8,21 @@ from pathlib import Path
 
 
 def check_writable(path: Path) -> None:
-    """OSError that names a file that can't be written; what is there stays, and nothing is made.
+    """Raise OSError, which names the file, if it can't be written; nothing is changed or created.
 
-    Folders that are missing on the way to it count as there: who writes makes them.
+    Missing folders on its path are no problem, because the writer creates them.
     """
     try:
         mode = path.stat().st_mode
     except FileNotFoundError:
         _check_folder(path)
         return
-    if stat.S_ISREG(mode) or stat.S_ISDIR(mode):  # a pipe's reader would take it for its end
+    if stat.S_ISREG(mode) or stat.S_ISDIR(mode):  # opening a pipe would look like its end to the reader
         os.close(os.open(path, os.O_WRONLY))
 
 
 def _check_folder(path: Path) -> None:
-    """OSError where a new file can't be made."""
+    """Raise OSError if a new file can't be created."""
     folder = next(folder for folder in path.absolute().parents if folder.exists())
     if not folder.is_dir():
         raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), str(path))

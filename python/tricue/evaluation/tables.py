@@ -115,7 +115,7 @@ def speeds(evaluation: Evaluation) -> list[Line]:
 
 
 def write(evaluation: Evaluation, folder: Path, about: Line) -> list[Path]:
-    """Write the CSV files and the JSON file into a folder; their paths."""
+    """Write the CSV files and the JSON file into a folder; return their paths."""
     rows = [asdict(each.row) for each in evaluation.results]
     times = [asdict(each.speed) for each in evaluation.results]
     contents = {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""COCO's JSON with what TAO and CocoVID add: videos, tracks, and in each annotation its track."""
+"""COCO's JSON with the extensions of TAO and CocoVID: videos, tracks, and each annotation's track."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -14,7 +14,7 @@ class CocoTracks:
 
     Images have ids from 1, and frame_index and frame_id from 0; boxes are in pixels from 0. A target that is
     LOST in a frame has no annotation there. video: its name. fps: frames per second. names: of the targets,
-    by their ids; targets of one name are one category, those without a name "target".
+    by their ids; targets with the same name form a category, those without a name the category "target".
     """
 
     def __init__(self, video: str, fps: float, names: Mapping[int, str] | None = None) -> None:
@@ -31,8 +31,9 @@ class CocoTracks:
     ) -> None:
         """Add a frame by its number from 0, its size (width, height), and its tracks by their targets' ids.
 
-        file_name: the image's; without it the one that ``ffmpeg -i VIDEO -vf setpts=N/FR/TB -fps_mode
-            passthrough %06d.jpg`` gives, which by itself repeats frames where the rate isn't constant.
+        file_name: the image's; by default the one that ``ffmpeg -i VIDEO -vf setpts=N/FR/TB -fps_mode
+            passthrough %06d.jpg`` writes; without these options ffmpeg repeats frames if the rate isn't
+            constant.
         """
         shape = {"width": size[0], "height": size[1]}
         self._video |= shape
@@ -44,7 +45,7 @@ class CocoTracks:
                 self._annotations.append(self._annotation(number + 1, target, track))
 
     def content(self) -> dict[str, Any]:
-        """All of it, for ``json.dumps``."""
+        """The whole content, for ``json.dumps``."""
         targets = sorted({each["track_id"] for each in self._annotations})
         categories = self._categories or {UNNAMED: 1}
         return {

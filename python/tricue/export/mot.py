@@ -7,10 +7,10 @@ NO_POSITION = (-1, -1, -1)
 
 
 def mot_line(number: int, target: int, track: Track) -> str:
-    """The line of a target in a frame, from 0; "" where it is LOST.
+    """The line of a target in frame ``number``, counted from 0; "" if it is LOST.
 
-    Frames, ids and pixels count from 1. x, y, z are meters in the world, in the camera's frame where that has
-    no pose, and -1 where nothing was measured. Numbers have at most six decimals, and no exponents.
+    Frames, ids and pixels count from 1. x, y, z are meters in the world, or in the camera's frame if it has
+    no pose, and -1 if nothing was measured. Numbers have at most six decimals, and no exponents.
     """
     if track.status is Status.LOST:
         return ""
@@ -21,8 +21,8 @@ def mot_line(number: int, target: int, track: Track) -> str:
 
 
 def _decimal(value: float) -> str:
-    """Six decimals, as in a table, without zeros at the end; they aren't significant digits, so that those
-    of a world's coordinates, which may be millions of meters, stay.
+    """Six decimals, as in a table, without trailing zeros; not significant digits, because world coordinates
+    may be millions of meters.
     """
     rounded = round(float(value), 6) + 0.0  # no -0
     return f"{rounded:.6f}".rstrip("0").rstrip(".")

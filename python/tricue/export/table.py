@@ -20,8 +20,8 @@ POSITION = frozenset((*POINT, *WORLD_COLUMNS))
 
 
 class TableForm(NamedTuple):
-    """What a table has beside COLUMNS: those of WORLD_COLUMNS; the target's id, where there are several; and
-    ``_assumed`` in the names of positions whose camera is only supposed.
+    """What a table has in addition to COLUMNS: WORLD_COLUMNS; the target's id, if there are several; and
+    ``_assumed`` in the names of positions if the camera is only assumed.
     """
 
     world: bool = False
@@ -43,7 +43,7 @@ def columns(form: TableForm = PLAIN) -> tuple[str, ...]:
 def row(
     number: int, seconds: float | None, track: Track, target: int = 1, form: TableForm = PLAIN
 ) -> list[Any]:
-    """The values of :func:`columns`, None if absent; six decimals, for covariances six digits.
+    """The values of :func:`columns`, None if absent, with six decimals; covariances with six digits.
 
     number: the frame's, from 0. seconds: its time. target: its id.
     """

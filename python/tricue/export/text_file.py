@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Text files that are written line by line: what is written is on the disk, and errors name the file."""
+"""Text files written line by line: each write reaches the system at once, and errors name the file."""
 
 import os
 from collections import deque
@@ -7,22 +7,22 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-ROOM = 10_000  # of the last texts may be given up for the end of a file on a full disk
+ROOM = 10_000  # of the last texts may be dropped to make room for the file's end on a full disk
 
 
 class TextFile:
-    """A new text file, and its folder where there is none; use it in ``with``.
+    """A new text file, in a folder that is created if missing; use it in ``with``.
 
-    Each :meth:`put` is handed to the system at once, so that it is kept where the process is killed.
-    OSError with the file's name where it can't be written, and at the end where it is no longer there. On a
-    full disk the file still gets its end, without the last texts if there is no room for it.
+    Each :meth:`put` is passed to the system at once, so that it survives a killed process. OSError names the
+    file if it can't be written, and at the end if it no longer exists. On a full disk the file still gets its
+    end, without the last texts if there is no room.
     """
 
     def __init__(self, path: Path) -> None:
         self.path = path
         path.parent.mkdir(parents=True, exist_ok=True)
         self._file = path.open("wb", buffering=0)
-        self._ends = deque([0], ROOM)  # of the texts, in bytes
+        self._ends = deque([0], ROOM)  # where the texts end, in bytes
         self._failed = False
 
     @property
@@ -31,7 +31,7 @@ class TextFile:
         return str(self.path)
 
     def put(self, text: str) -> None:
-        """Append some text, or nothing of it."""
+        """Append a text, as a whole or not at all."""
         data = memoryview(text.encode())
         end = self._ends[-1] + len(data)
         with self._naming():
@@ -47,7 +47,7 @@ class TextFile:
         self._ends.append(end)
 
     def finish(self) -> None:
-        """Append what a whole file ends with; does nothing here."""
+        """Append the end of a complete file; does nothing here."""
 
     def __enter__(self) -> "TextFile":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
         return self
@@ -80,14 +80,14 @@ class TextFile:
             self._file.close()
 
     def _cut(self) -> None:
-        """Keep the whole texts alone, if the file is no pipe."""
+        """Keep only whole texts, unless the file is a pipe."""
         with suppress(OSError):
             self._file.truncate(self._ends[-1])
             self._file.seek(self._ends[-1])
 
     @contextmanager
     def _naming(self) -> Iterator[None]:
-        """Name the file in an error, such as that of a full disk; Python names only what it opens."""
+        """Name the file in errors, such as that of a full disk; Python does so only when opening it."""
         try:
             yield
         except BrokenPipeError:

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How values show themselves in a notebook: what their ``_repr_html_`` methods return.
+"""The rich display of values in a notebook, which their ``_repr_html_`` methods return.
 
-Only these methods import it, when a notebook calls them. So values know nothing of pictures, and trackers
-pay nothing for them.
+Only these methods import it, when a notebook calls them. So it costs trackers nothing.
 """

@@ -8,7 +8,7 @@ from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.notebook.markup import Html, properties
 
 DISTANCES = 1, 2, 4, 8
-"""Meters, for which a rig's disparities are shown."""
+"""Distances in meters for which a rig's disparities are shown."""
 
 
 def intrinsics_html(camera: Intrinsics) -> Html:
@@ -37,7 +37,7 @@ def _rows(camera: Intrinsics) -> list[tuple[str, str | None]]:
 
 
 def _angle(focal_length: float, center: float, size: int) -> float:
-    """Degrees between the outer edges of the first and of the last pixel; centers are at 0 and size - 1."""
+    """Degrees between the outer edges of the first and last pixels, whose centers are 0 and size - 1."""
     edges = (-0.5 - center) / focal_length, (size - 0.5 - center) / focal_length
     return math.degrees(math.atan(edges[1]) - math.atan(edges[0]))
 

@@ -12,13 +12,13 @@ from tricue.draw.depth_pictures import depth_picture, depth_range
 from tricue.notebook.markup import Html, faint, picture, strong, text
 
 MAX_SHOWN_WIDTH = 320  # pixels
-SCALE_SIZE = 12, 120  # pixels, of the scale of depths
+SCALE_SIZE = 12, 120  # pixels, of the depth scale
 
 _WHAT = {"color": "color", "right": "right image", "depth": "depth"}
 
 
 def frame_html(frame: Frame) -> Html:
-    """The pictures side by side, each with its size; depth as colors, with their scale in meters."""
+    """The pictures side by side, each with its size; depth in colors, with a scale in meters."""
     moment = "" if frame.timestamp is None else f" at {frame.timestamp:.3f} s"
     place = "" if frame.pose is None else ", with a pose"
     figures = "".join(_figure(name, getattr(frame, name)) for name in frame.channels)
@@ -40,7 +40,7 @@ def _figure(name: str, image: NDArray[Any]) -> str:
 
 
 def _depth(depth: NDArray[np.float32]) -> tuple[NDArray[np.uint8], Html]:
-    """The depth as colors, and beside it what they mean; the scale is left out where nothing is measured."""
+    """The depth in colors, and its color scale; there is no scale if nothing is measured."""
     found = depth_range(depth)
     if found is None:
         return depth_picture(depth), Html("")
@@ -56,7 +56,7 @@ def _depth(depth: NDArray[np.float32]) -> tuple[NDArray[np.uint8], Html]:
 
 
 def _small(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """A copy of at most the width that is shown."""
+    """A copy of at most MAX_SHOWN_WIDTH."""
     height, width = image.shape[:2]
     if width <= MAX_SHOWN_WIDTH:
         return image

@@ -13,17 +13,17 @@ from numpy.typing import NDArray
 _CELL = "text-align:left;vertical-align:top;padding:0.15em 0.9em 0.15em 0"
 _NUMBER = _CELL.replace("left", "right") + ";font-variant-numeric:tabular-nums"
 _CAPTION = "text-align:left;padding-bottom:0.3em"
-_FAINT = "opacity:0.7"  # of the page's own color
+_FAINT = "opacity:0.7"  # of the page's text color
 
 
 class Html(str):
-    """Text that is HTML already; any other is escaped."""
+    """Text that already is HTML; any other is escaped."""
 
     __slots__ = ()
 
 
 def text(value: Any) -> Html:
-    """A value as HTML: None as nothing, HTML as it is, anything else escaped."""
+    """A value as HTML: nothing for None, HTML unchanged, anything else escaped."""
     if isinstance(value, Html):
         return value
     return Html("" if value is None else escape(str(value)))
@@ -35,7 +35,7 @@ def strong(value: Any) -> Html:
 
 
 def faint(value: Any) -> Html:
-    """Less in contrast."""
+    """Fainter."""
     return Html(f'<span style="{_FAINT}">{text(value)}</span>')
 
 
@@ -51,7 +51,7 @@ def properties(title: str, rows: Iterable[tuple[str, Any]]) -> Html:
 
 
 def table(title: Any, heads: Sequence[Any], rows: Iterable[Sequence[Any]], numbers: bool = False) -> Html:
-    """A table with a line of heads. numbers: whether all columns but the first hold numbers."""
+    """A table with a header row. numbers: whether all columns but the first hold numbers."""
     styles = [_CELL, *([_NUMBER if numbers else _CELL] * (len(heads) - 1))]
 
     def line(cells: Sequence[Any], tag: str) -> str:
@@ -68,7 +68,7 @@ def table(title: Any, heads: Sequence[Any], rows: Iterable[Sequence[Any]], numbe
 
 
 def picture(image: NDArray[np.uint8], alt: str) -> Html:
-    """An image, BGR (H, W, 3) or gray (H, W), within the page."""
+    """An image, BGR (H, W, 3) or gray (H, W), embedded in the page."""
     done, png = cv2.imencode(".png", image)
     assert done
     data = base64.b64encode(png.tobytes()).decode()

@@ -10,7 +10,7 @@ HEADS = ("name", "value", "default", "unit", "meaning", "source")
 
 
 def params_html(params: Params) -> Html:
-    """Name, value, default, unit, meaning and source of each; what isn't the default is bold."""
+    """Name, value, default, unit, meaning and source of each; values that aren't the default are bold."""
     rows, changed = [], 0
     for each in fields(params):
         value = getattr(params, each.name)

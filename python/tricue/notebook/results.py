@@ -12,7 +12,7 @@ from tricue.track.base.track import Status
 
 
 def evaluation_html(evaluation: Evaluation) -> Html:
-    """A table for each group of sequences, a line for each tracker; the best number of a column is bold."""
+    """A table for each group of sequences, a line for each tracker; each column's best number is bold."""
     speeds = {(line["group"], line["tracker"]): line for line in tables.speeds(evaluation)}
     lines = [{**speeds[line["group"], line["tracker"]], **line} for line in tables.summary(evaluation)]
     made = [_group(group, [line for line in lines if line["group"] == group]) for group in evaluation.groups]

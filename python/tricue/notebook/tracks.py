@@ -8,7 +8,7 @@ from tricue.camera.box import Box
 from tricue.notebook.markup import Html, properties, table
 from tricue.track.base.track import Status, Track
 
-# Okabe and Ito's colors, of a dot beside the word: seen on white and on black.
+# Okabe and Ito's colors for a dot beside the word, visible on white and on black.
 _DOTS = {Status.TRACKED: "#009E73", Status.OCCLUDED: "#E69F00", Status.LOST: "#D55E00"}
 _AXES = "XYZ"
 
@@ -42,7 +42,7 @@ def _box_text(box: Box) -> str:
 
 
 def _point(point: NDArray[np.float64] | None, covariance: NDArray[np.float64] | None) -> str | None:
-    """X, Y, Z, each with its standard deviation where that is known; None without a point."""
+    """X, Y, Z, each with its standard deviation if known; None without a point."""
     if point is None:
         return None
     words = [f"{axis} {value:+.3f}" for axis, value in zip(_AXES, point, strict=True)]

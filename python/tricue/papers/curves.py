@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the curves of all experiments share: one model in one scene, with a value per frame."""
+"""The curves of all experiments: one model in one scene, with a value per frame."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,11 +14,11 @@ Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 MIN_OVERLAP = 0.5
-"""The box is on the target above this intersection over union."""
+"""Above this intersection over union the box is on the target."""
 MIN_VISIBLE = 0.5
-"""Share of the target that is visible, from which a frame counts."""
+"""Visible share of the target from which on a frame counts."""
 HIDDEN_BELOW = 0.15
-"""Share of the target that is visible, below which it counts as hidden."""
+"""Visible share of the target below which it counts as hidden."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,7 +29,7 @@ class Curve:
     scene: str
     seed: int
     overlaps: Floats
-    """(M,) intersection over union with the true box, which is round the whole target."""
+    """(M,) intersection over union with the true box of the whole target."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,28 +37,28 @@ class VisibilityCurve(Curve):
     """The curve of a target that others may hide."""
 
     visible: Floats
-    """(M,) share of the target that nothing hides."""
+    """(M,) visible share of the target."""
 
     @property
     def counted(self) -> Flags:
-        """(M,) where at least half of the target is visible."""
+        """The frames (M,) in which at least half of the target is visible."""
         return np.asarray(self.visible >= MIN_VISIBLE)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class OcclusionCurve(VisibilityCurve):
-    """The curve of such a target, with what the tracker says of it."""
+    """The curve of such a target, with the tracker's statuses."""
 
     statuses: tuple[Status, ...]
 
     @property
     def tracked(self) -> Flags:
-        """(M,) where the status is TRACKED."""
+        """The frames (M,) with status TRACKED."""
         return np.array([status is Status.TRACKED for status in self.statuses], np.bool_)
 
     @property
     def correct(self) -> Flags:
-        """(M,) where the status is TRACKED and the box is on the target."""
+        """The frames (M,) with status TRACKED and the box on the target."""
         return self.tracked & (self.overlaps > MIN_OVERLAP)
 
 
@@ -86,5 +86,5 @@ def first_runs(curves: Sequence[AnyCurve], scene: str) -> dict[str, AnyCurve]:
 
 
 def stacked(curves: Sequence[Curve], model: str, values: str) -> Floats:
-    """(R, M) values, by their attribute's name, of one model's R runs."""
+    """The values (R, M) of an attribute, by its name, in one model's R runs."""
     return np.stack([getattr(curve, values) for curve in curves if curve.model == model])

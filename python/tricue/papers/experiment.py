@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""An experiment: models that run on scenes from many seeds, and how their curves are measured and written."""
+"""An experiment: models, scenes from many seeds, and functions that measure and write their curves."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -13,13 +13,13 @@ S = TypeVar("S")  # a scene
 C = TypeVar("C")  # a curve: what one model did in one scene
 
 Maker = Callable[..., AnyTracker]
-"""Makes a tracker, called with ``seed=``, and with ``intrinsics=`` or ``rig=`` where the scene has one."""
+"""Makes a tracker; called with ``seed=``, and with ``intrinsics=`` or ``rig=`` if the scene has one."""
 
 Models = Mapping[str, Maker]
-"""How to make each model's tracker."""
+"""The function that makes each model's tracker."""
 
 Scenes = Mapping[str, Callable[..., S]]
-"""How to make each scene, called with ``seed=``."""
+"""The function that makes each scene, called with ``seed=``."""
 
 
 class Case(NamedTuple):
@@ -39,16 +39,16 @@ class Report:
     table: Path
 
 
-@dataclass(frozen=True)  # slots and type parameters don't go together in Python 3.11
+@dataclass(frozen=True)  # slots and type parameters don't work together in Python 3.11
 class Experiment(Generic[S, C]):
     """Models, scenes, and functions that measure a run, summarize curves, write and draw them."""
 
     models: Models
     scenes: Scenes[S]
     measure: Callable[[Case, Maker, S], C]
-    """Runs one model in one scene; a function of a module, so that another process finds it."""
+    """Runs one model in one scene; a module-level function, so that another process can import it."""
     summarize: Callable[[Sequence[C]], str]
     write_csv: Callable[[Path, Iterable[C]], None]
     draw: figures.Draw[C, S]
     max_seeds: Mapping[str, int] = field(default_factory=dict)
-    """Limits on the seeds of scenes that take too long for all of them."""
+    """Limits on the number of seeds for slow scenes."""

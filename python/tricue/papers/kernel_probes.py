@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Kernels that are timed while a tracker runs on them, and disparities that are perturbed with noise."""
+"""Kernels with timing and with noise added to disparities, for running a tracker on them."""
 
 from collections import defaultdict
 from collections.abc import Callable
@@ -35,11 +35,11 @@ KERNEL_MODULES = {
 
 
 class ProbedKernels:
-    """A set of kernels with the same results, which adds up the time in each module and may add noise.
+    """A set of kernels with the same results that sums the time per module and may add noise.
 
-    noise: standard deviation, pixels, of what is added to each disparity that is back-projected. The stereo
-    head tracker back-projects one disparity per frame, the one measured in the ellipse. Its search for the
-    head and its gates see that disparity without the noise, and its filter doesn't know of the noise.
+    noise: standard deviation, pixels, of the noise added to each back-projected disparity. The stereo head
+    tracker back-projects one disparity per frame, the one measured in the ellipse. Its search for the head
+    and its gates see that disparity without the noise, and its filter doesn't know of the noise.
     """
 
     def __init__(self, kernels: Kernels, noise: float = 0.0, seed: int = 0) -> None:
@@ -57,11 +57,11 @@ class ProbedKernels:
             finally:
                 self.seconds[module] += perf_counter() - start
 
-        setattr(self, name, timed)  # so that it is made once
+        setattr(self, name, timed)  # so that it is created only once
         return timed
 
     def back_project(self, pixels: NDArray[np.float64], *others: Any) -> Any:
-        """As the kernel, of pixels (N, 3) whose disparities, the last column, are perturbed."""
+        """Like the kernel, with noise added to the disparities, the last column of pixels (N, 3)."""
         perturbed = pixels + self._rng.normal(0, 1, pixels.shape) * [0.0, 0.0, self._noise]
         start = perf_counter()
         try:
@@ -71,7 +71,7 @@ class ProbedKernels:
 
 
 class ProbedTracker:
-    """A tracker on probed kernels; one without kernels, such as a baseline, runs as it is, without times."""
+    """A tracker on probed kernels; one without kernels, such as a baseline, runs unchanged, without times."""
 
     def __init__(self, tracker: Any, noise: float = 0.0, seed: int = 0) -> None:
         self._tracker = tracker
@@ -92,8 +92,8 @@ class ProbedTracker:
         return track
 
     def seconds(self, updates: NDArray[np.float64]) -> dict[str, float]:
-        """Seconds of an update in each module, and outside of them as "rest": medians over the updates since
-        init, which took ``updates`` (M - 1,) seconds as a whole.
+        """Seconds per update in each module, and outside them as "rest": medians over the updates since init.
+        updates: (M - 1,) seconds of the whole updates.
         """
         names = sorted(set().union(*self._updates))
         spent = np.array([[each.get(name, 0.0) for name in names] for each in self._updates])

@@ -20,7 +20,7 @@ from tricue.papers.sabeti_dark import experiments as sabeti_dark
 from tricue.papers.sabeti_depth import experiments as sabeti_depth
 
 SceneTask = tuple[str, Callable[..., S], int]
-"""A scene's name, how to make it, and the seed."""
+"""A scene's name, the function that makes it, and the seed."""
 
 EXPERIMENTS: dict[str, Experiment[Any, Any]] = {
     **sabeti_color.EXPERIMENTS,
@@ -64,7 +64,7 @@ def run(
             )
     experiment = EXPERIMENTS[name]
     figures.require()
-    for suffix in (".png", ".csv"):  # now, as the curves take hours
+    for suffix in (".png", ".csv"):  # check now, because the curves take hours
         check_writable(output / f"{name}{suffix}")
     output.mkdir(parents=True, exist_ok=True)
     curves = list(_all_curves(experiment, models or experiment.models, seeds, jobs, progress))
@@ -103,7 +103,7 @@ def _mapped(
         return
     pool = ProcessPoolExecutor(jobs, get_context("spawn"), end_when_interrupted)
     try:
-        with interrupts_later():  # until they have imported what they need
+        with interrupts_later():  # until they have imported everything
             running = [pool.submit(work, task) for task in tasks]
         yield from (each.result() for each in running)
     finally:
@@ -113,7 +113,7 @@ def _mapped(
 def _curves(
     measure: Callable[[Case, Maker, S], C], models: Mapping[str, Maker], task: SceneTask[S]
 ) -> list[C]:
-    """Every model on one scene, which is made once."""
+    """Measure every model on one scene, which is made once."""
     name, make, seed = task
     scene = make(seed=seed)
     return [measure(Case(model, name, seed), tracker, scene) for model, tracker in models.items()]

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The ROC curve from which the skin classifier's threshold is chosen (Sabeti 2008, III.A).
 
-A pixel is called skin where its score is above the threshold. Scores are integers in a known range (the skin
-boundary (10) times 255 lies in [-255, 255]), so two histograms hold the whole curve exactly, however many
-images there are.
+A pixel is classified as skin if its score is above the threshold. Scores are integers in a known range (the
+skin boundary (10) times 255 lies in [-255, 255]), so two histograms represent the whole curve exactly, for
+any number of images.
 """
 
 import math
@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from tricue import kernels
 
 LOWEST_SKIN_THRESHOLD = -1.0
-"""That trackers take; a curve's last threshold is below it, so that all pixels are above."""
+"""The lowest threshold that trackers accept; a curve's last one is below it, so that all pixels are above."""
 
 LOW, HIGH = -255, 255
-"""Of the scores."""
+"""Range of the scores."""
 
 Image = NDArray[np.uint8]
 Mask = NDArray[np.bool_]
@@ -27,7 +27,7 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Roc:
-    """A curve from (0, 0) to (1, 1), a point per threshold, thresholds falling: arrays of one length."""
+    """A curve from (0, 0) to (1, 1): arrays with a point per threshold, in descending order."""
 
     fpr: NDArray[np.float64]
     """Share of the negatives above the threshold."""
@@ -37,13 +37,15 @@ class Roc:
 
     @property
     def area(self) -> float:
-        """Area under the curve: the chance that a positive scores above a negative, ties counted half."""
+        """Area under the curve: the probability that a positive scores above a negative, ties counted
+        half.
+        """
         return float(np.sum(np.diff(self.fpr) * (self.tpr[1:] + self.tpr[:-1]) / 2))
 
     def at_false_positive_rate(self, rate: float, lowest: float = -math.inf) -> tuple[float, float]:
         """The lowest threshold with at most this false-positive rate, and the true-positive rate there.
 
-        lowest: the one that may be given at the least.
+        lowest: the lower limit of the returned threshold.
         """
         if not 0.0 <= rate <= 1.0:
             raise ValueError(f"rate: expected a number in [0, 1], got {rate}")
@@ -53,13 +55,13 @@ class Roc:
 
 
 def round_up(threshold: float, digits: int) -> float:
-    """A threshold in fewer digits, above which are no more scores: rounded down, those at it would be."""
+    """A threshold rounded up to fewer digits; rounded down, scores equal to it would be above it."""
     scale = 10.0**digits
     return math.ceil(threshold * scale) / scale
 
 
 def roc(pairs: Iterable[tuple[NDArray[np.integer], Mask]]) -> Roc:
-    """The curve over pairs of an integer score map, values in [LOW, HIGH], and its boolean mask."""
+    """The curve over pairs of an integer score map, in [LOW, HIGH], and its boolean mask."""
     counts = np.zeros((2, HIGH - LOW + 1), dtype=np.int64)
     for scores, mask in pairs:
         counts += _histograms(scores, mask)
@@ -80,7 +82,7 @@ def skin_roc(
 
     ``reference`` is the (3,) BGR color (3) for all images. Without it every image has its own, from its own
     skin pixels: the best that a patch taken from the target can give. Images without skin are then left out,
-    as they have no such patch.
+    because they have no such patch.
     """
     curve = roc(_scored(images, masks, reference, kernel_set))
     return Roc(curve.fpr, curve.tpr, curve.thresholds / HIGH)
@@ -104,7 +106,7 @@ def _scored(
 
 
 def _histograms(scores: NDArray[np.integer], mask: Mask) -> NDArray[np.int64]:
-    """How often each score occurs, (2, levels): outside the mask, and within it."""
+    """The histograms (2, levels) of scores outside and inside the mask."""
     if mask.dtype != np.bool_ or mask.shape != scores.shape:
         raise ValueError(
             f"masks: expected bool of shape {scores.shape}, got {mask.dtype} of shape {mask.shape}"

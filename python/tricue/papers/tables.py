@@ -15,7 +15,7 @@ from tricue.papers.curves import AnyCurve, Floats, models_of, runs_of, scenes_of
 def scene_table(
     curves: Sequence[AnyCurve], columns: Sequence[str], cells: Callable[[Sequence[AnyCurve]], list[str]]
 ) -> list[str]:
-    """The lines of a table: scene, model, and what ``cells`` makes of their runs.
+    """The lines of a table: scene, model, and ``cells`` of their runs.
 
     columns: all headings, those of scene and model first.
     """
@@ -54,21 +54,21 @@ def write_csv(
 
 
 def csv_number(value: float) -> str:
-    """A number of a CSV; empty for NaN."""
+    """A number for a CSV; empty for NaN."""
     return "" if np.isnan(value) else f"{value:.4f}"
 
 
 def number(value: float, digits: int) -> str:
-    """A number of a table; "-" for NaN."""
+    """A number for a table; "-" for NaN."""
     return "-" if np.isnan(value) else f"{value:.{digits}f}"
 
 
 def percent(shares: Sequence[float] | NDArray[np.generic], digits: int = 0) -> str:
-    """The mean of shares or answers as a percentage; "-" where there are none."""
+    """The mean of shares or booleans as a percentage; "-" if there are none."""
     return f"{np.asarray(shares, np.float64).mean():.{digits}%}" if len(shares) else "-"
 
 
 def percentiles(values: Floats, *ranks: float) -> list[float]:
-    """Percentiles of the values that aren't NaN; NaN where all are."""
+    """Percentiles of the values that aren't NaN; NaN if all are."""
     known = values[~np.isnan(values)]
     return [float(np.percentile(known, rank)) if known.size else np.nan for rank in ranks]

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""The page of a live camera: what it shows is tracked as it comes, and recorded on request."""
+"""The page of a live camera: targets are tracked live, and recorded on request."""

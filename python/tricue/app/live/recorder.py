@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What is tracked in a camera, recorded while it runs: tables line by line, and the overlay video."""
+"""Records a live camera's tracks while it runs: tables line by line, and the overlay video."""
 
 import csv
 import io
@@ -20,8 +20,8 @@ from tricue.export.table import TableForm, columns, row
 from tricue.export.text_file import TextFile
 from tricue.track.base.track import Track
 
-MAX_WAITING = 8  # frames that wait to be drawn; with more the video shows one for longer
-MAX_STILL = 1.0  # seconds that the video shows one picture, however long none came
+MAX_WAITING = 8  # frames waiting to be drawn; with more, the video shows one for longer
+MAX_STILL = 1.0  # seconds for which the video shows one picture at most, even if none comes for longer
 
 Tracks = Sequence[tuple[Target, Track]]
 
@@ -35,15 +35,15 @@ class VideoFrame(NamedTuple):
 
 
 class Recorder:
-    """Writes ``stem``.csv, .json and .mp4; what was written is there after a kill, too.
+    """Writes ``stem``.csv, .json and .mp4; what was written survives a killed process.
 
-    about: what the JSON says of the run. fps: of the video, in which frames are shown when they came; a
-    thread draws it. error: why the video can't be written, "" if it can. OSError where a file can't be made.
+    about: the JSON's entries about the run. fps: of the video, which shows frames at the times they came; a
+    thread draws it. error: why the video can't be written, "" if it can. OSError if a file can't be created.
     """
 
     def __init__(self, stem: Path, about: dict[str, Any], fps: float, form: TableForm) -> None:
         self.started: float | None = None
-        self.latest = 0.0  # seconds, as of the frames
+        self.latest = 0.0  # seconds, time of the last frame
         self.error = ""
         self._form = form
         self._video = OverlayWriter(stem.with_name(f"{stem.name}.mp4"), fps)
@@ -58,22 +58,22 @@ class Recorder:
 
     @property
     def seconds(self) -> float:
-        """How long it has recorded."""
+        """The recording's length, seconds."""
         return 0.0 if self.started is None else self.latest - self.started
 
     def write(self, number: int, seconds: float, frame: Frame, tracks: Tracks) -> None:
-        """The targets of the next frame. OSError where that can't be written."""
+        """Write the targets of the next frame. OSError if that fails."""
         self.started = seconds if self.started is None else self.started
         self.latest = seconds
         rows = [row(number, seconds, track, target.id, self._form) for target, track in tracks]
         self._put_rows(rows)
         named = [dict(zip(columns(self._form), values, strict=True)) for values in rows]
         self._json.add([target for target, _ in tracks], named)
-        with suppress(Full):  # the video shows the picture before for longer
+        with suppress(Full):  # the video shows the previous picture for longer
             self._waiting.put_nowait(VideoFrame(seconds, frame, tracks))
 
     def close(self) -> list[str]:
-        """Finish the files, each of them even where another can't be; why a table can't, a line each."""
+        """Finish each file, even if another one fails; return why tables failed, a line each."""
         problems = [_finished(table) for table in (self._csv, self._json)]
         self._waiting.put(None)
         self._thread.join()
@@ -85,7 +85,7 @@ class Recorder:
         self._csv.put(text.getvalue())
 
     def _draw(self) -> None:
-        """The thread: the video, at a constant rate, by the times of the frames."""
+        """The thread's body: draw the video at a constant rate, by the frames' times."""
         written, begin = 0, None
         while (drawn := self._waiting.get()) is not None:
             if self.error:
@@ -93,7 +93,7 @@ class Recorder:
             begin = drawn.seconds if begin is None else begin
             due = round((drawn.seconds - begin) * self._video.fps) + 1 - written
             most = max(1, round(MAX_STILL * self._video.fps))
-            if due > most:  # a pause is left out
+            if due > most:  # leave out a pause
                 begin += (due - most) / self._video.fps
             try:
                 picture = draw_targets(drawn.frame, drawn.tracks)
@@ -109,7 +109,7 @@ class Recorder:
 
 
 class _TracksJson(TextFile):
-    """One object: what is known of the run, its tracks, and in the end their targets."""
+    """One object: the run, its tracks, and at the end their targets."""
 
     def __init__(self, path: Path) -> None:
         super().__init__(path)
@@ -135,7 +135,7 @@ class _TracksJson(TextFile):
 
 
 def _finished(table: TextFile) -> str:
-    """Finish a file; why it can't be, "" where it is."""
+    """Finish a file; return why that failed, or ""."""
     try:
         with table:
             return ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Serves a camera's page on 127.0.0.1 until it is ended, and lets the camera go then."""
+"""Serves a camera's page on 127.0.0.1 until it is stopped, then releases the camera."""
 
 import os
 from collections.abc import Callable
@@ -23,11 +23,11 @@ def serve_camera(
     folder: Path | None = None,
     say: Callable[[str], None] = print,
 ) -> None:
-    """Serve a camera until Ctrl-C. The page comes at once, the camera when it does.
+    """Serve a camera until Ctrl-C. The page is served at once, even before the camera is open.
 
-    open_: opens it, in a thread. name: as the page calls it. port: None for the default one, or a free one
-    where that is in use. tracker: what new targets begin with. folder: where recordings are written, None for
-    the working folder. say: gets the lines for the user. OSError where the port is in use.
+    open_: opens it, in a thread. name: shown in the page. port: None for the default one, or a free one if
+    that is in use. tracker: the default for new targets. folder: for recordings, None for the working folder.
+    say: gets the lines for the user. OSError if the port is in use.
     """
     place = Path.cwd() if folder is None else folder
     if not os.access(place, os.W_OK):

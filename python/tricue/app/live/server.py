@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The local server of a camera: its page, commands, what was recorded, and what is new over a WebSocket."""
+"""The local server of a camera: its page, commands, recordings, and news over a WebSocket."""
 
 import asyncio
 from collections.abc import Callable
@@ -22,19 +22,19 @@ from tricue.app.local_server import Served
 from tricue.app.trackers import default_tracker
 from tricue.app.web import OwnPagesOnly, answer, as_json, attached, bound, jpeg, page_of, talk, tell
 
-INTERVAL = 0.04  # seconds between what a page is told
+INTERVAL = 0.04  # seconds between messages to a page
 
 
 @dataclass
 class LiveServing(Served):
-    """What the routes share. tracker: what new targets begin with."""
+    """State shared by the routes. tracker: the default for new targets."""
 
     session: LiveSession
     tracker: str = ""
 
 
 def make_live_app(serving: LiveServing) -> ASGIApp:
-    """The application: all of it is below the token, and only for pages of this machine."""
+    """The application: all paths begin with the token, and only pages of this machine may ask."""
     base = f"/{serving.token}"
     routes = [
         Route(f"{base}/", page_of("live.html")),
@@ -48,7 +48,7 @@ def make_live_app(serving: LiveServing) -> ASGIApp:
 
 
 def state(serving: LiveServing) -> dict[str, Any]:
-    """What changes seldom: the camera, the targets, whether it is recorded."""
+    """What seldom changes: the camera, the targets, whether it is recording."""
     session = serving.session
     known = session.trackers
     return {
@@ -106,7 +106,7 @@ COMMANDS: dict[str, Callable[..., dict[str, Any] | None]] = {
     "stop-recording": LiveSession.stop_recording,
     "again": LiveSession.start,
 }
-"""What a page can have done; the values of a command are the function's arguments."""
+"""Functions by command; the values of a command are the function's arguments."""
 
 
 async def _recorded(serving: LiveServing, request: Request) -> Response:
@@ -128,18 +128,18 @@ async def _tell_page(serving: LiveServing, socket: WebSocket) -> None:
 
 
 class _Page:
-    """What one page has been told, so that it is told only what is new."""
+    """What one page has been sent, so that only news is sent."""
 
     def __init__(self, serving: LiveServing, socket: WebSocket) -> None:
         self.serving, self.socket = serving, socket
         self.state: dict[str, Any] | None = None
-        self.news: Any = None  # the last frame whose tracks were told
+        self.news: Any = None  # the last frame whose tracks were sent
         self.errors = len(serving.session.errors)
         self.health: Any = None
-        self.shown, self.sent = True, -1  # whether the last picture has arrived, and its frame
+        self.shown, self.sent = True, -1  # whether the last picture was shown, and its frame
 
     def hear(self, message: Any) -> None:
-        """The page has shown a picture, or holds the one in which someone draws."""
+        """Handle a message: the page has shown a picture, or holds the one in which the user draws."""
         self.shown = self.shown or "shown" in message
         if "hold" in message:
             self.serving.session.hold(self, message["hold"])

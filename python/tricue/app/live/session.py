@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A camera in work: its newest frame always, the targets tracked in it, and what is recorded of them."""
+"""A session with a camera: its newest frame, the targets tracked in it, and their recording."""
 
 import itertools
 import re
@@ -26,13 +26,13 @@ from tricue.export.table import TableForm
 from tricue.track.base.adapter import with_known_numbers
 from tricue.track.base.track import Status, Track, Tracker
 
-KEPT = 900  # frames whose tracks pages that come later are told
-RATE_OVER = 30  # frames over which the rate is measured
-STALE = 2.0  # seconds without a frame, after which there is no rate
+KEPT = 900  # frames whose tracks are kept for pages that open later
+RATE_OVER = 30  # frames over which the frame rate is measured
+STALE = 2.0  # seconds without a frame, after which there is no frame rate
 
 
 class Opened(NamedTuple):
-    """A camera that gives frames. cameras: the trackers' keywords intrinsics or rig, where they are known."""
+    """An open camera. cameras: the trackers' keywords intrinsics or rig, if known."""
 
     source: Source
     cameras: Mapping[str, Any]
@@ -40,7 +40,7 @@ class Opened(NamedTuple):
 
 @dataclass
 class Followed:
-    """A target, its tracker, and its last track, in the frame ``at``. stopped: after an error."""
+    """A target, its tracker, and its last track, in frame ``at``. stopped: whether by an error."""
 
     target: Target
     tracker: Tracker
@@ -50,7 +50,7 @@ class Followed:
 
 
 class Shown(NamedTuple):
-    """A frame that was tracked in, with the tracks by the targets' ids."""
+    """A frame with its tracks, by the targets' ids."""
 
     number: int
     seconds: float
@@ -58,12 +58,12 @@ class Shown(NamedTuple):
 
 
 class LiveSession:
-    """Tracks in a camera in a thread, from :meth:`start` to :meth:`close`. Any thread may call its methods.
+    """Tracks targets in a camera, in a thread, from :meth:`start` to :meth:`close`. Thread-safe.
 
-    open_: opens the camera, and waits for its first image; OSError in one line where none comes. folder:
-    where recordings are written. say: gets the lines for the terminal.
-    phase: "connecting", "live", "paused", "ended"; of the last ``problem`` tells why. errors: of trackers and
-    of recording, one line each. size: width and height of the images in whose pixels boxes are.
+    open_: opens the camera and waits for its first image; OSError in one line if none comes. folder: for
+    recordings. say: gets the lines for the terminal.
+    phase: "connecting", "live", "paused", or "ended", for which ``problem`` has the reason. errors: of
+    trackers and of recording, one line each. size: width and height of the images in whose pixels boxes are.
     """
 
     def __init__(
@@ -97,13 +97,13 @@ class LiveSession:
 
     @property
     def targets(self) -> list[Followed]:
-        """Those that are followed, by id."""
+        """The followed targets, by id."""
         with self._lock:
             return list(self._followed.values())
 
     @property
     def health(self) -> Health:
-        """How the camera does; of several the sum."""
+        """The camera's health; for several devices the sum."""
         found = [live.health for live in self._lives()]
         return Health(
             sum(each.dropped for each in found),
@@ -114,7 +114,7 @@ class LiveSession:
 
     @property
     def rate(self) -> float:
-        """Frames per second that are tracked in, lately."""
+        """The recent number of tracked frames per second."""
         with self._lock:
             times = [*self._arrivals]
         if not times or time.monotonic() - times[-1] > STALE:
@@ -124,7 +124,7 @@ class LiveSession:
     # The camera.
 
     def start(self) -> None:
-        """Open the camera, or try again where it has ended."""
+        """Open the camera, or try again if it has ended."""
         with self._lock:
             if self._closed or (self._thread is not None and self._thread.is_alive()):
                 return
@@ -133,7 +133,7 @@ class LiveSession:
             self._thread.start()
 
     def close(self) -> None:
-        """Let the camera go, and finish what is recorded."""
+        """Release the camera, and finish the recording."""
         self._closed = True
         for live in self._lives():
             live.close()
@@ -142,21 +142,21 @@ class LiveSession:
         self.stop_recording()
 
     def pause(self) -> None:
-        """Keep the picture and the tracks as they are, until :meth:`go_on`."""
+        """Freeze the picture and the tracks until :meth:`go_on`."""
         with self._lock:
             if self.phase == "live":
                 self.phase = "paused"
                 self._backlog.hold(self, self._number)
 
     def go_on(self) -> None:
-        """Track again; what came meanwhile is caught up with."""
+        """Track again, catching up with the frames that came meanwhile."""
         with self._lock:
             if self.phase == "paused":
                 self.phase = "live"
                 self._backlog.hold(self, None)
 
     def hold(self, holder: Hashable, number: int | None) -> None:
-        """Keep the frame in which someone draws, see :meth:`Backlog.hold`."""
+        """Keep the frame in which a user draws, see :meth:`Backlog.hold`."""
         with self._lock:
             self._backlog.hold(holder, number)
 
@@ -172,7 +172,7 @@ class LiveSession:
                     return
                 self._take(frame)
             raise OSError(f"{self.name}: the camera gives no more frames")
-        except Exception as error:  # of the camera's library, too
+        except Exception as error:  # also from the camera's library
             if not self._closed:
                 self._end(one_line(error))
         finally:
@@ -180,7 +180,7 @@ class LiveSession:
                 live.close()
 
     def _begin(self, opened: Opened) -> None:
-        """Take over an opened camera. Targets of before are gone, for the camera may be another."""
+        """Take over an opened camera. Previous targets are removed, because it may be a different camera."""
         self.source, self._cameras = opened
         boxed = "color" if "color" in self.source.channels else "depth"
         self.size = self.source.channels[boxed].size
@@ -201,7 +201,7 @@ class LiveSession:
         return [joint for joint in joints_of(channels) if isinstance(joint, Live)]
 
     def _take(self, frame: Frame) -> None:
-        """Track in the newest frame, unless it is paused."""
+        """Track in the newest frame, unless paused."""
         with self._lock:
             self._number += 1
             seconds = time.monotonic() if frame.timestamp is None else frame.timestamp
@@ -218,8 +218,8 @@ class LiveSession:
             self._record(shown, frame)
 
     def _check_size(self, frame: Frame) -> None:
-        """Where the camera gives images of another size than before, the boxes of before mean nothing, and a
-        recording, whose boxes and video are of one size, ends.
+        """If the camera's images change their size, earlier boxes become meaningless, and a recording, whose
+        boxes and video have one size, ends.
         """
         height, width = image_of(frame).shape[:2]
         if (width, height) == self.size:
@@ -233,7 +233,7 @@ class LiveSession:
         self.errors.append(f"{self.name}: its images are {width}x{height} px now{ended}; draw the boxes anew")
 
     def _catch_up(self, followed: Followed) -> None:
-        """Show a tracker the frames that it hasn't seen; an error ends it alone."""
+        """Give a tracker the frames that it hasn't seen; an error stops only this tracker."""
         for number, frame in [] if followed.stopped else self._backlog.since(followed.at):
             try:
                 track = self._measured(followed.tracker.update(frame))
@@ -250,13 +250,13 @@ class LiveSession:
         return {target: followed.track for target, followed in self._followed.items()}
 
     def _measured(self, track: Track) -> Track:
-        """In a default camera, positions would be no meters."""
+        """The track, without a position if the camera is a default one, since it wouldn't be in meters."""
         return track if self._cameras else track.in_image()
 
     # Targets.
 
     def add(self, frame: Any, box: Any, tracker: Any) -> int:
-        """Follow what is in a box of a frame; the target's id."""
+        """Follow what is in a box of a frame; return the target's id."""
         with self._lock:
             target = Target(self._next_id, f"Target {self._next_id}", self._known(tracker))
             self._follow(target, frame, as_box(box))
@@ -264,33 +264,33 @@ class LiveSession:
             return target.id
 
     def draw(self, target: Any, frame: Any, box: Any) -> None:
-        """Follow a target from another box on."""
+        """Continue a target from a new box."""
         with self._lock:
             self._follow(self._get(target).target, frame, as_box(box))
 
     def delete(self, target: Any) -> None:
-        """Follow a target no more."""
+        """Stop following a target."""
         with self._lock:
             number = self._get(target).target.id
             del self._followed[number]
             self._backlog.hold(number, None)
 
     def rename(self, target: Any, name: Any) -> None:
-        """Call a target something else."""
+        """Rename a target."""
         words = checked_name(name)
         with self._lock:
             followed = self._get(target)
             followed.target = replace(followed.target, name=words)
 
     def choose_tracker(self, target: Any, tracker: Any) -> None:
-        """Follow a target by another tracker, from its present box on."""
+        """Follow a target with another tracker, from its present box on."""
         with self._lock:
             followed = self._get(target)
             chosen = replace(followed.target, tracker=self._known(tracker))
             self._follow(chosen, followed.at, followed.track.box)
 
     def _follow(self, target: Target, number: Any, box: Box) -> None:
-        """Start a tracker in a frame that may be a little old; it catches up in the next one."""
+        """Start a tracker in a frame that may be slightly old; it catches up at the next frame."""
         if self.source is None or not isinstance(number, int):
             raise ValueError(f"frame: expected the number of a frame that is shown, got {number!r:.40}")
         frame = self._backlog.get(number)
@@ -298,7 +298,7 @@ class LiveSession:
         track = with_known_numbers(self._measured(tracker.init(frame, box)), box)
         self._followed[target.id] = Followed(target, tracker, track, number)
         self._backlog.hold(target.id, number)
-        if self.phase == "paused" and self.recent:  # the picture stays, so its tracks are told anew
+        if self.phase == "paused" and self.recent:  # the picture stays, so its tracks are sent again
             self.recent.append(Shown(number, self.recent[-1].seconds, self._tracks()))
 
     def _get(self, target: Any) -> Followed:
@@ -311,10 +311,10 @@ class LiveSession:
             raise ValueError(f"tracker: expected one of {', '.join(self.trackers)}, got {tracker!r:.80}")
         return str(tracker)
 
-    # What is recorded.
+    # Recording.
 
     def record(self) -> None:
-        """Record from the next frame on. OSError where the folder can't be written."""
+        """Record from the next frame on. OSError if the folder can't be written."""
         with self._lock:
             if self.recorder is not None:
                 return

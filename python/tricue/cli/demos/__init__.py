@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""The demos, one module a tracker."""
+"""The demos, one module per tracker."""

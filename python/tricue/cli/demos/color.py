@@ -15,7 +15,7 @@ from tricue.draw.overlays import overlay
 from tricue.draw.video import OverlayWriter
 from tricue.track.base.registry import create
 
-LOST_DISTANCE = 25.0  # pixels from the true center, from which a face counts as lost
+LOST_DISTANCE = 25.0  # pixels from the true center; farther off a face counts as lost
 FPS = 15.0
 MIN_PLOTTED_ERROR = 0.1  # pixels, of the logarithmic plot
 
@@ -31,7 +31,7 @@ class ColorResult:
 
 
 def run(options: Namespace) -> int:
-    """Track the scenes, print the table and write the files; the exit code."""
+    """Track the scenes, print the table and write the files; return the exit code."""
     from tricue.draw import figures
     from tricue.scenes import BACKGROUNDS, face_over_clutter
 

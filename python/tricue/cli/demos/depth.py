@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""``tricue demo depth-particle``: people before a time-of-flight camera, tracked in meters."""
+"""``tricue demo depth-particle``: people in front of a time-of-flight camera, tracked in meters."""
 
 from argparse import Namespace
 from collections.abc import Callable, Mapping
@@ -29,7 +29,7 @@ SCENES: Mapping[str, Callable[..., DepthScene]] = {
 
 
 def run(options: Namespace) -> int:
-    """Run the command, print the table and write the files; the exit code."""
+    """Run the command, print the table and write the files; return the exit code."""
     from tricue.draw import figures
 
     figures.require()

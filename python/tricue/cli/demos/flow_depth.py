@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""``tricue demo flow-depth``: a walker is overtaken and passes somebody, before a panning stereo pair."""
+"""``tricue demo flow-depth``: a walker is overtaken and passes somebody, seen by a panning stereo pair."""
 
 from argparse import Namespace
 from collections.abc import Callable, Mapping
@@ -20,7 +20,7 @@ FPS = 15.0  # the cameras'
 MIN_HELD_OVERLAP = 0.5  # of overlap
 
 DemoCase = tuple[Callable[..., WalkScene], dict[str, Any]]
-"""How to make a scene, and the tracker's parameters in it."""
+"""A function that makes a scene, and the tracker's parameters for it."""
 
 _plain = lru_cache(maxsize=1)(overtaking)  # it takes seconds to make
 
@@ -34,7 +34,7 @@ CASES: Mapping[str, DemoCase] = {
 
 
 def run(options: Namespace) -> int:
-    """Run the command, print the table and write the files; the exit code."""
+    """Run the command, print the table and write the files; return the exit code."""
     from tricue.draw import figures
 
     figures.require()
@@ -80,9 +80,7 @@ def _table(results: Mapping[str, SceneResult[WalkScene]]) -> str:
 
 
 def _plot(figure: Any, results: Mapping[str, SceneResult[WalkScene]]) -> None:
-    """A row per scene: the path from above where there is a position, beside it the overlap over the
-    frames.
-    """
+    """A row per scene: the path from above if there are positions, beside it the overlap over the frames."""
     from tricue.draw.paths import draw_path
     from tricue.papers.plots import shade_hidden
 

@@ -24,7 +24,7 @@ FPS = 30.0  # the cameras'
 MIN_HELD_OVERLAP = 0.5  # of overlap
 
 DemoCase = tuple[Callable[..., StressScene], tuple[str, ...]]
-"""How to make a scene, and the channels that the tracker gets."""
+"""A function that makes a scene, and the channels that the tracker gets."""
 
 _rgbd = lru_cache(maxsize=1)(partial(stress_scene, "all", channels="rgbd"))  # it takes seconds to make
 
@@ -37,7 +37,7 @@ CASES: Mapping[str, DemoCase] = {
 
 
 def run(options: Namespace) -> int:
-    """Run the command, print the table and write the files; the exit code."""
+    """Run the command, print the table and write the files; return the exit code."""
     from tricue.draw import figures
 
     figures.require()
@@ -74,7 +74,7 @@ def _follow(
 
 
 def _picture(step: Step, numbers: Floats, note: str) -> Image:
-    """The overlay, on the depth where there is no color; numbers: the true box, NaN where there is none."""
+    """The overlay, on the depth if there is no color. numbers: the true box, NaN if there is none."""
     truth = Box(*numbers.tolist()) if np.isfinite(numbers).all() else None
     if step.frame.color is not None:
         return overlay(step.frame.color, step.track, truth=truth, note=note)
@@ -101,8 +101,8 @@ def _table(results: Mapping[str, SceneResult[StressScene]]) -> str:
 
 
 def _plot(figure: Any, results: Mapping[str, SceneResult[StressScene]]) -> None:
-    """A row per set of channels: the path from above where there is a position, beside it the overlap
-    over the frames, with the names of the events.
+    """A row per set of channels: the path from above if there are positions, beside it the overlap over the
+    frames, with the names of the events.
     """
     from tricue.draw.paths import draw_path
     from tricue.papers.plots import shade_hidden

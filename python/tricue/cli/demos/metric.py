@@ -31,23 +31,23 @@ class SceneResult(Generic[S]):
 
     @property
     def errors(self) -> Floats:
-        """(M,) distances of the positions from the true ones, meters; NaN without a position."""
+        """Distances (M,) of the positions from the true ones, meters; NaN without a position."""
         positions = [np.full(3, np.nan) if t.position is None else t.position for t in self.tracks]
         distances: Floats = np.linalg.norm(positions - self.scene.positions, axis=1)
         return distances
 
     @property
     def overlaps(self) -> Floats:
-        """(M,) overlaps with the box of the whole target; NaN where it has none."""
+        """Overlaps (M,) with the box of the whole target; NaN where it has none."""
         return metrics.overlaps([track.box for track in self.tracks], self.scene.boxes)
 
     @property
     def seen(self) -> NDArray[np.bool_]:
-        """(M,) where at least half of the target is visible."""
+        """Frames (M,) in which at least half of the target is visible."""
         return np.asarray(self.scene.visible >= MIN_VISIBLE)
 
     def count_hidden(self, *statuses: Status) -> str:
-        """In how many frames with a hidden target the tracker reports one of the statuses, as
+        """The number of frames with a hidden target in which the tracker reports one of the statuses, as
         "count/frames".
         """
         hidden = np.flatnonzero(self.scene.visible < HIDDEN_BELOW)
@@ -56,7 +56,7 @@ class SceneResult(Generic[S]):
 
     @property
     def speed(self) -> float:
-        """Frames a second."""
+        """Frames per second."""
         return self.clock.updates / self.clock.tracking
 
 
@@ -66,7 +66,7 @@ def follow_all(
     video: OverlayWriter,
     follow: Callable[[str, S, OverlayWriter], SceneResult[S]],
 ) -> dict[str, SceneResult[S]]:
-    """Make each scene, track it, and write all into one video, which is closed at the end."""
+    """Make each scene, track it, and write everything into one video, which is closed at the end."""
     results: dict[str, SceneResult[S]] = {}
     with video, Progress(len(scenes)) as progress:
         for done, (name, make) in enumerate(scenes.items()):

@@ -31,7 +31,7 @@ SCENES: Mapping[str, Callable[..., StereoScene]] = {
 
 
 def run(options: Namespace) -> int:
-    """Run the command, print the table and write the files; the exit code."""
+    """Run the command, print the table and write the files; return the exit code."""
     from tricue.draw import figures
 
     figures.require()
@@ -45,7 +45,7 @@ def run(options: Namespace) -> int:
 
 
 def relative_errors(result: SceneResult[StereoScene]) -> Floats:
-    """(M,) errors in percent of the head's true distance from the left camera."""
+    """Errors (M,) in percent of the head's true distance from the left camera."""
     return np.asarray(100 * result.errors / np.linalg.norm(result.scene.positions, axis=1))
 
 

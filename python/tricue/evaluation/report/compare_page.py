@@ -16,7 +16,7 @@ MAX_LISTED = 12
 
 
 def write_compare_page(found: Comparison, old: Path, new: Path, path: Path) -> Path:
-    """Write the page; its path. The same comparison gives the same bytes."""
+    """Write the page; return its path. The same comparison gives the same bytes."""
     style = Html(Path(__file__).with_name("style.css").read_text(encoding="utf-8"))
     head = tag(
         "head",

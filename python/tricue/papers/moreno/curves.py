@@ -25,11 +25,11 @@ PAPERS_FILTER = "default with the paper's filter"
 TIMED_MODULES = ("search", "disparity", "filter", "rest")
 
 MAX_HEAD_RECOVERY_DELAY = 15
-"""Frames within which a head has to be tracked again."""
+"""Frames within which a head must be tracked again."""
 HEAD_END_FRAMES = 5
-"""Last frames of a scene, in all of which the tracker has to be on the head."""
+"""Last frames of a scene, in all of which the tracker must be on the head."""
 LAGS: Floats = np.arange(-300, 301) / 100
-"""Frames, from which the lag is chosen."""
+"""Candidate lags, frames."""
 
 COLUMNS = (
     "scene",
@@ -63,22 +63,22 @@ class StereoCurve(OcclusionCurve):
     covariances: Floats
     """(M, 3, 3) of the positions, square meters; NaN without one."""
     seconds: Mapping[str, float]
-    """Of an update, per module."""
+    """Seconds of an update, per module."""
 
     @property
     def errors(self) -> Floats:
-        """(M,) distances from the true positions, as a share of the distance from the camera."""
+        """Distances (M,) from the true positions, as a share of the distance from the camera."""
         off, far = (np.linalg.norm(each, axis=1) for each in (self.positions - self.truth, self.truth))
         return np.asarray(off / far)
 
     @property
     def deviations(self) -> Floats:
-        """(M,) meters: the root of the covariances' trace, the expected distance from the truth."""
+        """The root of the covariances' trace (M,), meters: the expected distance from the truth."""
         return np.asarray(np.sqrt(np.trace(self.covariances, axis1=1, axis2=2)))
 
     @property
     def nees(self) -> Floats:
-        """(M,) normalized estimation error squared: 3 in the mean, if the covariances are consistent."""
+        """The normalized estimation error squared (M,); its mean is 3 if the covariances are consistent."""
         off = self.positions - self.truth
         weighted = np.full((*off.shape, 1), np.nan)
         known = np.isfinite(self.covariances).all(axis=(1, 2))
@@ -92,7 +92,9 @@ class StereoCurve(OcclusionCurve):
 
     @property
     def recovered(self) -> bool | None:
-        """Whether a hidden head is tracked again in time after half of it is visible; None if none was."""
+        """Whether a hidden head is tracked again in time after half of it is visible; None if never
+        hidden.
+        """
         hidden = np.flatnonzero(self.visible < HIDDEN_BELOW)
         if not hidden.size:
             return None
@@ -102,10 +104,10 @@ class StereoCurve(OcclusionCurve):
 
 
 def lag(runs: Sequence[StereoCurve]) -> float:
-    """Frames by which tracks are late: shifted by them against the truth they are nearest to it.
+    """Frames by which tracks lag: the shift with which they fit the truth best.
 
-    Nearest by the squares of errors as shares of the distance, in the frames in which the tracker is on the
-    head; the truth between two frames is interpolated linearly. NaN where there is no such frame.
+    Best means the smallest sum of squared relative errors, over the frames in which the tracker is on the
+    head; the truth is interpolated linearly between frames. NaN if there is no such frame.
     """
     costs = np.zeros(len(LAGS))
     count = 0
@@ -122,7 +124,7 @@ def lag(runs: Sequence[StereoCurve]) -> float:
 
 
 def module_seconds(curves: Sequence[StereoCurve], scene: str, model: str) -> dict[str, float]:
-    """Of an update, per module of TIMED_MODULES: medians over the runs of a model in a scene."""
+    """Seconds of an update, per module of TIMED_MODULES: medians over the runs of a model in a scene."""
     runs = runs_of(curves, scene, model)
     return {name: float(np.median([run.seconds.get(name, 0.0) for run in runs])) for name in TIMED_MODULES}
 
@@ -139,7 +141,7 @@ def summarize(curves: Sequence[StereoCurve]) -> str:
 
 
 def write_csv(path: Path, curves: Iterable[StereoCurve]) -> None:
-    """A line per model, scene, seed and frame: CSV_COLUMNS; what the tracker doesn't estimate is empty."""
+    """A line per model, scene, seed and frame: CSV_COLUMNS; values that aren't estimated are empty."""
     tables.write_csv(path, CSV_COLUMNS, curves, _frames)
 
 

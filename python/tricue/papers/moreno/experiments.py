@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Figures 2 and 3 of Moreno, Tarrida, Andrade-Cetto and Sanfeliu (2002): a head in stereo, in meters.
 
-Figure 2 is the noise of a head at rest (:mod:`noise`). In figure 3 a head moves: before the tracker with its
-defaults, as the paper prints it with and without its filter, and the default with the paper's filter or
-without one part at a time.
+Figure 2 is the noise of a head at rest (:mod:`noise`). In figure 3 a head moves. The trackers are the
+default, the paper's form with and without its filter, and the default with the paper's filter or without one
+part at a time.
 """
 
 from collections.abc import Callable
@@ -31,7 +31,7 @@ from tricue.scenes import StereoScene, head
 from tricue.track.stereo_head.params import StereoHeadParams
 
 SCENE_DISPARITY_NOISE = 0.3
-"""Pixels, standard deviation, in the perturbed scene."""
+"""Standard deviation, pixels, in the perturbed scene."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -80,7 +80,7 @@ PAPERS_FILTER_PARAMS: dict[str, Any] = {
 COLOR_ONLY_PARAMS: dict[str, Any] = {
     "compensate_light": False,
     "depth_weight": 0.0,
-}  # of the search for the head
+}  # parameters of the search for the head
 
 EXPERIMENTS: dict[str, Experiment[Any, Any]] = {
     "moreno-fig2": Experiment(

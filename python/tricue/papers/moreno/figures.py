@@ -25,15 +25,15 @@ SIZES = {NORMAL: "160x120", LARGE: "640x480"}
 TRUTH_COLOR = "black"
 MODEL_COLORS = {FUSED: COLORS[0], UNFUSED: COLORS[5], PRINTED: COLORS[1], PRINTED_UNFUSED: COLORS[4]}
 MOMENTS = (0.25, 0.55, 0.9)
-"""When a scene is shown, as shares of its frames."""
+"""The moments at which a scene is shown, as shares of its frames."""
 
 
 SHOWN = 0.6
-"""Of the image's width and height, around the head."""
+"""Shown share of the image's width and height, around the head."""
 
 
 class HasScene(Protocol):
-    """Whatever has a scene for the figure to show."""
+    """Anything with a scene for the figure to show."""
 
     @property
     def scene(self) -> StereoScene: ...
@@ -46,7 +46,7 @@ Runs = Mapping[tuple[str, str], StereoCurve]
 def paths(figure: Any, curves: Sequence[StereoCurve], scenes: Mapping[str, HasScene]) -> None:
     """Frames of the scenes with the tracker's ellipses; paths from above, deviations, and time per module.
 
-    All are those of the first seed.
+    All are from the first seed.
     """
     figure.set_size_inches(18, 10.5)
     top, bottom = figure.subfigures(2, 1, height_ratios=[1.15, 1])
@@ -137,7 +137,7 @@ def _deviations(axes: Any, first: Runs) -> None:
 
 
 def _times(axes: Any, curves: Sequence[StereoCurve]) -> None:
-    """(d): of the first model, the default."""
+    """(d): the times of the first model, the default."""
     model, known = curves[0].model, {curve.scene for curve in curves}
     sizes = {name: size for name, size in SIZES.items() if name in known}
     for row, scene in enumerate(sizes):

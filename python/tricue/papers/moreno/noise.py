@@ -27,18 +27,18 @@ from tricue.track.stereo_head.stereo_geometry import StereoGeometry, fit_polynom
 Floats = NDArray[np.float64]
 
 DISTANCES = (1.0, 1.4, 1.8, 2.2, 2.6, 3.0, 3.5, 4.0)
-"""Meters, of the head's center."""
+"""Distances of the head's center, meters."""
 ASIDE = (0.45, 0.25)
-"""Shares of half the view, so that X and Y have an error at all."""
+"""Shares of half the view; off the axis, because X and Y have no error on it."""
 STEADY_LIGHT, SWINGING_LIGHT = 0.0, 0.3
 MIN_RELATIVE_VALUE = 0.1
-"""Of the greatest value, below which the fit weighs values no more."""
+"""Share of the greatest value, below which the fit's weights no longer grow."""
 MODEL_COLORS = (COLORS[0], COLORS[1])
 CSV_COLUMNS = ("model", "scene", "seed", "distance_m", "light", "quantity", "value")
 
 
 class Quantity(NamedTuple):
-    """What is measured: its unit, and in which light."""
+    """A measured quantity: its unit, and the light in which it is measured."""
 
     name: str
     unit: str
@@ -65,14 +65,16 @@ class NoiseRun:
     scene: str
     seed: int
     distance: float
-    """Meters, of the head's visible surface."""
+    """Distance of the head's visible surface, meters."""
     light: float
     position: Floats
-    """(3,) true, meters."""
+    """The true position (3,), meters."""
     values: Floats
-    """Of QUANTITIES; those of another light are NaN."""
+    """Values of QUANTITIES; those for another light are NaN."""
     polynomials: Floats
-    """(3, 4) a of (9) for X, Y, Z, meters, the highest power first, with 1 pixel of disparity error."""
+    """Coefficients a (3, 4) of (9) for X, Y, Z, meters, highest power first, for a disparity error of 1
+    pixel.
+    """
 
 
 def rest(distance: float, light: float, *, seed: int, frames: int = 60) -> StereoScene:
@@ -88,7 +90,7 @@ SCENES: Mapping[str, Callable[..., StereoScene]] = {
 
 
 def measure(case: Case, make: Maker, scene: StereoScene) -> NoiseRun:
-    """The quantities of a tracker's measurements, which start on the true box."""
+    """The quantities from the measurements of a tracker that starts on the true box."""
     params: StereoHeadParams = make(seed=case.seed, rig=scene.rig).params  # type: ignore[attr-defined]
     found = measure_static_head(scene.frames, scene.boxes[0], scene.rig, params)
     truth, light = scene.positions[0], SWINGING_LIGHT if np.ptp(scene.light) else STEADY_LIGHT
@@ -107,7 +109,7 @@ def _printed(rig: StereoRig) -> Floats:
 
 
 class Fit(NamedTuple):
-    """A quantity of one model over the distance: (K,) means at K distances, and a cubic polynomial."""
+    """One model's quantity over distance: means (K,) at K distances, and a cubic polynomial."""
 
     distances: Floats
     means: Floats
@@ -115,14 +117,14 @@ class Fit(NamedTuple):
 
     @property
     def constant(self) -> float:
-        """The one value of the whole range: the root mean square."""
+        """The single value for the whole range: the root mean square."""
         return float(np.sqrt(np.mean(self.means**2)))
 
 
 def fit(runs: Sequence[NoiseRun], model: str, index: int) -> Fit:
-    """Root mean squares over the seeds at each distance, and a polynomial of third order through them.
+    """Root mean squares over the seeds at each distance, and a cubic polynomial fitted to them.
 
-    It is fitted to relative errors, as the values grow by an order of magnitude.
+    The fit minimizes relative errors, because the values grow by an order of magnitude.
     """
     light = QUANTITIES[index].light
     own = [run for run in runs if (run.model, run.light) == (model, light)]
@@ -196,7 +198,7 @@ def draw(figure: Any, runs: Sequence[NoiseRun], _scenes: Mapping[str, StereoScen
         axes.axhline(width, color="0.5", linewidth=1, linestyle="--", label="a bin's width / √12")
         axes.legend(frameon=False, fontsize=7)
     for axes in places[3:]:
-        axes.set_ylim(0, None)  # last, so that all of its lines are inside
+        axes.set_ylim(0, None)  # last, so that it includes all lines
     places[0].legend(frameon=False, fontsize=7)
     explained = {
         0: "Error of the position, root mean square\nover 60 frames of a head at rest, aside\nof the axis. "
@@ -210,7 +212,7 @@ def draw(figure: Any, runs: Sequence[NoiseRun], _scenes: Mapping[str, StereoScen
 
 
 def bin_deviations(p: StereoHeadParams) -> Floats:
-    """(3,) levels: the standard deviation of a color of which only the bin is known, along each axis."""
+    """The standard deviations (3,), levels, of a color of which only the bin is known, along each axis."""
     spans = np.array([2 * p.max_chroma, 2 * p.max_chroma, 766])
     return np.asarray(spans / p.bins / np.sqrt(12))
 
@@ -227,7 +229,7 @@ def _points(axes: Any, runs: Sequence[NoiseRun], model: str, index: int, color: 
 
 
 def _paper_polynomial(axes: Any, runs: Sequence[NoiseRun], index: int) -> None:
-    """(9) of the rigs of all seeds: the mean of their polynomials; of X and Y for the image's border."""
+    """Draw (9), the mean polynomial of all seeds' rigs; for X and Y at the image's border."""
     along = [run.position[index] for run in runs]
     smooth = np.linspace(min(along), max(along), 50)
     curves = [np.abs(np.polyval(run.polynomials[index], smooth)) for run in runs]

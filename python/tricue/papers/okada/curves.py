@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A walker who is overtaken, and passes somebody: overlaps of each part, reported occlusion, recovery."""
+"""A walker is overtaken and passes somebody: overlaps per part, reported occlusion, recovery."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -16,17 +16,17 @@ from tricue.scenes import Events
 from tricue.track.base.track import Status
 
 MAX_WALKER_OCCLUDED_DELAY = 4
-"""Frames after less than a tenth is visible, within which OCCLUDED has to be reported."""
+"""Frames, after less than a tenth is visible, within which OCCLUDED must be reported."""
 MAX_WALKER_RECOVERY_LEAD, MAX_WALKER_RECOVERY_DELAY = 4, 8
-"""Frames before and after a fifth is visible again, between which TRACKED has to be reported again."""
+"""Frames before and after a fifth is visible again, between which TRACKED must be reported again."""
 MIN_WALKER_RECOVERY_FRAMES = 5
-"""Frames in a row that are TRACKED then."""
+"""Consecutive frames that must be TRACKED then."""
 MAX_TRACKED_HIDDEN = 0.3
-"""Share of the frames in which nothing is visible, that may be TRACKED."""
+"""Share of the frames with nothing visible that may be TRACKED."""
 FRAMES_BEFORE_PASS, FRAMES_AFTER_PASS = 6, 10
-"""Frames up to the pass and from it on, in which one person may hide the other."""
+"""Frames before and after the pass in which one person may hide the other."""
 MIN_VISIBLE_AT_RESTART = 0.9
-"""Share of the target that is visible, from which the second run starts."""
+"""Visible share of the target from which on the second run starts."""
 
 COLUMNS = (
     *("scene", "tracker", "IoU > 0.5: mean", "minimum"),
@@ -40,7 +40,7 @@ AROUND_PASS = "before_pass", "after_pass"  # parts of a curve
 
 
 class Snapshot(NamedTuple):
-    """The tracker's target in one frame: its pixels (H, W), 255 or 0, its blocks, and its box."""
+    """The tracker's target in one frame: pixels (H, W), 255 or 0, blocks, and box."""
 
     mask: NDArray[np.uint8] | None
     targets: tuple[Box, ...]
@@ -59,9 +59,10 @@ class WalkCurve(OcclusionCurve):
     events: Events
     restarted_overlaps: Floats
     """(M,) overlaps of a second run, which starts on the true box once the overtaking is over; NaN before its
-    first update, and in all frames where the scene ends sooner."""
+    first update, and in all frames if the scene ends sooner.
+    """
     snapshots: dict[int, Snapshot]
-    """Of some frames, by their number."""
+    """Snapshots of some frames, by number."""
 
     @property
     def success(self) -> float:
@@ -70,12 +71,12 @@ class WalkCurve(OcclusionCurve):
 
     @property
     def before_overtaking(self) -> Flags:
-        """(M,) frames before less than 60 % are visible, without the first one, whose box is given."""
+        """Frames (M,) before less than 60 % are visible, without the first, whose box is given."""
         return self._frames(1, self.events.hiding)
 
     @property
     def before_pass(self) -> Flags:
-        """(M,) frames after the overtaking, with time to recover the target, and before the pass."""
+        """Frames (M,) between the overtaking, plus time to recover the target, and the pass."""
         back, passing = self.events.back, self.events.passing
         return self._frames(
             None if back is None else back + MAX_WALKER_RECOVERY_DELAY,
@@ -84,14 +85,14 @@ class WalkCurve(OcclusionCurve):
 
     @property
     def after_pass(self) -> Flags:
-        """(M,) frames after the pass."""
+        """Frames (M,) after the pass."""
         passing = self.events.passing
         return self._frames(None if passing is None else passing + FRAMES_AFTER_PASS, len(self.overlaps))
 
     @property
     def occlusion_reported(self) -> bool | None:
         """Whether OCCLUDED is first reported in time: while less than 60 % are visible, and soon after less
-        than 10 % are. None where the scene ends before.
+        than 10 % are. None if the scene ends before.
         """
         hiding, hidden = self.events.hiding, self.events.hidden
         if hiding is None or hidden is None or Status.OCCLUDED not in self.statuses:
@@ -101,7 +102,7 @@ class WalkCurve(OcclusionCurve):
     @property
     def recovered(self) -> bool | None:
         """Whether the status is TRACKED for some frames in a row soon after a fifth is visible again, and is
-        hardly ever while nothing is visible. None where the scene ends before.
+        hardly ever while nothing is visible. None if the scene ends before.
         """
         hidden, back = self.events.hidden, self.events.back
         if hidden is None or back is None:
@@ -118,7 +119,7 @@ class WalkCurve(OcclusionCurve):
         return False if last + MIN_WALKER_RECOVERY_FRAMES <= len(tracked) else None
 
     def _frames(self, first: int | None, last: int | None) -> Flags:
-        """(M,) from a first up to a last one, without it; none where one of them is None."""
+        """Frames (M,) from a first to before a last one; none if either is None."""
         index = np.arange(len(self.overlaps))
         known = first is not None and last is not None
         return np.asarray((index >= (first or 0)) & (index < (last or 0)) & known)
@@ -171,7 +172,7 @@ def _cells(runs: Sequence[WalkCurve]) -> list[str]:
 
 
 def _success(runs: Sequence[WalkCurve], overlaps: str, part: str) -> list[float]:
-    """Of each run that has it, the share of a part's frames in which the box is on the target."""
+    """For each run that has the part, the share of its frames with the box on the target."""
     measured = [(getattr(run, overlaps), getattr(run, part)) for run in runs]
     known = [(values, frames & ~np.isnan(values)) for values, frames in measured]
     return [_share(values > MIN_OVERLAP, frames) for values, frames in known if frames.any()]

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Figure 8 of Okada, Shirai and Miura (1996): a walker is overtaken, and passes somebody who stands.
+"""Figure 8 of Okada, Shirai and Miura (1996): a walker is overtaken, and passes a standing person.
 
 Flow and disparity together, and each alone, by default and as printed. The paper says that flow alone fails
-on the overtaking, as both walk alike, and disparity alone on the pass, as both are as far away.
+on the overtaking, because both walk alike, and disparity alone on the pass, because both are equally far
+away.
 """
 
 from collections.abc import Callable
@@ -30,7 +31,7 @@ FIGURE_SEED = 0
 
 
 class SnapshotRecorder:
-    """A tracker whose target pixels and blocks are kept of the frames with these numbers."""
+    """A tracker that also records its target's pixels and blocks in the frames with these numbers."""
 
     def __init__(self, tracker: Any, frames: tuple[int, ...]) -> None:
         self._tracker, self._frames = tracker, frames
@@ -74,7 +75,7 @@ def measure(case: Case, make: Maker, scene: WalkScene) -> WalkCurve:
 
 
 def _restarted_overlaps(make: Callable[[], AnyTracker], scene: WalkScene) -> Floats:
-    """(M,) overlaps of a tracker that starts after the overtaking, so that the pass is measured by itself."""
+    """Overlaps (M,) of a tracker that starts after the overtaking, to measure the pass by itself."""
     overlaps = np.full(len(scene.frames), np.nan)
     start = curves.restart_frame(scene.events, scene.visible)
     if start is not None and start < len(scene.frames) - 1:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Section 6 of Okada, Shirai and Miura (1996): the tracker turns its camera, so that the target stays in the
-middle of the image.
+"""Section 6 of Okada, Shirai and Miura (1996): the tracker turns its camera to keep the target in the middle
+of the image.
 
-The paper prints no law of control: ours is :class:`tricue.PanTilt`. The camera looks where the head has
-turned when a frame is taken, so what the tracker sees depends on all that it said before.
+The paper prints no control law; ours is :class:`tricue.PanTilt`. The camera looks where the head points when
+a frame is taken, so what the tracker sees depends on all its earlier output.
 """
 
 from functools import partial
@@ -20,9 +20,9 @@ from tricue.scenes.pan_tilt.head import HeadLimits
 from tricue.track.pan_tilt import PanTilt
 
 GAIN = 1.5
-"""1/s, of the controller."""
+"""The controller's gain, 1/s."""
 MAX_ACCELERATION = 0.3
-"""rad/s²: image motion then changes by a third of a pixel a frame, as the tracker expects."""
+"""rad/s²; image motion then changes by a third of a pixel per frame, as the tracker expects."""
 FIGURE_SEED = 0
 """The seed whose frames are in the figure."""
 STANDING_HEAD = HeadLimits(max_speed=1e-9)

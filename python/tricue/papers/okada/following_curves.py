@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A camera that follows its target: angles of both, and how well the target is kept in the middle."""
+"""A camera that follows its target: the angles of both, and how well the target stays in the middle."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from tricue.papers import tables
 from tricue.papers.curves import MIN_OVERLAP, Flags, Floats, OcclusionCurve
 
 SETTLING_FRAMES = 15
-"""At the start, in which the head turns to the target; nothing is counted in them."""
+"""Frames at the start, while the head turns to the target; they aren't counted."""
 
 COLUMNS = (
     *("scene", "tracker", "in the middle third: mean", "minimum", "pan error deg: median", "95 %"),
@@ -36,7 +36,7 @@ class SeenFrame(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FollowCurve(OcclusionCurve):
-    """One tracker in one scene, with the camera that it turned."""
+    """One tracker in one scene, with the camera that it turns."""
 
     angles: Floats
     """(M, 2) pan and tilt of the camera, radians."""
@@ -45,20 +45,20 @@ class FollowCurve(OcclusionCurve):
     in_middle: Flags
     """(M,) whether the center of the true box is in the middle third of the image's width and height."""
     in_image: Flags
-    """(M,) whether it is in the image."""
+    """(M,) whether that center is in the image."""
     rate: float
     """Frames per second."""
     frames: dict[int, SeenFrame]
-    """Of some frames, by their number."""
+    """Some frames, by number."""
 
     @property
     def errors(self) -> Floats:
-        """(M, 2) by which the camera looks beside the target, degrees, at least 0."""
+        """The absolute pointing errors (M, 2) of the camera, degrees."""
         return np.asarray(np.abs(np.degrees(self.directions - self.angles)))
 
     @property
     def settled(self) -> slice:
-        """The frames that are counted."""
+        """The counted frames."""
         return slice(SETTLING_FRAMES, None)
 
 

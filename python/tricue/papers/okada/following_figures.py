@@ -23,7 +23,7 @@ def key_frames(frames: int) -> tuple[int, ...]:
 
 
 def frames_and_angles(figure: Any, curves: Sequence[FollowCurve], scenes: Mapping[str, PanTiltScene]) -> None:
-    """Seed 0. Above, what the camera sees in the second scene, a row per tracker: its box solid, the true one
+    """Seed 0. Above, the camera's view in the second scene, a row per tracker: its box solid, the true one
     dashed. Below, the pan angles of target and camera over time in each scene.
     """
     models = models_of(curves)
@@ -91,5 +91,5 @@ def _angles(axes: Any, runs: Mapping[str, FollowCurve], models: Sequence[str], s
 
 
 def _hidden(run: FollowCurve) -> Any:
-    """(M,) where somebody hides the target; not where it is out of the image."""
+    """Frames (M,) in which somebody hides the target, but not those with it out of the image."""
     return (run.visible < MIN_VISIBLE) & run.in_image

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Section 3.1 of Okada, Shirai and Miura (1996): disparity with a right camera that is turned inwards, (8).
+"""Section 3.1 of Okada, Shirai and Miura (1996): disparity with a right camera turned inward, (8).
 
 The tracker is told the vergence angle, or isn't, by default and as printed. The head pans, as in figure 8.
 """
@@ -24,17 +24,17 @@ from tricue.scenes import WalkScene, overtaking
 from tricue.track.base.track import Status
 
 ANGLES = 0.0, 0.25, 0.5, 1.0, 2.0, 4.0
-"""Degrees; at about 1 both axes meet in the target."""
+"""Degrees; at about 1 both optical axes meet at the target."""
 FRAMES = 16
-"""Until the overtaking begins: how overlaps go on is the subject of figure 8."""
+"""Frames until the overtaking begins, the subject of figure 8."""
 
 
 def measure(case: Case, make: Maker, scene: WalkScene) -> VergenceCurve:
-    """Errors of a tracker that starts on the first true box; ``make`` gets ``vergence=``, too."""
+    """Errors of a tracker that starts on the first true box; ``make`` also gets ``vergence=``."""
     tracker = make(seed=case.seed, rig=scene.rig, vergence=scene.vergence)
     try:
         with warnings.catch_warnings():
-            # Not told the vergence, the tracker takes the images for swapped or not rectified, and says so.
+            # Without the vergence, the tracker warns that the images seem swapped or not rectified.
             warnings.simplefilter("ignore", UserWarning)
             result = run(tracker, scene.frames, scene.boxes[0])
     except NoDepthInBoxError:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A walker before a verged stereo pair: overlaps and errors of depth."""
+"""A walker in front of a verged stereo pair: overlaps and depth errors."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -19,12 +19,12 @@ CSV_COLUMNS = ("model", "scene", "seed", "frame", "depth_error_m", "iou", "statu
 
 @dataclass(frozen=True, slots=True, eq=False)
 class VergenceCurve(OcclusionCurve):
-    """One tracker in one scene until the overtaking. In a run that doesn't start overlaps are 0."""
+    """One tracker in one scene until the overtaking. If the tracker doesn't start, overlaps are 0."""
 
     vergence: float
-    """Degrees by which the right camera is turned inwards."""
+    """Degrees by which the right camera is turned inward."""
     depth_errors: Floats
-    """(M,) meters by which the target is found too far; NaN without a position."""
+    """(M,) meters, positive if the target is found too far away; NaN without a position."""
     started: bool
 
 

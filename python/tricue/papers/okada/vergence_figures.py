@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Stereo pairs of some vergence angles, and errors of depth and overlaps over the angle."""
+"""Stereo pairs at some vergence angles, and depth errors and overlaps over the angle."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -19,8 +19,8 @@ MIN_SHOWN_ERROR = 0.02  # meters, of the logarithmic axis
 
 
 def pairs_and_errors(figure: Any, curves: Sequence[VergenceCurve], scenes: Mapping[str, WalkScene]) -> None:
-    """Above, the first left image and the right one of every angle. Below, over the angle, the median error
-    of depth and the share of frames with the box on the target.
+    """Above, the first left image and the right one for each angle. Below, over the angle, the median depth
+    error and the share of frames with the box on the target.
     """
     figure.set_size_inches(14, 6)
     top, bottom = figure.subfigures(2, 1, height_ratios=[2, 4])

@@ -11,13 +11,13 @@ from tricue.papers import tables
 from tricue.papers.curves import HIDDEN_BELOW, MIN_OVERLAP, MIN_VISIBLE, Floats, VisibilityCurve, models_of
 
 MAX_CENTER_ERROR = 25.0
-"""Pixels; a face farther off counts as lost."""
+"""Pixels; beyond this a face counts as lost."""
 MIN_FAST_STEP = 10.0
-"""Pixels; the target is fast in a frame in which it has moved by more."""
+"""Pixels; the target is fast in frames in which it moves more."""
 MAX_RECOVERY_DELAY = 15
-"""Frames within which a hidden target has to be held again."""
+"""Frames within which a hidden target must be recovered."""
 END_FRAMES = 5
-"""Last frames of a scene, whose mean overlap says whether the tracker is on the target at the end."""
+"""Last frames of a scene; their mean overlap determines whether the tracker ends on the target."""
 
 COLUMNS = ("model", "mean error px", "frames > 25 px off", "frames IoU > 0.5", "runs")
 SCENE_COLUMNS = (
@@ -42,11 +42,11 @@ class ColorCurve(VisibilityCurve):
     boxes: Floats
     """(M, 4)"""
     steps: Floats
-    """(M,) pixels by which the target has moved since the last frame; 0 in the first."""
+    """(M,) pixels by which the target moved since the last frame; 0 in the first."""
 
     @property
     def recovered(self) -> list[bool]:
-        """For each time that the target comes back after it was hidden, whether it is held again in time."""
+        """For each reappearance after being hidden, whether the target is recovered in time."""
         answers, hidden = [], False
         for frame, share in enumerate(self.visible.tolist()):
             if share < HIDDEN_BELOW:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Figures 1 to 4 of Sabeti, Parvizi and Wu (2008): observation models in color.
 
-As the light changes, where a hand hides the face or is the target itself, and where a person jumps.
+The light changes, a hand hides the face or is the target itself, and a person jumps.
 """
 
 from dataclasses import replace
@@ -20,7 +20,7 @@ from tricue.scenes import BACKGROUNDS, Scene, face_over_clutter, hand, hidden_fa
 from tricue.track.color_particle.params import ColorParticleParams
 
 MAX_RENDERED_SEEDS = 10
-"""Of the scenes of figures 3 and 4, which take long to render."""
+"""Seeds for the scenes of figures 3 and 4, which are slow to render."""
 
 
 def measure(case: Case, make: Maker, scene: Scene) -> ColorCurve:
@@ -48,7 +48,7 @@ def _alone(observation: str) -> Maker:
 
 
 def _printed(**other: Any) -> Maker:
-    """The tracker as printed, or with another observation model in the place of its own."""
+    """The tracker as printed, or with another observation model instead of its own."""
     return partial(tricue.create, "color-particle", params=replace(ColorParticleParams.paper(), **other))
 
 

@@ -19,7 +19,7 @@ from tricue.scenes import Scene
 from tricue.track.color_particle.params import ColorParticleParams
 from tricue.track.color_particle.skin_detection import reference_color
 
-PICTURES = 6  # of a scene
+PICTURES = 6  # per scene
 SKIN_TINT = np.array([255, 0, 255])  # BGR, laid over skin pixels
 
 
@@ -122,7 +122,7 @@ def scene_curves(figure: Any, curves: Sequence[ColorCurve], scenes: Mapping[str,
 def _plot_overlaps(
     axes: Any, runs: Sequence[ColorCurve], name: str, scene: Scene, colors: Mapping[str, str]
 ) -> None:
-    """Median overlap and quartiles of each model, over shaded frames: hidden, or else fast ones."""
+    """Draw each model's median overlap and quartiles, and shade frames: hidden ones, or else fast ones."""
     for model, color in colors.items():
         overlaps = stacked(runs, model, "overlaps")
         plot_band(axes, np.median(overlaps, axis=0), overlaps, color, model, alpha=0.1)
@@ -137,7 +137,7 @@ def _plot_overlaps(
 
 
 def _marked(models: Sequence[str]) -> dict[str, str]:
-    """The models whose boxes are shown, of many, and their colors: the default and the printed form."""
+    """The models, if there are many, whose boxes are shown, and their colors: default and printed form."""
     colors = dict(zip(models, COLORS, strict=False))
     return {model: colors[model] for model in (models[0], "as printed") if model in colors}
 
@@ -165,7 +165,7 @@ def _add_legend(figure: Any, colors: Mapping[str, str]) -> None:
 
 
 def _chosen_frames(scene: Scene, curves: Sequence[ColorCurve], name: str) -> list[int]:
-    """Frames that tell what happens: around the occlusions, in the fastest motion, else evenly spread."""
+    """Representative frames: around the occlusions, in the fastest motion, else evenly spread."""
     last = len(scene.frames) - 1
     if scene.visible:
         visible = np.array(scene.visible)
@@ -186,7 +186,7 @@ def _chosen_frames(scene: Scene, curves: Sequence[ColorCurve], name: str) -> lis
 
 
 def _skin_mask(image: NDArray[np.uint8], scene: Scene) -> NDArray[np.bool_]:
-    """(H, W) the skin pixels (10) of an image, by the color of the first frame's target."""
+    """The skin pixels (H, W) of an image by (10), with the color of the first frame's target."""
     k = kernels.load("native")
     start = scene.frames[0].color
     assert start is not None
@@ -195,5 +195,5 @@ def _skin_mask(image: NDArray[np.uint8], scene: Scene) -> NDArray[np.bool_]:
 
 
 def _plot_mean(axes: Any, values: Floats, color: str, label: str) -> None:
-    """The mean of values (R, M) over the runs, and their 10-90 % range."""
+    """Draw the mean of values (R, M) over the runs, and their 10-90 % range."""
     plot_band(axes, values.mean(axis=0), values, color, label, ranks=(10, 90), alpha=0.2)

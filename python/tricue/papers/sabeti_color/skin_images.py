@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Images with masks of their skin: a folder of the user's, or rendered ones."""
+"""Images with masks of their skin: from a user's folder, or rendered."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -16,11 +16,11 @@ Mask = NDArray[np.bool_]
 
 
 class SkinImages(Protocol):
-    """Images with their masks, which are read, or rendered, each time that they are iterated over."""
+    """Images with their masks, read or rendered at each iteration."""
 
     @property
     def title(self) -> str:
-        """What they are."""
+        """A title for the images."""
 
     def __len__(self) -> int: ...
 
@@ -46,9 +46,9 @@ class RenderedSkin:
 
 
 class SkinFolder:
-    """``images/NAME.*`` and ``masks/NAME.*`` in a folder of the user's, see :mod:`tricue.data.skin_masks`.
+    """``images/NAME.*`` and ``masks/NAME.*`` in a user's folder, see :mod:`tricue.data.skin_masks`.
 
-    Errors name the file: FileNotFoundError for a missing folder, ValueError for what isn't as it should be.
+    Errors name the file: FileNotFoundError for a missing folder, ValueError for invalid content.
     """
 
     def __init__(self, folder: Path) -> None:

@@ -23,7 +23,7 @@ from tricue.track.color_particle.params import ColorParticleParams
 
 NAME = "sabeti-roc"
 MAX_FALSE_POSITIVES = 0.1
-"""Share of the other pixels that may be called skin, by default."""
+"""Default share of the other pixels that may be classified as skin."""
 COLUMNS = ("reference color", "images", "area", "threshold", "true-positive rate", "false-positive rate")
 CSV_COLUMNS = ("reference", "threshold", "false_positive_rate", "true_positive_rate")
 PICTURES = 6
@@ -33,7 +33,7 @@ TINTS = {"right": (90, 190, 0), "false": (40, 40, 240), "missed": (240, 130, 0)}
 
 
 class _Chosen(NamedTuple):
-    """A curve and the threshold that was chosen on it."""
+    """A curve and the threshold chosen on it."""
 
     curve: Roc
     threshold: float
@@ -44,7 +44,9 @@ class _Chosen(NamedTuple):
         return self.rates(self.threshold)[0]
 
     def rates(self, threshold: float) -> tuple[float, float]:
-        """False- and true-positive rate at a threshold; between two levels it is as good as the lower one."""
+        """False- and true-positive rates at a threshold; between two levels it is equivalent to the lower
+        one.
+        """
         index = int(np.argmax(self.curve.thresholds <= threshold))
         return float(self.curve.fpr[index]), float(self.curve.tpr[index])
 
@@ -60,12 +62,12 @@ def run(
 
     data: a folder of images and masks (:class:`SkinFolder`); None: ``count`` rendered images. rate: the
     greatest false-positive rate, 0 to 1. Nothing is written before all images are read. ValueError or OSError
-    names what is wrong with a file or an argument, ImportError the extra that is missing.
+    says what is wrong with a file or an argument; ImportError names the missing extra.
     """
     if not 0 <= rate <= 1:
         raise ValueError(f"rate: expected a share, 0 to 1, got {rate}")
     figures.require()
-    for suffix in (".png", ".csv"):  # before the images, which may be many
+    for suffix in (".png", ".csv"):  # check before reading the images, which may be many
         check_writable(output / f"{NAME}{suffix}")
     images: SkinImages = RenderedSkin(count) if data is None else SkinFolder(data)
     with_skin, shared = _shared_color(images, progress)
@@ -138,7 +140,7 @@ def _draw(
     chosen: Sequence[tuple[str, _Chosen]],
     _scenes: Mapping[str, object],
 ) -> None:
-    """The curves, thresholds marked; images with the pixels that are skin by their own color."""
+    """Draw the curves with marked thresholds, and images with the skin pixels by their own color."""
     figure.set_size_inches(13, 5)
     left, right = figure.subfigures(1, 2, width_ratios=[1, 1.6])
     axes = left.subplots()
@@ -166,7 +168,7 @@ def _draw(
 
 
 def _overlay(image: Image, mask: Mask, threshold: float) -> Image:
-    """The image with tints over the pixels that are called skin, and over skin that isn't."""
+    """The image with tints over the pixels classified as skin, and over missed skin."""
     k = kernels.load("native")
     reference = k.skin_reference(np.ascontiguousarray(image[mask][None]))
     called = k.skin_boundary(image, reference) > 255 * threshold

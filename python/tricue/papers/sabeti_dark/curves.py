@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Overlaps over frames whose light changes, their table and their CSV."""
+"""Overlaps over frames with changing light, their table and their CSV."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ CSV_COLUMNS = ("model", "scene", "seed", "frame", "light", "iou")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LitCurve(Curve):
-    """One model in one scene; overlaps are with the head for trackers of color, else with the body."""
+    """One model in one scene; overlaps are with the head for color trackers, else with the body."""
 
     light: Floats
     """(M,) 1 indoors, 0 in darkness, 100 in the sun."""

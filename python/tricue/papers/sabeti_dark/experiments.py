@@ -2,7 +2,7 @@
 """Section VI of Sabeti, Parvizi and Wu (2008): color against time of flight, in darkness and out of range.
 
 The light falls to nothing, or rises to that of the sun. In a deep hall the unambiguous range shrinks, until
-the background, and at last the floor around the person, seem to be nearer than they are.
+the background, and at last the floor around the person, appear nearer than they are.
 """
 
 from functools import partial

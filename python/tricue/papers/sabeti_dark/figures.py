@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Frames in color and depth with boxes, overlaps while the light changes, and overlaps by the range."""
+"""Frames in color and depth with boxes, overlaps while the light changes, and overlaps by range."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -15,7 +15,7 @@ from tricue.papers.sabeti_dark.names import DUSK, HEAD_MODELS, RANGE_SCENES, SUN
 from tricue.scenes import LitScene
 
 FRAMES_SHOWN = 6
-MODEL_COLORS = (COLORS[4], COLORS[7], COLORS[5], COLORS[3], COLORS[2])  # on dark pictures, too
+MODEL_COLORS = (COLORS[4], COLORS[7], COLORS[5], COLORS[3], COLORS[2])  # visible on dark pictures, too
 TRUTH_COLOR = "white"
 NEAREST, FARTHEST = 0.5, 9.0  # meters, of the brightest and the darkest color of depth
 
@@ -68,7 +68,7 @@ def _draw_boxes(
     colors: Mapping[str, str],
     heads: bool = True,
 ) -> None:
-    """The boxes of one run of each model, and the truths that they are after."""
+    """Draw the boxes of one run of each model, and the corresponding true boxes."""
     camera = scene.intrinsics
     axes.set(xlim=(-0.5, camera.width - 0.5), ylim=(camera.height - 0.5, -0.5))
     for name, run in runs.items():
@@ -82,7 +82,7 @@ def _draw_boxes(
 def _plot_light(
     axes: Any, curves: Sequence[LitCurve], name: str, light: Floats, colors: Mapping[str, str]
 ) -> None:
-    """Mean overlaps over the frames of a scene, whose ticks tell the light."""
+    """Draw mean overlaps over the frames of a scene, with ticks that give the light."""
     of_scene = [curve for curve in curves if curve.scene == name]
     for model, color in colors.items():
         overlaps = stacked(of_scene, model, "overlaps")
@@ -96,7 +96,7 @@ def _plot_light(
 
 
 def _plot_ranges(axes: Any, curves: Sequence[LitCurve], colors: Mapping[str, str]) -> None:
-    """Mean overlaps by the unambiguous range; dotted: with the amplitude checked."""
+    """Draw mean overlaps by the unambiguous range; dotted: with the amplitude check."""
     for model, color in colors.items():
         for checked, style in ((False, "o-"), (True, "o:")):
             names = [name for name, (_, least) in RANGE_SCENES.items() if (least > 0) == checked]
@@ -111,5 +111,5 @@ def _plot_ranges(axes: Any, curves: Sequence[LitCurve], colors: Mapping[str, str
 
 
 def _two_digits(value: float) -> str:
-    """A number to two digits, as 100 and not 1e+02."""
+    """A number with two digits, such as 100, not 1e+02."""
     return f"{float(f'{value:.2g}'):g}"

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""The models and scenes that the experiment and its figure name."""
+"""The names of models and scenes, for the experiment and its figure."""
 
 COLOR = "color-particle, head"
 PRINTED_COLOR = "color-particle, head, as printed"
 PRINTED = "depth-particle, as printed"
 HEAD_MODELS = (COLOR, PRINTED_COLOR)
-"""Those that follow the head, as the paper's color tracker does."""
+"""Models that follow the head, as the paper's color tracker does."""
 
 DUSK, SUNRISE = "dusk", "sunrise"
 MIN_REFLECTANCE = 0.15
@@ -17,4 +17,4 @@ RANGE_SCENES = {
     "range 7.5 m, amplitude": (7.5, MIN_REFLECTANCE),
     "range 5 m, amplitude": (5.0, MIN_REFLECTANCE),
 }
-"""The unambiguous range, meters, and the least reflectance that the amplitude has to tell; 0: not checked."""
+"""The unambiguous range, meters, and the least reflectance that the amplitude must imply; 0: unchecked."""

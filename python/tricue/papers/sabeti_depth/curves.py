@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A person in depth: position errors, and what the tracker reports while the person is hidden."""
+"""A person in depth: position errors, and the tracker's reports while the person is hidden."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -12,11 +12,11 @@ from tricue.papers.curves import HIDDEN_BELOW, MIN_OVERLAP, MIN_VISIBLE, Flags, 
 from tricue.track.base.track import Status
 
 MAX_PERSON_OCCLUDED_DELAY = 3
-"""Frames within which an occlusion has to be reported."""
+"""Frames within which an occlusion must be reported."""
 MAX_PERSON_RECOVERY_DELAY = 5
-"""Frames within which the person has to be tracked again."""
+"""Frames within which the person must be tracked again."""
 PERSON_END_FRAMES = 5
-"""Last frames of a scene, whose mean overlap says whether the tracker is on the person at the end."""
+"""Last frames of a scene; their mean overlap determines whether the tracker ends on the person."""
 
 COLUMNS = (
     "scene",
@@ -46,11 +46,11 @@ class DepthCurve(OcclusionCurve):
     boxes: Floats
     """(M, 4) pixels."""
     starts: bool | None = None
-    """Whether the tracker finds the person without a box; None where that wasn't tested."""
+    """Whether the tracker finds the person without a box; None if that wasn't tested."""
 
     @property
     def correct_at_end(self) -> bool:
-        """Whether the mean overlap of the last frames is high enough, and the very last is TRACKED."""
+        """Whether the mean overlap of the last frames is high enough, and the last one is TRACKED."""
         on_target = self.overlaps[-PERSON_END_FRAMES:].mean() > MIN_OVERLAP
         return bool(on_target and self.statuses[-1] is Status.TRACKED)
 
@@ -70,7 +70,9 @@ class DepthCurve(OcclusionCurve):
 
     @property
     def _occlusions(self) -> list[tuple[int, int | None]]:
-        """The frames in which the person gets hidden, and is half visible again; None if never."""
+        """Per occlusion, the frames in which the person gets hidden, and is half visible again; None if
+        never.
+        """
         found: list[tuple[int, int | None]] = []
         first = None
         for frame, share in enumerate(self.visible.tolist()):
@@ -83,7 +85,7 @@ class DepthCurve(OcclusionCurve):
 
 
 def summarize(curves: Sequence[DepthCurve]) -> str:
-    """Markdown, a line per scene and model: COLUMNS; IoU and errors in the frames at least half visible."""
+    """Markdown, a line per scene and model: COLUMNS; IoU and errors in frames with at least half visible."""
     return "\n".join(tables.scene_table(curves, COLUMNS, _cells))
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Figures 5 to 7 of Sabeti, Parvizi and Wu (2008): a person changes pose and scale, and is hidden.
 
-The tracker with its defaults, without one part at a time, and in the form that the paper prints.
+The tracker with its defaults, without one part at a time, and in the paper's form.
 """
 
 from functools import partial
@@ -24,7 +24,7 @@ from tricue.track.base.adapter import traits_of
 from tricue.track.base.track import Status
 
 MAX_OTHER_DISTANCE = 0.5
-"""Meters; a position within this of somebody else, and nearer to them than to the target, is on them."""
+"""Meters; a position within this of another person, and nearer to them than to the target, is on them."""
 
 
 def measure(case: Case, make: Maker, scene: DepthScene) -> DepthCurve:
@@ -45,7 +45,7 @@ def measure(case: Case, make: Maker, scene: DepthScene) -> DepthCurve:
 
 
 def _nearer_to_others(positions: Floats, errors: Floats, scene: DepthScene) -> Flags:
-    """(M,) where a position is close to somebody else, and closer than to the target."""
+    """Frames (M,) with a position close to another person, and closer than to the target."""
     distances = [
         min((float(np.linalg.norm(position - other.position)) for other in others), default=np.inf)
         for position, others in zip(positions, scene.others, strict=True)
@@ -55,7 +55,7 @@ def _nearer_to_others(positions: Floats, errors: Floats, scene: DepthScene) -> F
 
 
 def _starts(make: Maker, seed: int, scene: DepthScene) -> bool | None:
-    """Whether the tracker finds the person in the first frame; None where it doesn't look for people."""
+    """Whether the tracker finds the person in the first frame; None if it doesn't detect people."""
     tracker: Any = make(seed=seed, intrinsics=scene.intrinsics)
     if traits_of(tracker).detects is None:
         return None

@@ -17,7 +17,7 @@ ERROR_RANGE = 0.005, 5.0  # meters, of the logarithmic axis
 FIGURES = {"pose and scale": "Fig. 5", "hidden": "Fig. 6", "hidden, 0.5 m farther": "Fig. 7"}
 MODELS_SHOWN = ("default", "as printed")  # in the frames, if they ran; otherwise all
 FRAMES_SHOWN = 6
-MODEL_COLORS = (COLORS[5], *COLORS[1:5])  # the first is on dark pictures, too
+MODEL_COLORS = (COLORS[5], *COLORS[1:5])  # the first is visible on dark pictures, too
 TRUTH_COLOR = "white"
 
 
@@ -56,7 +56,7 @@ def frames_and_curves(figure: Any, curves: Sequence[DepthCurve], scenes: Mapping
 def _draw_frames(
     row: Any, name: str, scene: DepthScene, runs: Mapping[str, DepthCurve], colors: Mapping[str, str]
 ) -> None:
-    """Frames of a scene with the boxes of one run of each model that is shown, and with the truth."""
+    """Draw frames of a scene with the true box and the boxes of one run of each shown model."""
     chosen = [model for model in MODELS_SHOWN if model in runs] or list(runs)
     for axes, index in zip(row, choose_frames(scene.visible), strict=True):
         depth = scene.frames[index].depth
@@ -71,10 +71,10 @@ def _draw_frames(
 
 
 def choose_frames(visible: Floats) -> list[int]:
-    """Frames that tell a scene, from the first to the last, FRAMES_SHOWN in all.
+    """FRAMES_SHOWN representative frames, from the first to the last.
 
-    visible: (M,) share of the target. Where it is hidden at some time: also the frame before that, the middle
-    of that, and five frames after it. Otherwise they are evenly spaced.
+    visible: (M,) visible share of the target. If it is ever hidden, they include the frame before that, the
+    middle of it, and one five frames after it. Otherwise they are evenly spaced.
     """
     last = len(visible) - 1
     even = [round(index) for index in np.linspace(0, last, FRAMES_SHOWN).tolist()]
