@@ -27,7 +27,7 @@ public:
 
     int rows() const { return rows_; }
     int cols() const { return cols_; }
-    std::ptrdiff_t pitch() const { return pitch_; }  ///< numbers from a row to the next
+    std::ptrdiff_t pitch() const { return pitch_; }  ///< numbers from one row to the next
 
     float* row(int y) { return first_ + pitch_ * y; }
     const float* row(int y) const { return first_ + pitch_ * y; }

@@ -12,7 +12,8 @@
 namespace tricue {
 namespace {
 
-/// The first pixels, in [0, rows or cols], whose centers aren't below the edges x, y, x, y of n blocks; how many edges aren't finite.
+/// The first pixels, in [0, rows or cols], whose centers aren't below the edges x, y, x, y of n blocks. Returns how many edges
+/// aren't finite.
 TRICUE_MULTIVERSION
 int find_edges(const double* __restrict corners, const GridPlace& place, double rows, double cols, int n,
                int* __restrict edges) {

@@ -16,13 +16,13 @@ struct GridPlace {
     double size, x, y, left, top;
 };
 
-/// The target's blocks: they move with it, and grow as it comes nearer.
+/// The target's blocks, which move with it and grow as it comes nearer.
 struct BlockGrid {
     StatesRef corners;  ///< (N, 4)
     GridPlace place;
 };
 
-/// The pixels of each block in an image, those whose centers lie in it.
+/// The pixels of each block in an image: those whose centers lie in it.
 ///
 /// @throws std::invalid_argument unless corners are (N, 4), and all finite where they are placed
 std::vector<Region> block_pixels(const BlockGrid& grid, int rows, int cols);

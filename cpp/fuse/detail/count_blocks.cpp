@@ -11,7 +11,7 @@
 namespace tricue {
 namespace {
 
-constexpr int kLanes = 4;  // floats in one register, everywhere
+constexpr int kLanes = 4;  // floats in one register, on every machine
 using Floats4 = Pack<float, kLanes>;
 using Ints4 = Pack<std::int32_t, kLanes>;
 using Doubles4 = Pack<double, kLanes>;
@@ -85,7 +85,7 @@ TRICUE_INLINE void add_columns(const Pixels& pixels, int x, int skipped, Totals&
     totals.similar += similar[0] + similar[1] + similar[2] + similar[3];
 }
 
-/// One by one, where there are fewer than four.
+/// Adds columns one by one, if there are fewer than four.
 inline void add_column(const Pixels& pixels, int x, Totals& totals) {
     for (int y = 0; y < pixels.rows; ++y) {
         const float value = pixels.disparity[y * pixels.disparity_stride + x];
@@ -97,7 +97,7 @@ inline void add_column(const Pixels& pixels, int x, Totals& totals) {
     }
 }
 
-/// The remainder is read as the last four columns, of which those count that haven't yet.
+/// The remainder is read as the last four columns, without those already counted.
 TRICUE_MULTIVERSION
 void add_block(const Pixels& pixels, int cols, Totals& totals) {
     int x = 0;

@@ -8,7 +8,7 @@
 
 namespace tricue {
 
-/// The counts of block_counts for regions of a mask and of the disparities, which have one shape.
+/// The counts of block_counts for regions of a mask and of disparities of the same shape.
 BlockCounts count_blocks(const ImageView& mask, const PlaneView& disparity, const std::vector<Region>& blocks,
                          float expected, float tolerance);
 

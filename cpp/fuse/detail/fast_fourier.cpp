@@ -34,8 +34,8 @@ constexpr float sine(int n, int k) {
     return kCosines[kSide / 4 - k * (kSide / n)];
 }
 
-/// The packed spectrum of kN registers of real numbers that are `step` registers apart: those of the even and of the odd ones (Cooley
-/// and Tukey), E + w^k O, of which w^k O turned by half a circle gives the other half.
+/// The packed spectrum of kN registers of real numbers that are `step` registers apart: those of the even and of the odd ones
+/// (Cooley and Tukey), E + w^k O, where w^k O with the opposite sign gives the other half.
 template <int kN, typename Register>
 TRICUE_INLINE void transform_line(const Register* line, int step, Register* packed) {
     if constexpr (kN == 2) {
@@ -86,7 +86,7 @@ TRICUE_INLINE void invert_line(const Register* packed, Register* line, int step)
     }
 }
 
-/// All columns of a plane; `to` may be the plane.
+/// Transforms all columns of a plane; `to` may be the plane itself.
 template <typename Register>
 TRICUE_INLINE void transform_columns(const float* plane, float* to) {
     constexpr int kLanes = sizeof(Register) / sizeof(float);
@@ -113,7 +113,7 @@ TRICUE_INLINE void invert_columns(const float* plane, float* to) {
     }
 }
 
-/// Of kLanes rows and columns: lanes of a row and of that half a block below take turns, as often as halves fit into a block.
+/// Transposes kLanes rows and columns: interleaves each row with the one half a block below, log2(kLanes) times.
 template <typename Register>
 TRICUE_INLINE void transpose_block(const float* from, float* to) {
     constexpr int kLanes = sizeof(Register) / sizeof(float);
@@ -147,7 +147,7 @@ TRICUE_INLINE void pack(const float* re, const float* im, float* packed) {
     for (int v = 0; v <= kHalf; ++v) packed[v] = re[v];
 }
 
-/// A + i B in one row, A - i B in the other; both packed. Of the first and the last frequency imaginary parts are 0.
+/// A + i B in one row, A - i B in the other; both packed. The imaginary parts of the first and last frequencies are 0.
 TRICUE_INLINE void unpack_pair(const float* __restrict a, const float* __restrict b, float* __restrict re,
                                float* __restrict im, float* __restrict other_re, float* __restrict other_im) {
     for (int v = 0; v < kHalf; ++v) {

@@ -11,7 +11,7 @@ void multiply_by(const float* __restrict mask, std::size_t n, float* __restrict 
     for (std::size_t i = 0; i < n; ++i) plane[i] *= mask[i];
 }
 
-/// At row -y, column -x, modulo the sizes.
+/// The mask at row -y, column -x, modulo its sizes.
 Floats mirrored(FloatsRef mask) {
     const Eigen::Index rows = mask.rows(), rest = mask.cols() - 1;
     Floats to(rows, mask.cols());
@@ -23,7 +23,7 @@ Floats mirrored(FloatsRef mask) {
     return to;
 }
 
-/// How many of n lines at the border are empty, together with those that mirror them.
+/// The number of the n lines, from the border, that are empty together with their mirror images.
 template <typename IsEmpty>
 int count_empty(int n, const IsEmpty& is_empty) {
     int count = 0;

@@ -6,19 +6,19 @@
 
 namespace tricue {
 
-/// Real and imaginary parts of a spectrum, apart.
+/// Separate real and imaginary parts of a spectrum.
 struct Spectrum {
     float *re, *im;
 };
 
-/// Multiplies planes by a mask, from their spectra to their spectra. Where lines at the borders of the mask are 0, the planes'
-/// lines become 0, too, which saves time. The planes are those of filters: the mask of the window is mirrored.
+/// Multiplies planes by a mask, given and returning their spectra. Border lines where the mask is 0 become 0 in the planes, which
+/// saves time. The planes are filters, so the window's mask is mirrored.
 class MaskedFourier {
 public:
     /// `planes` has the mask's size, and must outlive this.
     MaskedFourier(FloatsRef mask, PlaneFourier& planes);
 
-    /// Multiplies two spectra; to multiply only one, give it as the second, too, and ignore that result.
+    /// Multiplies two spectra; to multiply only one, pass it as the second, too, and ignore that result.
     void multiply(const Spectrum& one, const Spectrum& two, const Spectrum& one_masked,
                   const Spectrum& two_masked);
 

@@ -13,8 +13,8 @@ struct Product {
     std::ptrdiff_t pitch;
 };
 
-/// kRows rows of the product, kRegisters registers of each, at a time: no sum waits for the one before, and what was loaded of a
-/// factor is used for many.
+/// Computes kRows rows of the product at a time, kRegisters registers of each: no sum waits for the previous one, and each loaded
+/// part of a factor is used for many sums.
 template <int kLanes, int kRows, int kRegisters>
 TRICUE_INLINE void multiply_block(const Product& product, int y, int x) {
     using Register = Pack<float, kLanes>;
@@ -50,7 +50,7 @@ TRICUE_INLINE void multiply_some(const Product& product, int y, int rows) {
     if constexpr (kRows > 1) multiply_some<kLanes, kRows - 1, kRegisters>(product, y, rows);
 }
 
-/// All rows, in blocks whose heights differ by at most one row: with few sums at a time, they would wait for each other. AVX-512
+/// All rows, in blocks whose heights differ by at most one row, because a few sums at a time would wait for each other. AVX-512
 /// has twice as many registers as others.
 template <int kBytes>
 TRICUE_INLINE void multiply_by(const Product& product) {

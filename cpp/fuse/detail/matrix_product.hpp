@@ -11,15 +11,15 @@ struct Rows {
     Rows(const float* first, std::ptrdiff_t apart, int many) : numbers(first), pitch(apart), count(many) {}
 
     const float* numbers;
-    std::ptrdiff_t pitch;  ///< numbers from a row to the next
+    std::ptrdiff_t pitch;  ///< numbers from one row to the next
     int count;
 };
 
 /// Writes left (m, k or more) times the first `cols` columns of right (k, n) to those of `product`, in the rows from `first_row`
 /// on. Sums go along k in the same order on every machine.
 ///
-/// For small matrices: Eigen's products use only the registers that every machine has. Whole registers are read and written: rows of
-/// `right` begin as those of an AlignedMatrix do.
+/// For small matrices, because Eigen's products use only the registers that every machine has. Whole registers are read and
+/// written: rows of `right` must be aligned like those of an AlignedMatrix.
 void multiply(const Rows& left, const Rows& right, int cols, AlignedMatrix& product, int first_row = 0);
 
 }  // namespace tricue

@@ -13,7 +13,7 @@ namespace {
 
 using Complex = std::complex<float>;
 
-constexpr int kMaxSmallSide = 64;  // cells a side, up to which products of matrices are faster with AVX2
+constexpr int kMaxSmallSide = 64;  // cells per side, up to which matrix products are faster with AVX2
 
 void transform_plane(std::vector<Complex>& from, int rows, int cols, int flags, std::vector<Complex>& to) {
     const cv::Mat in(rows, cols, CV_32FC2, from.data());

@@ -10,7 +10,7 @@
 
 namespace tricue {
 
-/// Real and imaginary parts in turn.
+/// Alternating real and imaginary parts.
 inline const float* as_floats(const std::complex<float>* numbers) {
     return reinterpret_cast<const float*>(numbers);
 }
@@ -33,19 +33,19 @@ public:
     /// The size of a spectrum's real or imaginary part, in numbers.
     std::size_t count() const { return static_cast<std::size_t>(rows_) * static_cast<std::size_t>(half()); }
 
-    /// Transforms both planes, contiguous, with 0 in the margins. To transform only one, give it as the second, too, and ignore
+    /// Transforms both planes, contiguous, with 0 in the margins. To transform only one, pass it as the second, too, and ignore
     /// that spectrum.
     void transform(const float* one, const float* two, float* one_re, float* one_im, float* two_re,
                    float* two_im, const Margins& margins = {});
 
-    /// Computes the planes of two spectra, contiguous; the margins are then unspecified. Like numpy.fft.irfft2 it ignores
-    /// imaginary parts that have to be 0 in the spectrum of a real plane. To invert only one, give it as the second, too, and the
+    /// Computes the planes of two spectra, contiguous; the margins are then unspecified. Like numpy.fft.irfft2, it ignores
+    /// imaginary parts that must be 0 in the spectrum of a real plane. To invert only one, pass it as the second, too, with the
     /// same plane.
     void invert(const float* one_re, const float* one_im, const float* two_re, const float* two_im,
                 float* one, float* two, const Margins& margins = {});
 
 private:
-    /// Whether planes have the side of those that are transformed most.
+    /// Whether planes have the most frequent side, kFastSide.
     bool is_fast() const;
 
     int rows_, cols_;

@@ -16,7 +16,7 @@ constexpr int mirrored_count(int n) {
     return (n - 1) / 2;
 }
 
-/// The numbers of n that margins leave.
+/// The numbers of n outside the margins.
 struct Inside {
     Inside(int n, int margin) : first(margin), count(margin > 0 ? n - 2 * margin + 1 : n) {}
 
@@ -36,7 +36,7 @@ void advance(int period, int n, int* __restrict products) {
     }
 }
 
-/// For each of some numbers x cosines of the n frequencies that aren't negative, behind them minus sines, but for those that are 0.
+/// For each number x, the cosines of the nonnegative ones of n frequencies, followed by negative sines without those that are 0.
 void write_basis(int n, AlignedMatrix& basis) {
     constexpr double kTwoPi = 6.283185307179586;
     const auto count = static_cast<std::size_t>(n);
@@ -127,7 +127,7 @@ void combine(const float* __restrict cosine_part, const float* __restrict sine_p
         const float *cosine_im = cosine + half - 1, *sine_im = sine + half - 1;
         const bool mirrored = u >= 1 && 2 * u < rows;
         float *row_re = re + std::ptrdiff_t{half} * u, *row_im = im + std::ptrdiff_t{half} * u;
-        // A row without a mirror image is written twice, the right one last.
+        // A row without a mirror image is written twice, the correct one last.
         float* mirror_re = mirrored ? re + std::ptrdiff_t{half} * (rows - u) : row_re;
         float* mirror_im = mirrored ? im + std::ptrdiff_t{half} * (rows - u) : row_im;
         TRICUE_INDEPENDENT

@@ -6,7 +6,7 @@
 namespace tricue {
 
 /// The margins of a plane (R, C): the rows y with min(y, R - y) < `rows`, and the columns x with min(x, C - x) < `cols`. The rest
-/// lies around row R / 2 and column C / 2.
+/// surrounds row R / 2 and column C / 2.
 struct Margins {
     int rows = 0, cols = 0;  ///< at most R / 2, C / 2
 };
@@ -19,11 +19,11 @@ class SmallFourier {
 public:
     SmallFourier(int rows, int cols);
 
-    /// Treats the margins as 0, whatever they hold.
+    /// Treats the margins as 0, regardless of their content.
     void transform(const float* plane, float* re, float* im, const Margins& margins = {});
 
-    /// Like numpy.fft.irfft2 it ignores imaginary parts that have to be 0 in the spectrum of a real plane. Rows in the margins stay as
-    /// they are.
+    /// Like numpy.fft.irfft2, it ignores imaginary parts that must be 0 in the spectrum of a real plane. Rows in the margins are
+    /// left unchanged.
     void invert(const float* re, const float* im, float* plane, const Margins& margins = {});
 
 private:
@@ -31,7 +31,7 @@ private:
     void multiply_down(int first_input, int first_output);
 
     int rows_, cols_, half_;
-    /// (C, C), for each x: of the frequencies cosines, behind them minus sines, but for those that are 0.
+    /// (C, C), for each x: the frequencies' cosines, followed by negative sines without those that are 0.
     AlignedMatrix row_basis_;
     AlignedMatrix inverse_row_basis_;  ///< the transpose, times the frequencies' weights
     AlignedMatrix column_basis_;       ///< (R / 2 + 1, R), like row_basis_

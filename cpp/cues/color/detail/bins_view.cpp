@@ -11,7 +11,7 @@
 namespace tricue {
 namespace {
 
-/// One more than the largest bin: kNoBin wraps round to 0.
+/// One more than the largest bin; kNoBin wraps around to 0.
 TRICUE_MULTIVERSION
 std::uint16_t end_of_bins(const std::uint16_t* bins, std::ptrdiff_t n) {
     std::uint16_t end = 0;

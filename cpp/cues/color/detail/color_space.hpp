@@ -21,7 +21,7 @@ struct ColorSpace {
     /// Whole levels along an axis: 2 chroma, or 766.
     int levels(std::size_t axis) const { return axis < 2 ? 2 * chroma : 766; }
 
-    /// How many of them a bin has.
+    /// How many levels a bin has.
     double width(std::size_t axis) const { return static_cast<double>(levels(axis)) / bins[axis]; }
 
     /// The mean of the levels in an axis' first bin, color units.
@@ -33,10 +33,10 @@ struct ColorSpace {
 /// Throws std::invalid_argument unless there are 1 to 256 bins an axis, at most 65535 in all, and chroma is in [1, 255].
 void require_space(const ColorSpace& space);
 
-/// Returns the sum of a histogram over the space. Throws unless it is (size(),), finite, none negative, with a sum above 0.
+/// Returns the sum of a histogram over the space. Throws unless it is (size(),), finite, nonnegative, with a sum above 0.
 double require_histogram(VectorRef histogram, const ColorSpace& space);
 
-/// The mean (3,) of such a histogram of this sum, every bin counted at the mean of its levels.
+/// The mean (3,) of such a histogram with this sum; every bin counts at the mean of its levels.
 Vector mean_color(VectorRef histogram, double sum, const ColorSpace& space);
 
 }  // namespace tricue

@@ -10,10 +10,10 @@ namespace {
 
 static_assert((CompactBins::kUnmatchedCount & (CompactBins::kUnmatchedCount - 1)) == 0);
 
-/// A bin of the model that hasn't occurred yet. No bin is outside, and all 65535 may have an index of their own.
+/// Marks a bin of the model that hasn't occurred yet. kOutside is free for this: no bin has it, even if all 65535 have an index.
 constexpr std::uint16_t kUnassigned = CompactBins::kOutside;
 
-/// Returns how many bins are empty in the model.
+/// Returns the number of bins that are empty in the model.
 TRICUE_MULTIVERSION
 int initialize_indices(const double* __restrict model, std::size_t size, std::uint16_t* __restrict indices) {
     int empty = 0;

@@ -17,7 +17,7 @@ struct Products {
     double aa, ab, bb;
 };
 
-/// Each in four sums, so that an addition needn't wait for the one before.
+/// Each as four sums, so that an addition needn't wait for the previous one.
 TRICUE_MULTIVERSION
 void multiply(const float* a, const float* b, std::ptrdiff_t n, Products* products) {
     using Lanes = Pack<double, 4>;

@@ -7,8 +7,8 @@
 
 namespace tricue {
 
-/// What rank_window returns of the planes of blue, green and red, n each, of an ellipse, for M x 3n valid rank maps;
-/// throws std::invalid_argument unless `flat` is a number from 0.
+/// The result of rank_window for an ellipse's planes of blue, green and red, n numbers each, and M x 3n valid rank maps; throws
+/// std::invalid_argument unless `flat` is a number from 0.
 RankWindow compare_window(const std::uint8_t* planes, std::ptrdiff_t n, FloatsRef models, double flat);
 
 }  // namespace tricue

@@ -37,9 +37,8 @@ void find_furthest(const std::int32_t* offsets, std::ptrdiff_t n, std::int32_t* 
     *furthest = most;
 }
 
-/// Each pixel as one word of four bytes, the fourth of the next pixel. The image's last pixel has no next: it is read one byte
-/// early, and shifted. Not multiversioned: gathers are slower than loads on processors with the Downfall
-/// mitigation.
+/// Reads each pixel as a word of four bytes, the fourth from the next pixel. The image's last pixel has no next one, so it is
+/// read one byte early and shifted. Not multiversioned: gathers are slower than loads on processors with the Downfall mitigation.
 void gather(const std::uint8_t* pixels, std::int32_t last, const std::int32_t* offsets, std::ptrdiff_t n,
             std::uint32_t* words) {
     std::int32_t furthest = 0;
@@ -94,7 +93,7 @@ void EllipseSampler::read(const double* ellipses, std::ptrdiff_t count, std::uin
     }
 }
 
-/// Each step is done for the whole batch before the next: wide loads have to wait for the narrow stores before them.
+/// Each step is done for the whole batch before the next one, because wide loads must wait for earlier narrow stores.
 const std::uint32_t* EllipseSampler::read_words(const double* ellipses, std::ptrdiff_t count) {
     const std::ptrdiff_t n = size();
     const bool single = count_bytes(image_) < kWordBytes;

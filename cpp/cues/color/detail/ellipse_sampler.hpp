@@ -26,7 +26,7 @@ public:
     /// then green, red, and an unused one.
     const std::uint32_t* read_words(const double* ellipses, std::ptrdiff_t count);
 
-    /// Writes the planes of the words of so many ellipses.
+    /// Writes the planes of `count` ellipses' words.
     void split(const std::uint32_t* words, std::ptrdiff_t count, std::uint8_t* planes) const;
 
 private:

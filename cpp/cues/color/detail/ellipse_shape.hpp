@@ -7,7 +7,7 @@
 
 namespace tricue {
 
-/// The pixel in which an ellipse has its center, clamped to ±2^30: no image reaches that far.
+/// The pixel that contains an ellipse's center, clamped to ±2^30, which is beyond any image.
 struct CenterPixel {
     int x, y;
 
@@ -16,16 +16,16 @@ struct CenterPixel {
 
 /// The pixels whose centers lie in an axis-aligned ellipse, one run per row, relative to the pixel that contains the ellipse's center.
 ///
-/// They depend on where in that pixel the center is, so an ellipse moved by whole pixels has the same shape. Row r, its center
-/// at v = (r + 1/2 - y) / major, has the pixels whose centers are within minor sqrt(1 - v²) of x.
+/// They depend on the center's place in that pixel, so an ellipse moved by whole pixels has the same shape. Row r, with its
+/// center at v = (r + 1/2 - y) / major, has the pixels whose centers are within minor sqrt(1 - v²) of x.
 struct EllipseShape {
     struct Run {
         int begin, end;
     };
 
     int top = 0;            ///< of the first run
-    std::vector<Run> runs;  ///< none is empty; towards the top and the bottom each lies within the next
-    int area = 0;           ///< how many pixels
+    std::vector<Run> runs;  ///< none is empty; toward top and bottom each lies within the next
+    int area = 0;           ///< number of pixels
 
     /// @param ellipse x, y, minor, major, checked by require_ellipse
     /// @param scale   of both semi-axes; a larger one gives a shape that contains a smaller one's

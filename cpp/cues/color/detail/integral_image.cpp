@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kRowsAtOnce = 8;
 
-/// Running sums along kRows rows at once, since each sum waits for the one before. They have one number more than the row, first 0.
+/// Running sums along kRows rows at once, since each sum waits for the previous one. They begin with an additional 0.
 template <unsigned kRows>
 void sum_along(const float* rows, std::ptrdiff_t stride, int n, double* sums) {
     double sum[std::size_t{kRows}] = {};
@@ -45,7 +45,7 @@ void interpolate_band(const double* low, const double* low_next, double low_frac
     }
 }
 
-/// Names the first number that isn't finite: there is one.
+/// Throws, naming the first number that isn't finite; there must be one.
 [[noreturn]] void refuse_strange(const PlaneView& plane) {
     int y = 0;
     const auto is_finite = [](float number) { return std::isfinite(number); };

@@ -14,16 +14,16 @@ struct FractionalIndex {
     double fraction;
 };
 
-/// From one position to another along a row.
+/// A span from one position to another along a row.
 struct ColumnSpan {
     FractionalIndex low, high;
 };
 
-/// Sums of a plane over boxes with fractional borders, by an integral image in float64: a box costs the same whatever its size.
-/// Pixels count by the fraction that is covered; outside the plane all is 0.
+/// Sums of a plane over boxes with fractional borders, by an integral image in float64: a box costs the same for any size. Pixels
+/// count by their covered fraction; outside the plane everything is 0.
 class IntegralImage {
 public:
-    /// @throws std::invalid_argument where the plane has a number that isn't finite
+    /// @throws std::invalid_argument if the plane has a number that isn't finite
     explicit IntegralImage(const PlaneView& plane);
 
     /// Selects the rows of the following boxes, from `low` to `high`.

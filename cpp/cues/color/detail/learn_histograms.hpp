@@ -9,7 +9,7 @@
 
 namespace tricue {
 
-/// How many pixels have each color of a cube of 2^bits bins a channel.
+/// The number of pixels of each color, in a cube of 2^bits bins per channel.
 struct ColorCounts {
     explicit ColorCounts(int bits) : cells(std::size_t{1} << (3 * bits)) {}
 
@@ -20,7 +20,7 @@ struct ColorCounts {
         ++pixels;
     }
 
-    /// The cube, in so many rows: of sum 1, or all 0 where there are no pixels.
+    /// The cube in `rows` rows, with sum 1, or all 0 if there are no pixels.
     Floats shares(Eigen::Index rows) const;
 
     std::vector<std::int32_t> cells;
@@ -30,7 +30,7 @@ struct ColorCounts {
 /// Throws std::invalid_argument as learn_contrast says.
 void require_histograms(FloatsRef target, FloatsRef surround, double rate, double rare);
 
-/// The result of learn_contrast from histograms that were seen; `unseen` is P(target) of a color that neither side has.
+/// The result of learn_contrast from observed histograms; `unseen` is P(target) of a color that neither side has.
 ColorContrast learn_histograms(Floats within, Floats without, FloatsRef target, FloatsRef surround,
                                double rate, double rare, double unseen);
 

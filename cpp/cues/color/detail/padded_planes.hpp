@@ -17,7 +17,7 @@ public:
           numbers_(new float[static_cast<std::size_t>(planes) * (static_cast<std::size_t>(rows) + 2) *
                              (static_cast<std::size_t>(cols) + 2)]) {}
 
-    /// The first number inside of row y, -1 to `rows`.
+    /// The first number of row y inside the border; y is -1 to `rows`.
     float* row(int plane, int y) {
         const std::ptrdiff_t line = plane * (std::ptrdiff_t{rows_} + 2) + y + 1;
         return numbers_.get() + line * (std::ptrdiff_t{cols_} + 2) + 1;

@@ -39,7 +39,7 @@ inline void find_ranks(const RankTable<Count>& table, const std::uint8_t* places
     for (std::size_t k = 0; k < n; ++k) ranks[k] = table[places[k]];
 }
 
-/// The models, and buffers for the samples of as many ellipses as are compared at once.
+/// The models, and buffers for the samples of the ellipses that are compared at once.
 template <typename Count>
 struct Buffers {
     const Count* models;
@@ -48,7 +48,7 @@ struct Buffers {
     Count* ranks;
 };
 
-/// The distances between the samples of kEllipses ellipses, which follow each other, and each of the M models.
+/// The distances between the samples of kEllipses consecutive ellipses and each of the M models.
 template <std::size_t kEllipses, typename Count>
 TRICUE_INLINE void measure_distances(const std::uint8_t* planes, std::size_t n, const Buffers<Count>& buffers,
                                      double* distances) {

@@ -21,7 +21,7 @@ void SlidingHistogram::move_right() {
     ++center_;
 }
 
-/// The reverse of a step to the right: what left then enters now, and what entered leaves.
+/// The reverse of a step to the right: the pixels that would leave enter, and those that would enter leave.
 void SlidingHistogram::move_left() {
     --center_;
     replace(horizontal_.enter, horizontal_.leave);
@@ -56,9 +56,9 @@ void SlidingHistogram::find_boundaries(const EllipseShape& shape) {
     for (Offsets* columns : {&top, &bottom}) columns->resize(static_cast<std::size_t>(end - begin));
     const auto count = static_cast<int>(shape.runs.size());
     const auto offset = [&](int row, int column) { return (shape.top + row) * image_.cols + column; };
-    // Each row adds the columns that none before it had.
+    // Each row adds the columns that no previous row had.
     const auto close = [&](Offsets& columns, int first, int step, int below) {
-        int left = end, right = begin;  // columns that are done
+        int left = end, right = begin;  // finished columns
         for (int row = first; row >= 0 && row < count; row += step) {
             const auto& run = shape.runs[static_cast<std::size_t>(row)];
             const auto set = [&](int from, int to) {
@@ -80,7 +80,7 @@ void SlidingHistogram::find_boundaries(const EllipseShape& shape) {
     close(top, 0, 1, 0);
     close(bottom, count - 1, -1, 1);
 
-    // Rows far apart follow each other, as neighbors, often of one color, would wait for each other's count.
+    // Rows far apart are processed in sequence, because neighbors, often of the same color, would wait for each other's count.
     constexpr int kStreams = 4;
     const int part = (count + kStreams - 1) / kStreams;
     for (Offsets* rows : {&horizontal_.leave, &horizontal_.enter}) rows->reserve(shape.runs.size());

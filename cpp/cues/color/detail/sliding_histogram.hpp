@@ -10,7 +10,7 @@
 
 namespace tricue {
 
-/// The histogram under a shape that moves over an image one pixel at a time: only pixels of its outline leave and enter.
+/// The histogram under a shape that moves over an image pixel by pixel, where only pixels at its outline leave and enter.
 class SlidingHistogram {
 public:
     /// @param image must outlive the histogram, and contain the shape wherever it is moved

@@ -12,7 +12,7 @@
 
 namespace tricue {
 
-/// A mask with one bit per pixel: bit x % 64 of word x / 64 of its row. All around are zeros.
+/// A mask with one bit per pixel: bit x % 64 of word x / 64 of its row. It is surrounded by zeros.
 class BitImage {
 public:
     static constexpr int kWord = 64;  ///< pixels
@@ -44,7 +44,7 @@ public:
         word(y, i) = read_word(last.data());
     }
 
-    /// The set pixels of a word that have a set one among their 8 neighbors.
+    /// The set pixels of a word with a set pixel among their 8 neighbors.
     TRICUE_INLINE std::uint64_t joined(int y, int i) const {
         const std::uint64_t *above = row(y - 1) + i, *here = row(y) + i, *below = row(y + 1) + i;
         return *here & (beside(here) | *above | beside(above) | *below | beside(below));
@@ -77,7 +77,7 @@ private:
 };
 
 /// Writes first + i for each bit i that is set, ascending, and returns the end of these numbers; up to kAtOnce more are
-/// overwritten. Whether there is a next bit can't be predicted, so kAtOnce are always written.
+/// overwritten. Branches on the next bit would be mispredicted, so kAtOnce are always written.
 template <int kAtOnce, typename Number>
 TRICUE_INLINE Number* list_bits(std::uint64_t bits, Number first, Number* to) {
     constexpr std::uint64_t kAll = ~std::uint64_t{0}, kHighest = std::uint64_t{1} << 63;

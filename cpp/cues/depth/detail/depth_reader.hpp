@@ -9,15 +9,14 @@
 
 namespace tricue {
 
-/// Reads the depths of one rectangle after the other at the places of a pattern, as depth_distance.hpp defines them. The image must
-/// outlive it.
+/// Reads the depths of rectangles at the places of a pattern, as defined by depth_distance.hpp. The image must outlive it.
 class DepthReader {
 public:
     /// @throws std::invalid_argument on a pattern that isn't (n, 2), n at least 1, or not finite
     DepthReader(const DepthView& depth, StatesRef pattern);
 
-    /// Reads a rectangle of four finite numbers or more: center x, y, width, height. Returns the depths, 0 outside the image, and
-    /// more zeros, as RelativeHistogram wants them.
+    /// Reads a rectangle of four finite numbers or more: center x, y, width, height. Returns the depths, 0 outside the image,
+    /// zero-padded for RelativeHistogram.
     const float* read(const double* rectangle);
 
     std::size_t places() const { return row_.size(); }

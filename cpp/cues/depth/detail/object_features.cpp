@@ -12,7 +12,7 @@ namespace {
 
 constexpr Eigen::Index kNumbers = 8;  // of an object, as measure_objects gives them
 
-/// Middle and extent of an interval, extended to `size` beyond the ends that are cut.
+/// Middle and extent of an interval, extended to `size` beyond its cut ends.
 std::pair<double, double> extend(double middle, double extent, bool cut_before, bool cut_after,
                                  double expected, double size) {
     const double half = (size - extent) / 2;

@@ -21,8 +21,8 @@ using RectangleState = std::array<double, 5>;
 /// An object's rectangle.
 RectangleState rectangle_of(const ObjectFeatures& objects, Eigen::Index index);
 
-/// A rectangle as if nothing cut it: extended to the size (2,) beyond the sides (4) that are cut. Cut at opposite sides, it is as
-/// near to the expected center as its visible part allows.
+/// A rectangle as if nothing cut it: extended to the size (2,) beyond its cut sides (4). If opposite sides are cut, it is as near
+/// to the expected center as its visible part allows.
 RectangleState complete_rectangle(const RectangleState& state, const bool* cut, VectorRef expected,
                                   VectorRef size);
 

@@ -11,16 +11,16 @@
 namespace tricue {
 namespace {
 
-constexpr std::size_t kLanes = 4;  // tables and sums side by side, so that none waits for the one before
+constexpr std::size_t kLanes = 4;  // tables and sums side by side, so that none waits for the previous one
 
-/// Samples and counters come in whole blocks, so that no loop has a remainder, which would take as long as the loop.
+/// Samples and counters are padded to whole blocks, because a loop's remainder would take as long as the loop.
 constexpr std::size_t kBlock = 16;
 
 constexpr std::size_t whole_blocks(std::size_t n) {
     return (n + kBlock - 1) / kBlock * kBlock;
 }
 
-/// The level of each depth, `levels` where it doesn't count. Neighbors count in different tables, of `size` counters each.
+/// Counts the level of each depth, or `levels` if it doesn't count. Neighbors count in different tables of `size` counters.
 TRICUE_MULTIVERSION
 void find_levels(const float* __restrict depth, std::size_t n, double z, double reach, int levels,
                  std::int32_t size, std::int32_t* __restrict level) {
@@ -35,7 +35,7 @@ void find_levels(const float* __restrict depth, std::size_t n, double z, double 
         }
 }
 
-/// Adds the tables up in the first.
+/// Adds the tables to the first one.
 TRICUE_MULTIVERSION
 void add_tables(std::int32_t* __restrict counts, std::size_t size) {
     for (std::size_t first = 0; first < size; first += kBlock, counts += kBlock)
@@ -153,7 +153,7 @@ int count_within(const float* __restrict depth, std::size_t n, double z, double 
 }
 
 void require_model(VectorRef model) {
-    constexpr double kRounding = 1e-6;  // of a histogram that was float32
+    constexpr double kRounding = 1e-6;  // of a histogram that was stored as float32
     if (model.size() < 1) refuse("model", "at least one level", "none");
     double sum = 0.0;
     for (const double share : model) {

@@ -10,10 +10,10 @@ namespace tricue {
 
 /// A histogram of depths relative to a depth z: L levels of [-reach, reach) meters.
 ///
-/// A measured depth counts where its level floor(((depth - z) + reach) (L / (2 reach))), in float64, is in [0, L).
+/// A measured depth counts if its level floor(((depth - z) + reach) (L / (2 reach))), in float64, is in [0, L).
 class RelativeHistogram {
 public:
-    /// Of `samples` depths at a time. @throws std::invalid_argument unless reach is finite and above 0
+    /// For `samples` depths at a time. @throws std::invalid_argument unless reach is finite and above 0
     RelativeHistogram(Eigen::Index levels, double reach, std::size_t samples);
 
     /// How many depths are read at a time: `samples`, padded.
@@ -23,24 +23,24 @@ public:
     ///     measurement
     void count(const float* depths, double z);
 
-    /// The three steps of `count`. With many histograms, take each step for several of them before the next step, which would
-    /// otherwise wait for what the one before has just written.
+    /// The three steps of `count`. With many histograms, do each step for several of them before the next one, which would
+    /// otherwise wait for the data just written.
     void read(const float* depths, double z);
     void count();
     void finish();
 
-    /// Counts two of equally many samples at once: neighbors mostly share a level, and reading a count that was just written is
-    /// slow.
+    /// Counts two histograms with equal numbers of samples at once: neighbors mostly share a level, and reading a count just
+    /// written is slow.
     void count_beside(RelativeHistogram& other);
 
-    Vector shares() const;  ///< (levels,) of sum 1; all 0 where nothing counts
+    Vector shares() const;  ///< (levels,) with sum 1; all 0 if nothing counts
     /// How many samples count.
     double total() const {
         return static_cast<double>(level_.size()) - counts_[static_cast<std::size_t>(levels_)];
     }
     double samples() const { return static_cast<double>(samples_); }
 
-    /// The distance of equation (38) between the normalized histogram and a model, over sqrt 2; 1 where nothing counts.
+    /// The distance of equation (38) between the normalized histogram and a model, divided by sqrt 2; 1 if nothing counts.
     double distance(VectorRef model) const;
 
 private:

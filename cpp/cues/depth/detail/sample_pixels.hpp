@@ -19,7 +19,7 @@ constexpr std::size_t kPrefetchSamples = 4;  ///< rows of samples that are loade
 /// The pixels, of `size`, at the centers start + (i + 1/2) step of `count` samples.
 SamplePixels find_sample_pixels(double start, double step, int count, int size);
 
-/// Begins to load row i of the samples, if there is one.
+/// Starts loading row i of the samples, if there is one.
 void prefetch_samples(const DepthView& depth, const SamplePixels& across, const SamplePixels& down,
                       std::size_t i);
 

@@ -21,7 +21,7 @@ constexpr int kUsualShare = 8;
 /// A row is listed if at most a fourth of it is searched.
 constexpr int kListedShare = 4;
 
-/// Neighbors mostly share a level, and reading a count that was just written is slow: so they count in different tables.
+/// Neighbors mostly share a level, and reading a count just written is slow, so they count in different tables.
 constexpr std::size_t kTables = 4;
 
 /// A histogram's levels, as depth_histogram finds them.
@@ -38,7 +38,7 @@ struct LevelScale {
           none(levels.count) {}
 };
 
-/// The levels of a block, `none` where a pixel doesn't count.
+/// The levels of a block, `none` for pixels that don't count.
 TRICUE_MULTIVERSION
 void find_levels(const float* __restrict distance, const LevelScale& levels, std::int32_t* __restrict level) {
     const float least = levels.least, end = levels.end, near = levels.near, scale = levels.scale,
@@ -52,7 +52,7 @@ void find_levels(const float* __restrict distance, const LevelScale& levels, std
     }
 }
 
-/// The labels of a block, 0 beyond the dividers. As these ascend, a distance has the label of the last that it has reached.
+/// The labels of a block, 0 beyond the dividers. These ascend, so a distance gets the label of the last one it has reached.
 TRICUE_MULTIVERSION
 void divide(const float* __restrict distance, const float* __restrict dividers, int divisions,
             std::uint8_t* __restrict labels) {
@@ -73,7 +73,7 @@ int count_pixels(const BitImage& mask, int y) {
     return count;
 }
 
-/// Lists the columns of the pixels of a row that are set, and their distances.
+/// Lists the columns of a row's set pixels, and their distances.
 TRICUE_MULTIVERSION
 void list_pixels(const BitImage& mask, int y, const float* distance, std::int32_t* columns, float* to) {
     std::int32_t* end = columns;
@@ -88,7 +88,7 @@ void mask_distances(const float* __restrict distance, const std::uint8_t* __rest
     for_overlapping_blocks(n, [=](std::ptrdiff_t x) { to[x] = mask[x] ? distance[x] : kUnmeasured; });
 }
 
-/// As mark_changes, for listed pixels: whether each one's left neighbor is listed, too, and has another label.
+/// Like mark_changes, for listed pixels: whether the left neighbor is also listed and has another label.
 TRICUE_MULTIVERSION
 bool mark_listed_changes(const std::uint8_t* __restrict labels, const std::int32_t* __restrict columns, int n,
                          std::uint8_t* __restrict changes) {
@@ -98,7 +98,7 @@ bool mark_listed_changes(const std::uint8_t* __restrict labels, const std::int32
     return any != 0;
 }
 
-/// Memory grows as needed, by a block more: that of a whole image would be fetched from the system anew in every frame.
+/// Memory grows as needed, with an additional block; memory for a whole image would be requested from the system in every frame.
 template <typename Numbers>
 void make_room(std::ptrdiff_t pixels, Numbers& numbers) {
     if (pixels + kBlock > numbers.size())

@@ -9,7 +9,7 @@
 namespace tricue {
 namespace {
 
-/// The rows filtered along x around the wanted one, the uppermost first, and the distance between their planes in numbers.
+/// The rows filtered along x around the wanted one, top row first, and the distance between their planes in numbers.
 struct RowsAround {
     const float* const* rows;
     int stride;
@@ -46,7 +46,7 @@ TRICUE_INLINE void constrain(const RowsAround& around, const TapView& taps, int 
     filter_block_down<false>(rows, taps.smooth, radius, 4 * stride + x, out.g_t);
 }
 
-/// kRadius 0 is any.
+/// kRadius 0 stands for any radius.
 template <int kRadius>
 TRICUE_INLINE void multiply_by(const RowsAround* rows, int count, const TapView& taps, int n,
                                const NormalEquations* out) {
@@ -102,7 +102,7 @@ ConstraintRows::ConstraintRows(double sigma, int length)
       length_(length),
       compared_stride_(whole_blocks(length + 2 * taps_.radius)),
       filtered_stride_(whole_blocks(length)),
-      compared_(kRowBatch, 2 * compared_stride_ + kRowBlock),  // the last block reads beyond
+      compared_(kRowBatch, 2 * compared_stride_ + kRowBlock),  // the last block reads past the end
       filtered_(2 * taps_.radius + kRowBatch, 5 * filtered_stride_) {}
 
 void ConstraintRows::push(int begin, int end) {

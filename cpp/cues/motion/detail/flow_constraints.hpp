@@ -7,7 +7,8 @@
 namespace tricue {
 
 /// The two constraints of each pixel of a row, equation (4) of Okada, Shirai and Miura 1996: with g and h the derivatives of a
-/// Gaussian along x and y, (h*f)_x is (g*f)_y. g_x, g_y, h_y, g_t, h_t are side by side, each `stride` numbers after the one before.
+/// Gaussian along x and y, (h*f)_x is (g*f)_y. g_x, g_y, h_y, g_t, h_t are side by side, each `stride` numbers after the previous
+/// one.
 struct Constraints {
     float* g_x;
     int stride;
@@ -19,8 +20,8 @@ struct NormalEquations {
     int stride;
 };
 
-/// Filters two frames, row by row from above: their mean in space, their difference in time. Rows are readable and writable up to a
-/// whole number of blocks.
+/// Filters two frames row by row from the top: their mean in space, their difference in time. Rows are readable and writable up
+/// to a whole number of blocks.
 class ConstraintRows {
 public:
     /// @param length pixels of a row of constraints
@@ -33,8 +34,8 @@ public:
     float* mean(int y) { return compared_.row(y); }
     float* change(int y) { return compared_.row(y) + compared_stride_; }
 
-    /// Takes rows [begin, end), a batch or fewer, whose mean and change have been written: each row once, from above, from
-    /// radius() before the first wanted to radius() after the last.
+    /// Takes rows [begin, end), at most a batch, whose mean and change have been written: each row once, from the top, from
+    /// radius() before the first wanted row to radius() after the last.
     void push(int begin, int end);
 
     /// The constraints of row y, with rows y - radius() to y + radius() among the last pushed, up to a batch before the newest.

@@ -15,7 +15,7 @@ TRICUE_INLINE void sort_pair(float& a, float& b) {
     b = more;
 }
 
-/// n is a number of blocks, and rows have one pixel more on both sides. Sorting network of Paeth 1990, for the middle one of
+/// n is a whole number of blocks, and rows have one more pixel on each side. Paeth's sorting network (1990), for the median of
 /// nine only.
 TRICUE_MULTIVERSION
 void median_row(const float* __restrict above, const float* __restrict here, const float* __restrict below,
@@ -32,8 +32,8 @@ void median_row(const float* __restrict above, const float* __restrict here, con
     }
 }
 
-/// Upsamples n pixels, a number of blocks, by two, with the numbers doubled: of two rows the sum at even pixels, between them
-/// the mean of two sums.
+/// Upsamples n pixels, a whole number of blocks, by two, doubling the values: the sum of two rows at even pixels, the mean of two
+/// such sums between them.
 TRICUE_MULTIVERSION
 void upsample_row(const float* __restrict top, const float* __restrict bottom, int n, float* __restrict out) {
     for (int x = 0; x < n; ++x) {

@@ -11,7 +11,7 @@
 
 namespace tricue {
 
-/// Flow of an area, not empty, of one level of a pyramid, in that level's pixels. Rows have room up to a whole number of blocks.
+/// Flow of a nonempty area of one pyramid level, in that level's pixels. Rows have room for a whole number of blocks.
 struct FlowField {
     explicit FlowField(const Region& part);
 
@@ -19,10 +19,10 @@ struct FlowField {
     Floats u, v;
 };
 
-/// The area of the next coarser level, of that size, between whose pixels an area lies.
+/// The area of the next coarser level, with this size, whose pixels enclose an area.
 Region coarser_region(const Region& area, int rows, int cols);
 
-/// A plane whose rows have room for whole blocks and two pixels more; pixels beyond the plane repeat its edge.
+/// A plane whose rows have room for whole blocks and two more pixels; pixels beyond the plane repeat its edge.
 struct PaddedPlane {
     PaddedPlane(int height, int width);
 
@@ -43,7 +43,7 @@ public:
 
     const Region& area() const { return area_; }
 
-    /// Makes row y of the area, 0 being the first, or its edge row if y is beyond it; each y is one more than the last.
+    /// Computes row y of the area, from 0, or its edge row if y is beyond it; each y must be one more than the last.
     void advance(int y);
 
     /// Flow along x and y in row y of the area, one of the newest, from its left margin to its right one, and up to a whole

@@ -12,7 +12,7 @@ namespace tricue {
 
 /// Of one row.
 struct FlowRow {
-    float *u, *v;     ///< pixels a frame, NaN where not reliable
+    float *u, *v;     ///< pixels per frame, NaN where unreliable
     float* angle;     ///< equation (5), 0 to 1
     float* contrast;  ///< equation (6), (gray levels per pixel squared) squared
 };
@@ -29,7 +29,7 @@ struct FlowPlanes {
     Floats planes;
 };
 
-/// The least reliabilities of valid flow.
+/// The smallest reliabilities of valid flow.
 struct FlowMinima {
     double angle, contrast;
 };
@@ -37,8 +37,8 @@ struct FlowMinima {
 constexpr float kNoFlow = std::numeric_limits<float>::quiet_NaN();
 constexpr float kRoundingContrast = 1e-6F;  ///< the contrast that float32 rounding leaves in a uniform image
 
-/// Throw std::invalid_argument unless frames have pixels and one size, at most 16384 a side, a region's corners are in order and
-/// within them, an angle is 0 to 1 and a contrast finite and not negative.
+/// Throw std::invalid_argument unless frames have pixels and the same size, at most 16384 per side, a region's corners are in
+/// order and within them, the angle is 0 to 1 and the contrast finite and nonnegative.
 void require_frames(const ImageView& previous, const ImageView& current, const std::optional<Region>& region);
 void require_minima(const FlowMinima& minima);
 

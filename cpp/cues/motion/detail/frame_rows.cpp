@@ -10,7 +10,7 @@
 namespace tricue {
 namespace {
 
-/// n is a number of blocks.
+/// n is a whole number of blocks.
 TRICUE_MULTIVERSION
 void compare(const std::uint8_t* __restrict before, const std::uint8_t* __restrict now, int n,
              float* __restrict mean, float* __restrict change) {
@@ -35,7 +35,7 @@ const std::uint8_t* FrameRows::row(int y) {
     if (room_.empty()) return row + x0_;
     const auto n = static_cast<int>(room_.size());
     const int begin = std::clamp(-x0_, 0, n), end = std::clamp(image_.cols - x0_, begin, n);
-    // If only a part of the image is kept, its ends are there only when they are asked for.
+    // If only part of the image is kept, its ends exist only if they are requested.
     if (begin > 0) std::fill(room_.begin(), room_.begin() + begin, row[0]);
     std::copy(row + x0_ + begin, row + x0_ + end, room_.begin() + begin);
     if (end < n) std::fill(room_.begin() + end, room_.end(), row[image_.cols - 1]);

@@ -19,7 +19,7 @@ public:
 private:
     ImageView image_;
     int x0_;
-    std::vector<std::uint8_t> room_;  ///< none where all columns are in the image
+    std::vector<std::uint8_t> room_;  ///< empty if all columns are in the image
 };
 
 /// The mean of two rows and the change from one to the other.
@@ -27,7 +27,7 @@ struct ComparedRow {
     float *mean, *change;
 };
 
-/// Of n pixels, a number of blocks (row_block.hpp).
+/// For n pixels, a whole number of blocks (row_block.hpp).
 void compare_rows(const std::uint8_t* before, const std::uint8_t* now, int n, const ComparedRow& out);
 
 }  // namespace tricue

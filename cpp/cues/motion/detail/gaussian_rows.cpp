@@ -32,7 +32,7 @@ TRICUE_INLINE void filter_block_across(const AcrossFilters& filters, const TapVi
     if (kWithCurvature) store(curvature_sum, filters.curvature + x);
 }
 
-/// kRadius 0 is any; a radius that is known at compile time leaves sums and weights in registers.
+/// kRadius 0 stands for any radius; a radius known at compile time keeps sums and weights in registers.
 template <bool kWithCurvature, int kRadius>
 TRICUE_INLINE void filter_across_by(const AcrossFilters* rows, int count, const TapView& taps, int n) {
     const TapView weights = taps;

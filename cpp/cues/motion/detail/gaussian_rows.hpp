@@ -5,7 +5,7 @@
 
 namespace tricue {
 
-/// The radius of the flow and depth tracker's sigma, 0.8 pixels, for which filters are compiled on their own.
+/// The radius for the flow and depth tracker's sigma, 0.8 pixels, for which filters are compiled separately.
 constexpr int kUsualRadius = 3;
 
 /// The weights of GaussianTaps, as multiversioned functions take them.
@@ -17,9 +17,9 @@ struct TapView {
 /// A Gaussian and its first two derivatives, sampled and cut off at 3.5 sigma, as weights to correlate with: those of
 /// the pixels at distance 0 to radius on the right of (below) the middle. To the left slope has the other sign, the others the same.
 ///
-/// Scaled so that they are exact on polynomials: smooth sums to 1, slope gives 1 on the ramp x, curvature
-/// gives 0 on a constant and 2 on the parabola x^2. Of waves with w sigma <= 1.5 slope^2 / curvature is right to 2 % from sigma
-/// 1.5 on, to 3 % at 1; cut off at 3 sigma it would be 7 % off.
+/// Scaled so that they are exact on polynomials: smooth sums to 1, slope gives 1 on the ramp x, curvature gives 0 on a constant
+/// and 2 on the parabola x^2. For waves with w sigma <= 1.5, slope^2 / curvature is right to 2 % from sigma 1.5 on, and to 3 % at
+/// 1; cut off at 3 sigma it would be 7 % off.
 struct GaussianTaps {
     explicit GaussianTaps(double sigma);
 
@@ -40,7 +40,7 @@ struct AcrossFilters {
     float *smooth, *slope, *curvature;
 };
 
-/// Some rows of n pixels, all with the curvature or all without.
+/// Filters some rows of n pixels, all with the curvature or all without.
 void filter_across(const AcrossFilters* rows, int count, const GaussianTaps& taps, int n);
 
 }  // namespace tricue

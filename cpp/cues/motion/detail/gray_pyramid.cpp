@@ -21,8 +21,8 @@ void smooth_down(const std::array<const std::uint8_t*, 5>& rows, int n, std::uin
     });
 }
 
-/// Every second pixel of `in`, which has two more on both sides: `sums` of all pixels come first, because loading neighbors is
-/// faster than loading every second pixel.
+/// Every second pixel of `in`, which has two more pixels on each side. `sums` of all pixels are computed first, because loading
+/// neighbors is faster than loading every second pixel.
 TRICUE_MULTIVERSION
 void smooth_across(const std::uint16_t* __restrict in, int n, std::uint16_t* __restrict sums,
                    std::uint8_t* __restrict out) {
@@ -50,7 +50,7 @@ struct QuadPlace {
     int last_column, last_row;
 };
 
-/// The quads at which the block from column x0 on lies in the frame before, and its shares between their pixels.
+/// The quads in the previous frame for the block that starts at column x0, and its weights between their pixels.
 struct WarpedBlock {
     std::int32_t at[kRowBlock];
     float right[kRowBlock], down[kRowBlock];
@@ -81,12 +81,12 @@ TRICUE_INLINE void warp_block(const QuadPlace& place, float x0, float y, const f
 /// Interpolates between the four pixels of each quad, and compares the result with this frame's pixels.
 TRICUE_INLINE void interpolate_block(const std::int32_t* quads, const WarpedBlock& warped,
                                      const std::uint8_t* now, float* means, float* changes) {
-    // A loop of its own: with bytes in it, the compiler would give the other loop only four lanes.
+    // A separate loop: with bytes in it, the compiler would give the other loop only four lanes.
     float after[kRowBlock];
     RowBlock pixels;
     load_bytes(now, pixels);
     store(pixels, after);
-    // no row is another
+    // the rows don't overlap
     TRICUE_INDEPENDENT
     for (int i = 0; i < kRowBlock; ++i) {
         const std::int32_t quad = quads[i];
@@ -99,10 +99,10 @@ TRICUE_INLINE void interpolate_block(const std::int32_t* quads, const WarpedBloc
     }
 }
 
-/// Blocks that take each step together: what a step stores can't be loaded at once.
+/// Blocks that take each step together, because data just stored can't be loaded at once.
 constexpr int kTogether = 4;
 
-/// n is a number of blocks. The quads are loaded one by one, which is faster than gathering them.
+/// n is a whole number of blocks. The quads are loaded one by one, which is faster than gathering them.
 TRICUE_MULTIVERSION
 void compare(const std::uint32_t* __restrict all, const QuadPlace& all_place, int x0, int y,
              const FlowPointers& flow, const std::uint8_t* __restrict now, int n, const ComparedRow& out) {

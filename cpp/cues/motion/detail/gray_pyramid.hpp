@@ -14,20 +14,21 @@ namespace tricue {
 struct GrayLevel {
     int rows, cols;  ///< of the whole image
     Region part;
-    std::vector<std::uint8_t> pixels;  ///< and a block more, as rows are read by blocks (row_block.hpp)
+    std::vector<std::uint8_t> pixels;  ///< and one more block, since rows are read by blocks (row_block.hpp)
 
-    /// Of the whole image, of which only the part may be read.
+    /// A view of the whole image, of which only the part may be read.
     ImageView view() const {
         const std::ptrdiff_t stride = part.x1 - part.x0;
         return {pixels.data() - (part.y0 * stride + part.x0), rows, cols, 1, stride};
     }
 };
 
-/// Parts of all levels of the image's pyramid but the first; parts[0] is of the second level. Each level is every second pixel of
-/// the one before, smoothed by 1, 4, 6, 4, 1 and rounded; the border is replicated. A part holds the source of the next one.
+/// Parts of all pyramid levels of the image except the first; parts[0] is of the second level. Each level is every second pixel
+/// of the previous one, smoothed by 1, 4, 6, 4, 1 and rounded; the border is replicated. Each part contains the source of the
+/// next one.
 std::vector<GrayLevel> coarser_levels(const ImageView& image, const std::vector<Region>& parts);
 
-/// The source of a part of a level in the next finer level, which has that size.
+/// The source of a level's part in the next finer level, which has this size.
 Region finer_source(const Region& part, int rows, int cols);
 
 /// Flow along x and y of the pixels of a row.

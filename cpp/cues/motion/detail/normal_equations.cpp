@@ -7,13 +7,13 @@
 namespace tricue {
 namespace {
 
-/// Rows, the uppermost first, and where their mean goes.
+/// Rows, top row first, and where their mean goes.
 struct WindowColumns {
     const float* const* rows;
     float* means;
 };
 
-/// kSide 0 is any.
+/// kSide 0 stands for any side.
 template <int kSide>
 TRICUE_INLINE void average_down_by(const WindowColumns* rows, int count, int any_side, int n) {
     const int side = kSide > 0 ? kSide : any_side;
@@ -25,7 +25,7 @@ TRICUE_INLINE void average_down_by(const WindowColumns* rows, int count, int any
     }
 }
 
-/// The same of a whole batch, which loads each row once.
+/// The same for a whole batch, which loads each row once.
 template <int kSide>
 TRICUE_INLINE void average_batch_down(const WindowColumns* windows, int n) {
     constexpr float kShare = 1 / static_cast<float>(kSide);
@@ -55,7 +55,7 @@ void average_columns(const WindowColumns* rows, int count, int side, int n) {
 
 }  // namespace
 
-// The last block of means reads a window's width beyond it.
+// The last block of means reads past its end by a window's width.
 NormalEquationRows::NormalEquationRows(int pool, int length)
     : pool_(pool),
       stride_(whole_blocks(length + 2 * pool)),

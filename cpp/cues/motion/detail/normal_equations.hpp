@@ -58,7 +58,7 @@ TRICUE_INLINE void average_across(const NormalEquations& columns, int side, int 
     average(4, means.yt);
 }
 
-/// The side of the flow and depth tracker's windows, for which means are compiled on their own.
+/// The side of the flow and depth tracker's windows, for which means are compiled separately.
 constexpr int kDefaultFlowSide = 5;
 
 }  // namespace tricue

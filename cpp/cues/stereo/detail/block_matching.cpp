@@ -50,7 +50,7 @@ TRICUE_INLINE void move_by(const RowPair& in, const RowPair& out, int n, std::ui
     }
 }
 
-/// What find_block is compiled for. kWindow 0: the window is known only at run time.
+/// The variants for which find_block is compiled. kWindow 0: the window is known only at run time.
 template <int kWindow_, bool kOutside_, bool kSecond_>
 struct Case {
     static constexpr int kWindow = kWindow_;
@@ -65,7 +65,7 @@ TRICUE_INLINE void find_block(const ColumnSums& sums, const Search& search, cons
     const Words none = Words{} + kNoCost;
     Words best = none, below = none, above = none, second = none, at = {}, k = {};
     Words before = none, last = none;  // the previous candidate's cost and number
-    Words earlier = none;              // the least cost of all before that one
+    Words earlier = none;              // the least cost of all candidates before that one
     for (int candidate = 0; candidate < sums.candidates; ++candidate, row += sums.stride) {
         Words cost, term;
         load(row, cost);

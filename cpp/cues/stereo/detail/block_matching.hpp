@@ -28,7 +28,7 @@ struct Matches {
     std::uint16_t* best;    ///< the least cost
     std::uint16_t* at;      ///< the first candidate that has it
     std::uint16_t* below;   ///< the cost one candidate below
-    std::uint16_t* above;   ///< one above; not defined where `at` is the last
+    std::uint16_t* above;   ///< one above; undefined if `at` is the last
     std::uint16_t* second;  ///< the least cost of all but `at` and those next to it
 };
 constexpr std::uint16_t kNoCost = 65535;
@@ -36,8 +36,8 @@ constexpr std::uint16_t kNoCost = 65535;
 /// How to search the sums.
 struct Search {
     int window;       ///< width; the window of pixel x is columns [x, x + window) of the sums
-    bool second;      ///< whether the second best is needed; else it isn't defined
-    bool all_inside;  ///< whether all candidates lie in the right image; else
+    bool second;      ///< whether the second best is needed; otherwise it is undefined
+    bool all_inside;  ///< whether all candidates lie in the right image; otherwise
     const std::uint16_t*
         outside;  ///< outside[x - k] is 0 where candidate k of pixel x does, kNoCost elsewhere
 };

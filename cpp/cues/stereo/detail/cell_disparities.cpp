@@ -20,7 +20,7 @@ namespace tricue {
 namespace {
 
 constexpr int kMaxSide = 16384, kMaxCandidates = 4096;
-/// Columns times candidates that are matched at a time: their sums of costs have to stay in the cache.
+/// Columns times candidates matched at a time, so that their sums of costs stay in the cache.
 constexpr int kMaxSums = 1 << 19, kMinColumns = 256;
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
@@ -31,7 +31,7 @@ using Costs = std::vector<std::uint16_t>;
 struct EllipseRows {
     int width, height;
 
-    /// How many columns of row y are outside at either end; width / 2, rounded up, if all are.
+    /// The number of columns outside at each end of row y; width / 2, rounded up, if all are.
     int margin(int y) const {
         const std::int64_t w = width, h = height, v = 2 * std::int64_t{y} + 1 - h;
         const std::int64_t room = (h * h - v * v) * w * w;
@@ -192,7 +192,7 @@ Floats cell_disparities(const CellPair& pair, const StereoRegion& region, const 
         });
     };
     const int candidates = visible_range.last - visible_range.first + 1;
-    const bool whole_rows = matching.tolerance >= 0;  // left and right are checked by these
+    const bool whole_rows = matching.tolerance >= 0;  // the left-right check needs them
     const int strip = whole_rows ? visible.x1 - visible.x0 : std::max(kMaxSums / candidates, kMinColumns);
     for (int x = visible.x0; x < visible.x1; x += strip)
         match({x, visible.y0, std::min(x + strip, visible.x1), visible.y1});

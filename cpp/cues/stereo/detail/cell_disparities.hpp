@@ -15,7 +15,7 @@ struct CellPair {
 
 /// The sad_disparity of the reduce_gray of both images, in cells. Only the compared cells are turned gray.
 ///
-/// Throws std::invalid_argument as those two do.
+/// Throws std::invalid_argument like these two kernels.
 Floats cell_disparities(const CellPair& pair, const StereoRegion& region, const DisparityRange& range,
                         const StereoMatching& matching);
 

@@ -36,7 +36,7 @@ void slide_down(const std::int16_t* __restrict more, const std::int16_t* __restr
         for (Eigen::Index j = 0; j < n; ++j) columns[j] = static_cast<std::int16_t>(columns[j] - less[j]);
 }
 
-/// kSide is the side of the square, or 0 for any.
+/// kSide is the side of the square; 0 stands for any side.
 template <int kSide>
 TRICUE_INLINE void decide_by(const std::int16_t* __restrict columns, const std::int16_t* __restrict votes,
                              Eigen::Index n, int any_side, std::uint8_t* __restrict mask) {

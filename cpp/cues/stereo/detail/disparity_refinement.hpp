@@ -20,7 +20,7 @@ public:
     LeftRightCheck(int begin, int end);
 
     /// Sets those pixels of [x0, x1) to NaN whose integer disparity differs by more than `tolerance` from that of the pixel that
-    /// matches the same column at the least cost, of equal costs the leftmost.
+    /// matches the same column at the least cost; among equal costs the leftmost.
     void check(const Matches& matches, int x0, int x1, int first, int tolerance, float* disparity);
 
 private:

@@ -11,16 +11,16 @@
 namespace tricue {
 namespace {
 
-constexpr int kUsualReach = 3;  // of sigma 1, for which filters are compiled on their own
+constexpr int kUsualReach = 3;  // of sigma 1, for which filters are compiled separately
 
-/// Rows of a batch, one `stride` after the other.
+/// Rows of a batch, `stride` numbers apart.
 struct BatchRows {
     float* data;
     std::ptrdiff_t stride;
     int count;
 };
 
-/// `rows` are those of the batch with `reach` more above and below. kReach 0 is any.
+/// `rows` are those of the batch with `reach` more above and below. kReach 0 stands for any reach.
 template <int kReach>
 TRICUE_INLINE void smooth_by(const float* const* rows, const GaussianDerivative& filter, int n,
                              const BatchRows& to) {
@@ -42,7 +42,7 @@ TRICUE_INLINE void smooth_by(const float* const* rows, const GaussianDerivative&
         }
 }
 
-/// The same of a whole batch, which loads each row once.
+/// The same for a whole batch, which loads each row once.
 template <int kReach>
 TRICUE_INLINE void smooth_batch(const float* const* rows, const GaussianDerivative& filter, int n,
                                 const BatchRows& to) {

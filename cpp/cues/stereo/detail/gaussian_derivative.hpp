@@ -28,7 +28,7 @@ public:
     /// @param x0, x1 columns wanted, inside the picture; the border is replicated for `padding` more on each side
     DerivativeRows(const GrayPlane& plane, const GaussianDerivative& filter, int x0, int x1, int padding);
 
-    /// Makes rows [begin, end), a batch or fewer, in the picture.
+    /// Computes rows [begin, end) of the picture, at most a batch.
     void filter(int begin, int end);
 
     /// Row y of the last batch; row(y)[x], x in [x0 - padding, x1 + padding), and a block more.

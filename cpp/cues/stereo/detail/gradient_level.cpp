@@ -34,7 +34,7 @@ TRICUE_INLINE void multiply_by(const EquationRow* rows, int count, int n, int st
                     *visibles = rows[i].known.visible, *offsets = rows[i].known.offset;
         float *ss = rows[i].ss, *st = ss + stride, *tt = st + stride, *power = tt + stride,
               *reliability = power + stride;
-        // no row is another
+        // the rows don't overlap
         TRICUE_INDEPENDENT
         for (int x = 0; x < n; ++x) {
             const float before = taps[kTaps * x], at = taps[kTaps * x + 1], after = taps[kTaps * x + 2],
@@ -67,13 +67,13 @@ void multiply_finest(const EquationRow* rows, int count, int n, int stride) {
     multiply_by<true>(rows, count, n, stride);
 }
 
-/// Rows, the uppermost first, and where their sum goes.
+/// Rows, top row first, and where their sum goes.
 struct SummedRows {
     const float* const* rows;
     float* sum;
 };
 
-/// kSide 0 is any.
+/// kSide 0 stands for any side.
 template <int kSide>
 TRICUE_INLINE void sum_down_by(const SummedRows* sums, int count, int any_side, int n) {
     const int side = kSide > 0 ? kSide : any_side;
@@ -91,7 +91,7 @@ TRICUE_INLINE void sum_down_by(const SummedRows* sums, int count, int any_side, 
     }
 }
 
-/// The same of a whole batch, which loads each row once.
+/// The same for a whole batch, which loads each row once.
 template <int kSide>
 TRICUE_INLINE void sum_batch_down(const SummedRows* sums, int n) {
     constexpr auto kRows = static_cast<std::size_t>(kRowBatch + kSide - 1);
@@ -137,7 +137,7 @@ LevelRegions find_level_regions(const Region& wanted, int rows, int cols, int ra
     return parts;
 }
 
-// A row of terms may begin later than its windows' columns, and ends in a whole number of blocks.
+// A row of terms may begin later than its windows' columns, and ends with a whole number of blocks.
 GradientLevel::GradientLevel(const GrayPlane& left, const GrayPlane& right, const LevelRegions& parts,
                              const GaussianDerivative& filter, int radius, const DisparityPrior& known,
                              bool finest)
@@ -155,7 +155,7 @@ GradientLevel::GradientLevel(const GrayPlane& left, const GrayPlane& right, cons
       terms_(2 * radius + kRowBatch, count_ * stride_),
       columns_(kRowBatch, count_ * stride_ + kRowBlock + 2 * radius) {}
 
-/// 0 beyond the picture.
+/// Terms beyond the picture are 0.
 void GradientLevel::add_rows(int begin, int end) {
     for (int y = begin; y < end; ++y)
         if (y < 0 || y >= rows_) std::fill_n(terms_.row(y), count_ * stride_, 0.0F);

@@ -20,7 +20,7 @@ namespace tricue {
 struct WindowColumns {
     const float* ss;
     int stride;
-    int side;  ///< pixels that a window is wide: so many columns are summed for a window
+    int side;  ///< a window's width in pixels: this many columns are summed
 };
 
 /// A block of windows' means.
@@ -28,11 +28,11 @@ struct WindowMeans {
     float ss[kRowBlock], st[kRowBlock], tt[kRowBlock], power[kRowBlock], reliability[kRowBlock];
 };
 
-/// The side of the flow and depth tracker's windows, for which means are compiled on their own.
+/// The side of the flow and depth tracker's windows, for which means are compiled separately.
 constexpr int kDefaultDisparitySide = 5;
 
-/// The mean of one of the terms in the block of windows from x on. Each sum adds the columns in their order, so it has the same bits
-/// wherever the window is, which running sums wouldn't have.
+/// The mean of one of the terms in the block of windows from x on. Each sum adds the columns in order, so it is the same to the
+/// bit wherever the window is, unlike running sums.
 TRICUE_INLINE void mean_of(const WindowColumns& columns, int term, int side, int x, float* means) {
     const float* row = columns.ss + term * columns.stride + x;
     RowBlock sum, next;
@@ -48,7 +48,7 @@ TRICUE_INLINE void mean_of(const WindowColumns& columns, int term, int side, int
 struct LevelRegions {
     Region wanted;       ///< the pixels to measure
     Region pooled;       ///< those of their windows
-    int first, last;     ///< columns of the right picture where these pixels can be, both included
+    int first, last;     ///< columns of the right picture where these pixels can be, inclusive
     Region left, right;  ///< what filters read
 };
 

@@ -12,7 +12,7 @@
 namespace tricue {
 namespace {
 
-/// Rows of an image, one `stride` after the other.
+/// Rows of an image, `stride` bytes apart.
 struct ImageRows {
     const std::uint8_t* data;
     std::ptrdiff_t stride;
@@ -38,7 +38,7 @@ void to_floats(const ImageRows& rows, int n, float* __restrict to) {
     }
 }
 
-/// 8 times the weighted mean of four rows, weights 1, 3, 3, 1, of a number of blocks.
+/// 8 times the weighted mean of four rows with weights 1, 3, 3, 1, for a whole number of blocks.
 TRICUE_MULTIVERSION
 void smooth(const std::array<const float*, 4>& rows, int n, float* __restrict out) {
     const float* __restrict above = rows[0];

@@ -9,7 +9,8 @@
 
 namespace tricue {
 
-/// A part of a gray picture as floats, indexed by the rows and columns of the whole picture. A block of room (row_block.hpp) follows its last row.
+/// A part of a gray picture as floats, indexed by the rows and columns of the whole picture. A block of unused memory
+/// (row_block.hpp) follows its last row.
 class GrayPlane {
 public:
     GrayPlane() = default;

@@ -35,7 +35,7 @@ public:
     ThreeRows(GrayCells& image, int begin, int end)
         : image_(image), begin_(begin), end_(end), room_(3 * width()) {}
 
-    /// Rows y - 1, y and y + 1, or the nearest that there is.
+    /// Rows y - 1, y and y + 1, or the nearest existing ones.
     std::array<const std::uint8_t*, 3> around(int y) {
         std::array<const std::uint8_t*, 3> rows{};
         for (int k = 0; k < 3; ++k)

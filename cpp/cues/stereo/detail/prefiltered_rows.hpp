@@ -11,7 +11,7 @@
 namespace tricue {
 
 /// The rows of a gray image that block matching compares, Sobel-filtered or not, over a region that may extend beyond the image,
-/// where the border is replicated. Only the region is turned gray and filtered.
+/// where the border is replicated. Only the region is converted to gray and filtered.
 class PrefilteredRows {
 public:
     static constexpr int kClip = 31;

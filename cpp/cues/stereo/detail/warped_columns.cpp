@@ -19,7 +19,7 @@ void upsample(const float* __restrict coarse, int n, float rest, float* __restri
 }
 
 struct Columns {
-    int start;  ///< column of the first pixel, less the base of the disparities
+    int start;  ///< column of the first pixel, minus the base of the disparities
     int first, last, cols;
 };
 

@@ -15,8 +15,8 @@ struct DisparityPrior {
     const GrayPlane* coarse;  ///< or nullptr
 };
 
-/// Where the pixels of a row of the left picture are in the right one: x - d for the expected disparity d. All can be read for a block
-/// more.
+/// Where the pixels of a row of the left picture are in the right one: x - d for the expected disparity d. All can be read for
+/// one more block.
 struct WarpedRow {
     const float* offset;   ///< d - base
     const float* share;    ///< weight of the next column
@@ -24,7 +24,7 @@ struct WarpedRow {
     const int* column;     ///< x - d rounded down, clamped to [first, last]
 };
 
-/// The last of these rows that were made.
+/// The last computed rows.
 class WarpedColumns {
 public:
     /// @param x0, x1       the left picture's columns
@@ -33,7 +33,7 @@ public:
     /// @param kept         rows that are kept
     WarpedColumns(const DisparityPrior& prior, int x0, int x1, int first, int last, int cols, int kept);
 
-    /// Makes row y; rows are made from above.
+    /// Computes row y; rows are computed from the top.
     void add_row(int y);
 
     /// Row y from x0 on.
