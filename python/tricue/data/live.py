@@ -208,9 +208,7 @@ class Live:
                 raise OSError(f"{self.device.name}: no image for {silence:.0f} s; the stream has ended")
 
     def _run(self) -> None:
-        """The thread's body. An error that ends it must reach the reader, also one from closing the
-        device.
-        """
+        """The thread's body. An error that ends it, even in closing the device, must reach the reader."""
         try:
             self._read()
         except Exception as error:

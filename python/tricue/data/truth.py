@@ -166,9 +166,7 @@ def read_box(line: str, place: str, count: int | None = None) -> tuple[float, ..
 
 
 def _true_box(line: str, place: str, count: int | None) -> tuple[float, ...]:
-    """As :func:`read_box`; ValueError also for a negative width or height, which may come from a file of
-    corners.
-    """
+    """As :func:`read_box`; ValueError also for a negative width or height, as in a file of corners."""
     return check_sizes(read_box(line, place, count), place, line)
 
 

@@ -37,9 +37,7 @@ class Roc:
 
     @property
     def area(self) -> float:
-        """Area under the curve: the probability that a positive scores above a negative, ties counted
-        half.
-        """
+        """Area under the curve: the probability that a positive scores above a negative; ties count half."""
         return float(np.sum(np.diff(self.fpr) * (self.tpr[1:] + self.tpr[:-1]) / 2))
 
     def at_false_positive_rate(self, rate: float, lowest: float = -math.inf) -> tuple[float, float]:

@@ -13,8 +13,8 @@ namespace tricue {
 
 /// Twice the mid-rank of every level as a count, samples below the level + samples up to it: from 0 to 2n, a whole number.
 ///
-/// The number of a level is at its place, its byte rotated by three bits: row `level % 8`, column `level / 8` of 8 x 32. So the
-/// sums over eight successive levels are those of columns, which vectors add up.
+/// The number of a level is at its place, the level's byte rotated by three bits: row `level % 8`, column `level / 8` of 8 x 32.
+/// So sums over eight successive levels are column sums, which vectors add up.
 template <typename Count>
 using RankTable = std::array<Count, 256>;
 
@@ -43,10 +43,10 @@ TRICUE_INLINE void count_places(const std::uint8_t* places, std::size_t n, Count
         for (std::size_t k = whole; k < n; ++k) ++counts[plane][k & 1][places[plane * n + k]];
 }
 
-/// The tables of planes of n places, a multiple of three, which follow each other, n <= kMaxSamples<Count>.
+/// The tables of consecutive planes of n places each, n <= kMaxSamples<Count>; the number of planes is a multiple of three.
 ///
-/// Each step is done for all planes before the next: a vector load has to wait for the narrow stores before it, and that wait
-/// then goes into the other planes' work.
+/// Each step is done for all planes before the next one: a vector load must wait for earlier narrow stores, and the other planes'
+/// work fills that wait.
 template <typename Count, std::size_t kPlanes>
 TRICUE_INLINE void rank_tables(const std::uint8_t* places, std::size_t n,
                                std::array<RankTable<Count>, kPlanes>& tables) {
@@ -66,8 +66,8 @@ TRICUE_INLINE void rank_tables(const std::uint8_t* places, std::size_t n,
             if (row > 0) up_to[plane][row] += up_to[plane][row - 1];
         }
 
-    // The counts before each column. A word holds several, and one multiplication sums them up. None overflows into the next,
-    // being at most 2n.
+    // The counts before each column. A word holds several, and one multiplication adds them up. None overflows into the next, as
+    // each is at most 2n.
     constexpr std::size_t kCounts = sizeof(std::uint64_t) / sizeof(Count);
     constexpr std::size_t kWords = kColumns / kCounts;
     constexpr std::uint64_t kOnes =

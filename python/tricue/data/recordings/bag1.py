@@ -23,9 +23,7 @@ _MAX_FIELDS = 1 << 20  # bytes in a record's header; a longer one can't be a hea
 
 
 class _ChunkPlace(NamedTuple):
-    """The position of a chunk, the times of its first and last messages, and the message count of each
-    connection.
-    """
+    """A chunk's position, the times of its first and last messages, and its message counts by connection."""
 
     start: int
     end: int

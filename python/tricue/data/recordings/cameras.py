@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Cameras of a recording: intrinsics from camera_info, extrinsics from transforms; rigs, rectification and
-registration.
-"""
+"""Cameras of a recording: intrinsics from camera_info, extrinsics from transforms, and what they allow."""
 
 from collections import deque
 from collections.abc import Mapping, Sequence
@@ -23,9 +21,7 @@ MAX_SAME_RECTIFIED = 1e-3  # pixels between those of a rectified pair, as in a c
 
 
 class View(NamedTuple):
-    """A channel's camera. frame: its coordinate frame. rectified: whether the topic's name says that its
-    images are.
-    """
+    """A channel's camera. frame: its coordinate frame. rectified: whether its topic's name says so."""
 
     topic: str
     size: tuple[int, int]

@@ -104,9 +104,7 @@ def _meters(image: NDArray[Any], units: DepthUnits) -> NDArray[np.float32]:
 
 
 def _compressed_depth(message: ImageMessage, units: DepthUnits) -> NDArray[np.float32]:
-    """Depth from ROS's compressed_depth_image_transport: plain 16 bits, or the quantized inverse of float
-    depth.
-    """
+    """Depth from ROS's compressed_depth_image_transport: plain 16 bits, or quantized inverse depth."""
     form = message.encoding
     if "compressedDepth" not in form:
         return _meters(_decoded(message.data, cv2.IMREAD_UNCHANGED), units)

@@ -91,9 +91,7 @@ class McapFile(Container):
         return self._chunk_ends[at - 1].offset if (at := bisect_left(self._chunk_ends, (start,))) else 0
 
     def _records(self, offset: int = 0) -> Iterator[Any]:
-        """The records, including those in chunks. offset: where a record begins in the file, 0 for the
-        first.
-        """
+        """The records, including those in chunks. offset: where in the file one begins, 0 for the first."""
         from mcap.records import Chunk
         from mcap.stream_reader import StreamReader, breakup_chunk
 

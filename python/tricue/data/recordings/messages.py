@@ -54,9 +54,7 @@ class CameraMessage(NamedTuple):
 
 
 class Transform(NamedTuple):
-    """The pose of a coordinate frame in its parent: p_parent = R p_child + t. rotation: a quaternion x, y, z,
-    w.
-    """
+    """A coordinate frame's pose in its parent: p_parent = R p_child + t. rotation: quaternion x, y, z, w."""
 
     parent: str
     child: str

@@ -61,9 +61,7 @@ class Pairing(Generic[T]):
                 self.left_out[channel] += 1
 
     def _can_decide(self) -> bool:
-        """Whether nothing nearer can come: the clock's next image is here, and the other channels are far
-        enough ahead.
-        """
+        """Whether nothing nearer can come: the clock's next image is here, the other channels are ahead."""
         clock, *others = self.channels
         late = self._waiting[clock][0].time + self.tolerance
         newest = [self._waiting[channel] for channel in others]

@@ -54,9 +54,7 @@ def _has(pattern: str, name: str) -> bool:
 
 
 def _color_rank(name: str) -> tuple[object, ...]:
-    """A sort key that puts the likeliest first: color before infrared, left before right, rectified before
-    raw.
-    """
+    """A sort key, likeliest first: color before infrared, left before right, rectified before raw."""
     right = any(_has(rf"(^|[/_]){second}([/_]|$)", name) for _, second in _PAIRS)
     return (
         _has(_NO_PICTURE, name),

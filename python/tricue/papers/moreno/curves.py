@@ -92,9 +92,7 @@ class StereoCurve(OcclusionCurve):
 
     @property
     def recovered(self) -> bool | None:
-        """Whether a hidden head is tracked again in time after half of it is visible; None if never
-        hidden.
-        """
+        """Whether a hidden head is tracked again in time once half of it is visible; None if never hidden."""
         hidden = np.flatnonzero(self.visible < HIDDEN_BELOW)
         if not hidden.size:
             return None

@@ -72,9 +72,7 @@ class NoiseRun:
     values: Floats
     """Values of QUANTITIES; those for another light are NaN."""
     polynomials: Floats
-    """Coefficients a (3, 4) of (9) for X, Y, Z, meters, highest power first, for a disparity error of 1
-    pixel.
-    """
+    """Coefficients a (3, 4) of (9) for X, Y, Z, meters, highest power first; disparity error 1 pixel."""
 
 
 def rest(distance: float, light: float, *, seed: int, frames: int = 60) -> StereoScene:

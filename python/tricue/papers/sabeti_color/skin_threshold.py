@@ -44,9 +44,7 @@ class _Chosen(NamedTuple):
         return self.rates(self.threshold)[0]
 
     def rates(self, threshold: float) -> tuple[float, float]:
-        """False- and true-positive rates at a threshold; between two levels it is equivalent to the lower
-        one.
-        """
+        """False- and true-positive rates at a threshold; between two levels it acts as the lower one."""
         index = int(np.argmax(self.curve.thresholds <= threshold))
         return float(self.curve.fpr[index]), float(self.curve.tpr[index])
 

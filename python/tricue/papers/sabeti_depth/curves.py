@@ -70,9 +70,7 @@ class DepthCurve(OcclusionCurve):
 
     @property
     def _occlusions(self) -> list[tuple[int, int | None]]:
-        """Per occlusion, the frames in which the person gets hidden, and is half visible again; None if
-        never.
-        """
+        """Per occlusion, the frames in which the person gets hidden and half visible again; None if never."""
         found: list[tuple[int, int | None]] = []
         first = None
         for frame, share in enumerate(self.visible.tolist()):

@@ -72,9 +72,7 @@ def make_noise(
 
 @lru_cache(maxsize=32)
 def _amplitudes(height: int, width: int, slope: float, stretch: tuple[float, float]) -> NDArray[np.float64]:
-    """1 / frequency^slope, 0 at frequency 0, for both parts of each coefficient: (height, 2 * (width // 2 +
-    1)).
-    """
+    """1 / frequency^slope, 0 at 0, for both parts of each coefficient: (height, 2 * (width // 2 + 1))."""
     v = np.fft.fftfreq(height)[:, None] * stretch[0]
     u = np.fft.rfftfreq(width)[None, :] * stretch[1]
     frequency = np.hypot(v, u)

@@ -19,9 +19,7 @@ class RandomSource:
         return self._saved
 
     def resume(self, saved: dict[str, Any]) -> None:
-        """Continue from a saved state; it is set only if it differs, since that is as slow as a small
-        kernel.
-        """
+        """Continue from a saved state; it is set only if it differs, as that takes a small kernel's time."""
         if saved is not self._saved:
             self.generator.bit_generator.state = saved
         self._saved = None
