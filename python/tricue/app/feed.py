@@ -22,7 +22,7 @@ STATUSES = tuple(Status)
 
 
 async def tell_page(serving: Serving, socket: WebSocket) -> None:
-    """Tell a page what is new, until it is closed."""
+    """Send a page the news until it is closed."""
     page = _Page(serving, socket)
     await socket.accept()
     await talk(page, socket)
@@ -46,7 +46,7 @@ class _Page:
         self.shown = self.shown or "shown" in message
 
     async def tell(self) -> None:
-        """Tell what is new, again and again."""
+        """Send the news repeatedly."""
         times = await run_in_threadpool(_times, self.serving.session.recording)
         await tell(self.socket, {"type": "times", "times": times})
         await self._tell_state(await run_in_threadpool(state, self.serving))

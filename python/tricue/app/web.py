@@ -43,7 +43,7 @@ class Page(Protocol):
 
 
 async def talk(page: Page, socket: WebSocket) -> None:
-    """Tell a page what is new, and hear it, until it is closed; an error that ends it is told, too."""
+    """Send a page the news and handle its messages until it is closed; also send an error that ends this."""
     tasks = [asyncio.create_task(page.tell()), asyncio.create_task(_hear(page, socket))]
     try:
         done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
@@ -124,7 +124,7 @@ def bound(handler: Callable[..., Any], serving: Any) -> Callable[..., Any]:
 
 
 async def answer(request: Request, do: Callable[[dict[str, Any]], dict[str, Any] | None]) -> Response:
-    """What comes of a command, an object of JSON; 400 with one line for what can't be done."""
+    """A command's result as a JSON object; status 400 with one line of text if it fails."""
     try:
         body = await request.body()
         if len(body) > MAX_COMMAND:

@@ -52,7 +52,7 @@ def read_channels(folder: Path, scale: float | None) -> tuple[dict[str, Stream],
 
 
 def _read_list(path: Path) -> TimedPaths:
-    """The times and images of a list, sorted by time; empty where there is no such file."""
+    """The times and images of a list, sorted by time; empty if there is no such file."""
     if not path.is_file():
         return []
     lines = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()

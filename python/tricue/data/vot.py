@@ -14,7 +14,7 @@ SEQUENCE_FILE = "sequence"
 
 
 def read_channels(folder: Path, scale: float | None) -> dict[str, Stream] | None:
-    """The folder's channels; None where it isn't VOT's. scale: meters per unit of depth, 0.001 by default."""
+    """The folder's channels; None if it isn't VOT's. scale: meters per unit of depth, 0.001 by default."""
     if (folder / SEQUENCE_FILE).is_file():
         return _listed(folder, DepthReader(METERS_PER_MILLIMETER if scale is None else scale))
     if (folder / VOT_TRUTH).is_file() and all(

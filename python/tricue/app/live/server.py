@@ -118,7 +118,7 @@ async def _recorded(serving: LiveServing, request: Request) -> Response:
 
 
 async def _tell_page(serving: LiveServing, socket: WebSocket) -> None:
-    """Tell a page what is new, until it is closed."""
+    """Send a page the news until it is closed."""
     page = _Page(serving, socket)
     await socket.accept()
     try:
@@ -145,7 +145,7 @@ class _Page:
             self.serving.session.hold(self, message["hold"])
 
     async def tell(self) -> None:
-        """Tell what is new, again and again."""
+        """Send the news repeatedly."""
         while True:
             await self._tell_state()
             await self._tell_tracks()

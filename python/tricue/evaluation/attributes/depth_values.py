@@ -17,7 +17,7 @@ MIN_PIXELS = 20  # with measured depth
 
 
 def depth_values(frames: Iterable[Frame], boxes: Array) -> dict[str, Array]:
-    """{"occlusion": (M,)}; boxes: (M, 4) in the depth image. NaN where there is no true box or no depth."""
+    """{"occlusion": (M,)}; boxes: (M, 4) in the depth image. NaN without a true box or depth."""
     inner = [_inner_depths(frame, box) for frame, box in zip(frames, boxes, strict=False)]
     medians = np.full(len(boxes), np.nan)
     for index, depths in enumerate(inner):

@@ -43,7 +43,7 @@ class SequenceAttributes:
         return float(BY_KEY[key].flags(self.values[key]).sum()) / known if known else math.nan
 
     def has(self, key: str) -> bool:
-        """Whether the sequence has it; False where it isn't known."""
+        """Whether the sequence has it; False if unknown."""
         return self.share(key) > BY_KEY[key].share
 
     def flags(self, key: str, frames: NDArray[np.intp]) -> NDArray[np.bool_]:

@@ -17,7 +17,7 @@ from tricue.evaluation.significance import Comparison, Pair
 
 
 def interval(low: float, high: float, digits: int = 2) -> Html | None:
-    """The ends of an interval in small print; None where they are unknown."""
+    """The ends of an interval in small print; None if unknown."""
     if math.isnan(low):
         return None
     return tag("small", f"[{low:.{digits}f}, {high:.{digits}f}]", class_="interval")

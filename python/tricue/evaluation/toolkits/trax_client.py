@@ -30,7 +30,7 @@ MAX_HASHED = 1 << 28  # bytes; larger files aren't hashed for a program's versio
 
 
 class TraxError(RuntimeError):
-    """A program that doesn't do what was requested; the message is complete."""
+    """A program's failure, described by the message."""
 
 
 class TraxProgram:

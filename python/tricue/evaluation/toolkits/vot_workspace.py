@@ -69,8 +69,8 @@ def write_workspace(
         written, are left out with a note.
     python: the interpreter that has tricue and vot-trax; the toolkit may be in another environment.
 
-    Existing sequences and trackers are kept. ValueError for a folder that
-    holds something else, for a tracker that VOT can't run, and where no sequence is left.
+    Existing sequences and trackers are kept. ValueError for a folder that holds something else, for a tracker
+    that VOT can't run, and if no sequence is left.
     """
     _check_folder(folder)
     needs = {name: select_channels(name) for name in trackers}

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Section 3.1 of Okada, Shirai and Miura (1996): disparity with a right camera turned inward, (8).
 
-The tracker is told the vergence angle, or isn't, by default and as printed. The head pans, as in figure 8.
+The tracker knows the vergence angle or doesn't, in its default form and as printed. The head pans, as in
+figure 8.
 """
 
 import warnings
@@ -57,7 +58,7 @@ def measure(case: Case, make: Maker, scene: WalkScene) -> VergenceCurve:
 
 
 def make_tracker(*, known: bool, printed: bool, vergence: float, **camera: Any) -> AnyTracker:
-    """A tracker that is told the vergence, or isn't."""
+    """A tracker that knows the vergence, or doesn't."""
     kind = tricue.FlowDepthTracker.Params
     values = kind.paper() if printed else kind()
     told = replace(values, vergence=vergence if known else 0.0)

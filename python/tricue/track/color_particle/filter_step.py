@@ -31,7 +31,7 @@ def filter_step(
     detection: SkinDetection,
     searching: bool,
 ) -> ParticleSet:
-    """The particles (N, 4) of the next frame; a single kernel does it all for the default likelihood.
+    """The particles (N, 4) of the next frame; a single kernel does it all if it supports the likelihood.
 
     offset: of the systematic resampling's comb; None for no resampling. noise: (N, 4) independent standard
     normal numbers. correlation: of the noise of the two semi-axes. searching: whether for a lost target.

@@ -235,7 +235,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         motion: EllipseMotion,
         first_log_likelihood: float | None = None,
     ) -> State:
-        """The state with these particles; recognition and likelihood tell whether they are on the target.
+        """The state with these particles, which are on the target or not by recognition and likelihood.
 
         While the target is covered, some place has similar ranks by chance. Its likelihood, which includes
         colors, is lower than the target's; if it were learned, the tracker would stay there. And a model that
