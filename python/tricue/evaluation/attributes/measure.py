@@ -62,7 +62,7 @@ def measure(opened: OpenedSequence) -> SequenceAttributes:
     color = opened.channel == "color"
     found = truth_values(opened)
     if color and depth:
-        # each reads the frames anew: keeping them for both would take all the memory
+        # each reads the frames anew, because keeping them for both would hold all of them in memory
         found |= image_values(opened.source, boxes) | depth_values(opened.source, boxes)
     elif color:
         found |= image_values(opened.source, boxes)

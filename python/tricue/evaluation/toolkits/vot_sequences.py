@@ -20,7 +20,7 @@ from tricue.evaluation.toolkits.millimeters import to_millimeters
 
 ANCHOR_INTERVAL = 50  # frames between starts of the multistart experiment, as in VOT2020
 ABSENT = "nan,nan,nan,nan"
-_SUFFIXES = {".jpg": ".jpg", ".jpeg": ".jpg", ".png": ".png"}  # as the toolkit writes them
+_SUFFIXES = {".jpg": ".jpg", ".jpeg": ".jpg", ".png": ".png"}  # the toolkit's, by the file's
 _LINKABLE_READERS = {"color": read_color, "depth": DepthReader(METERS_PER_MILLIMETER)}
 
 

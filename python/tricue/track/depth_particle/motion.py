@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The motion model of a person walking before a depth camera: (39) in meters, with nearly constant size."""
+"""The motion model of a person walking in front of a depth camera: (39) in meters, nearly constant size."""
 
 import math
 from functools import cache
