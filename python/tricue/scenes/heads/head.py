@@ -47,9 +47,9 @@ def head(
 
     camera: "160x120" or "640x480" pixels. kind: one of HEAD_KINDS;
         "normal": the face stays visible, the light varies smoothly;
-        "distractor": as "normal", and the head passes in front of skin-colored things; "turning": as
-        "normal", and the person turns around, so that only hair is visible for a while; "jump": the light
-        changes abruptly every 10 to 20 frames;
+        "distractor": as "normal", and the head passes in front of skin-colored things;
+        "turning": as "normal", and the person turns around, so that only hair is visible for a while;
+        "jump": the light changes abruptly every 10 to 20 frames;
         "ramp": the light falls linearly from 1 to 0.5 within 100 frames;
         "hidden": as "normal", and a hand in front of the head, which is then at 1 to 2.1 m, hides it
         completely from the left camera for 10 frames or more (in scenes of about 40 frames or longer).
