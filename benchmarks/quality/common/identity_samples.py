@@ -128,7 +128,7 @@ def _elsewhere(tracker: FusedTracker, frame: Frame, step: int, rng: np.random.Ge
     """The places with most evidence in a random window and in those that a search of the frame proposes."""
     state, p = _state(tracker), tracker.params
     k = kernels.load(tracker.kernels)
-    observed = observe_frame(k, frame, state.shape, (None, None), False)
+    observed = observe_frame(frame, state.shape, (None, None), False)
     observation = observed.for_target(k, None)
     appearance = state.models[observation.kind]
     model = TargetModel(appearance, None, state.first_side, state.typical, p)

@@ -102,7 +102,6 @@ class DepthImageSource(NamedTuple):
 class StereoSource(NamedTuple):
     """A rectified stereo pair, (H, W, 3) BGR each, and its rig."""
 
-    k: Kernels
     left: Image
     right: Image
     rig: StereoRig
@@ -112,7 +111,7 @@ class StereoSource(NamedTuple):
         """False: matching windows extend beyond edges."""
         return False
 
-    def sample(self, grid: Grid, side: int, expected: ExpectedDepth | None) -> Plane:
+    def sample(self, k: Kernels, grid: Grid, side: int, expected: ExpectedDepth | None) -> Plane:
         """(side, side) depths of a grid's squares in meters, NaN where nothing is measured.
 
         Only those near the expected depth are found; where none is expected, disparities up to a quarter of
@@ -131,11 +130,11 @@ class StereoSource(NamedTuple):
         last = min(last, MAX_DISPARITY_OF_SIDE * side)
         width = side + last
         part = np.array([[x - last * step, y, width * step, side * step]])
-        left = self.k.reduce_gray(self.k.sample_windows(self.left, part, side, width)[0], 1)
+        left = k.reduce_gray(k.sample_windows(self.left, part, side, width)[0], 1)
         moved = part - [[shift, 0, 0, 0]]
-        right = self.k.reduce_gray(self.k.sample_windows(self.right, moved, side, width)[0], 1)
+        right = k.reduce_gray(k.sample_windows(self.right, moved, side, width)[0], 1)
         region = (last, 0, width, side)
-        found = self.k.sad_disparity(
+        found = k.sad_disparity(
             left, right, region, False, first, last, SAD_WINDOW, SAD_UNIQUENESS, True, SAD_TOLERANCE
         )
         disparity = found * np.float32(step) + np.float32(shift)
@@ -158,7 +157,7 @@ class StereoSource(NamedTuple):
                 nearer = self._nearer(k, box, step, samples, gate)
                 found.append(self._unexpected(k, box, step, samples, gate) if nearer is None else nearer)
             else:
-                depths, part = self._sample_around(box, step, samples, expected)
+                depths, part = self._sample_around(k, box, step, samples, expected)
                 found.append(k.median_depths(depths, part, samples, expected.z, *gate))
         return np.concatenate(found)
 
@@ -167,7 +166,7 @@ class StereoSource(NamedTuple):
 
         Surfaces that the right image doesn't show, left of its border or covered there, match at random.
         """
-        depths, part = self._sample_around(box, step, samples, None)
+        depths, part = self._sample_around(k, box, step, samples, None)
         medians = k.median_depths(depths, part, samples, math.nan, *gate)
         z = float(medians[0, 0])
         if math.isnan(z):
@@ -184,7 +183,7 @@ class StereoSource(NamedTuple):
         coarse = MAX_DISPARITY_OF_WIDTH * self.left.shape[1] / (MAX_DISPARITY_OF_SIDE * samples)
         if step >= coarse:
             return None
-        depths, part = self._sample_around(box, coarse, samples, None)
+        depths, part = self._sample_around(k, box, coarse, samples, None)
         medians = k.median_depths(depths, part, samples, math.nan, *gate)
         z = float(medians[0, 0])
         if not z < self.rig.depth(MAX_DISPARITY_OF_SIDE * samples * step):
@@ -193,19 +192,19 @@ class StereoSource(NamedTuple):
         return medians if share >= MIN_NEARER_SHARE else None
 
     def _sample_around(
-        self, box: list[float], step: float, samples: int, expected: ExpectedDepth | None
+        self, k: Kernels, box: list[float], step: float, samples: int, expected: ExpectedDepth | None
     ) -> tuple[Plane, Floats]:
         """The depths of a square of samples so many pixels apart around a box, and the box (1, 4) in it."""
         x, y, width, height = box
         half = step * samples / 2
-        depths = self.sample((x - half, y - half, step), samples, expected)
+        depths = self.sample(k, (x - half, y - half, step), samples, expected)
         return depths, np.array([[samples / 2, samples / 2, width / step, height / step]])
 
     def posterior(
         self, k: Kernels, grid: Grid, side: int, expected: ExpectedDepth, margin: float
     ) -> tuple[Plane, NDArray[np.uint8]]:
         """As of every DepthSource."""
-        depths = self.sample(grid, side, expected)
+        depths = self.sample(k, grid, side, expected)
         return k.depth_posterior(depths, 0.0, 0.0, 1.0, side, side, *expected, margin)
 
     def noise(self, z: float, pixel_size: float) -> float:

@@ -43,7 +43,6 @@ class FrameObservation(NamedTuple):
 
 
 def observe_frame(
-    k: Kernels,
     frame: FrameLike,
     shape: tuple[int, int] | None,
     cameras: tuple[StereoRig | None, Intrinsics | None],
@@ -60,11 +59,11 @@ def observe_frame(
     if shape is not None and size != shape:
         name, hint = _picture(given)[0], "init starts again on another size"
         raise ValueError(f"frame.{name}: expected the first frame's size {shape}, got {size}; {hint}")
-    return once(given, _observe, k, cameras, with_depth)
+    return once(given, _observe, cameras, with_depth)
 
 
 def _observe(
-    frame: Frame, k: Kernels, cameras: tuple[StereoRig | None, Intrinsics | None], with_depth: bool
+    frame: Frame, cameras: tuple[StereoRig | None, Intrinsics | None], with_depth: bool
 ) -> FrameObservation:
     """The parts of a frame's observation that don't depend on the target."""
     name, image = _picture(frame)
@@ -77,7 +76,7 @@ def _observe(
             raise ValueError(f"frame.{name}: expected {expected}, got {size[1]}x{size[0]}")
     rig, camera = rig_and_camera(*cameras, size)
     color = None if frame.color is None else _bgr(frame.color)
-    depth_source = _depth_source(k, frame, color, rig) if with_depth or color is None else None
+    depth_source = _depth_source(frame, color, rig) if with_depth or color is None else None
     return FrameObservation(
         size, color, frame.depth, depth_source, camera, frame.timestamp, messages_of(frame)
     )
@@ -98,11 +97,11 @@ def rig_and_camera(
     return rig, rig.intrinsics
 
 
-def _depth_source(k: Kernels, frame: Frame, color: Image | None, rig: StereoRig) -> DepthSource | None:
+def _depth_source(frame: Frame, color: Image | None, rig: StereoRig) -> DepthSource | None:
     if frame.depth is not None:
         return DepthImageSource(frame.depth)
     if frame.right is not None and color is not None:
-        return StereoSource(k, color, _bgr(frame.right), rig)
+        return StereoSource(color, _bgr(frame.right), rig)
     return None
 
 

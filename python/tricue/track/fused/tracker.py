@@ -129,7 +129,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
 
     def _observe(self, frame: FrameLike, shape: tuple[int, int] | None) -> FrameObservation:
         cameras = self.rig, self.intrinsics
-        return observe_frame(self._k, frame, shape, cameras, "depth" in self.params.cues)
+        return observe_frame(frame, shape, cameras, "depth" in self.params.cues)
 
     def _predict(self, state: State, observed: FrameObservation, trust: DepthTrust, seconds: float) -> State:
         """The state when the frame was taken, so many seconds later."""
