@@ -44,7 +44,7 @@ def depth_of(*things: tuple[Rectangle, float]) -> np.ndarray:
 
 def observe(depth: np.ndarray) -> TargetObservation:
     """The target's frame with that depth."""
-    return TargetObservation(kernel_sets.load("native"), ROOM, "color", CAMERA, DepthImageSource(depth), None)
+    return TargetObservation(kernel_sets.load("native"), ROOM, CAMERA, DepthImageSource(depth), None)
 
 
 def target_of(rectangle: Rectangle) -> Target:

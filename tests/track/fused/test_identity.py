@@ -36,7 +36,7 @@ def window_of(left: tuple[int, int, int], right: tuple[int, int, int]) -> Window
     """A window at the center of a picture of two colors."""
     picture = np.full((120, 160, 3), left, np.uint8)
     picture[:, 80:] = right
-    observation = TargetObservation(kernel_sets.load("native"), picture, "color", CAMERA, None, None)
+    observation = TargetObservation(kernel_sets.load("native"), picture, CAMERA, None, None)
     return extract_windows(observation, [Target(80.0, 60.0, 24.0, 24.0)], 3.0)[0]
 
 

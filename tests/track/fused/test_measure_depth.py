@@ -27,7 +27,7 @@ def observation(depth: np.ndarray | None) -> TargetObservation:
     """A frame with that depth."""
     source = None if depth is None else DepthImageSource(np.asarray(depth, np.float32))
     return TargetObservation(
-        kernel_sets.load("native"), np.zeros((160, 200, 3), np.uint8), "color", CAMERA, source, None
+        kernel_sets.load("native"), np.zeros((160, 200, 3), np.uint8), CAMERA, source, None
     )
 
 

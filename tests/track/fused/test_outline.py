@@ -59,9 +59,7 @@ def window_around(depth: np.ndarray | None, target: Target = LARGE, source: obje
     """The window around a target that is expected at Z."""
     color = np.zeros((*SHAPE, 3), np.uint8)
     source = DepthImageSource(depth) if source is None and depth is not None else source
-    observation = TargetObservation(
-        kernel_sets.load("native"), color, "color", CAMERA, source, ExpectedDepth(Z, 0.05)
-    )
+    observation = TargetObservation(kernel_sets.load("native"), color, CAMERA, source, ExpectedDepth(Z, 0.05))
     return extract_windows(observation, [target], 3.0)[0]
 
 
@@ -118,7 +116,6 @@ def test_sets_of_kernels_agree(kernels):
     observation = TargetObservation(
         kernels,
         window.observation.picture,
-        "color",
         CAMERA,
         window.observation.depth_source,
         window.observation.expected_depth,

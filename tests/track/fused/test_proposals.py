@@ -34,7 +34,7 @@ def red_squares(width: int, height: int, *places: tuple[float, float], side: int
         left, top = int(x) - side // 2, int(y) - side // 2
         image[top : top + side, left : left + side] = RED
     camera = Intrinsics.from_fov(width, height, 60)
-    return TargetObservation(KERNELS, image, "color", camera, None, None)
+    return TargetObservation(KERNELS, image, camera, None, None)
 
 
 def model_of(observation: TargetObservation, target: Target) -> Any:
@@ -84,7 +84,7 @@ def test_objects_of_its_size_in_meters_come_first(length):
         depth[120 - half : 120 + half, x - half : x + half] = z
         places[side] = x
     source = DepthImageSource(depth)
-    observation = TargetObservation(KERNELS, None, "depth", camera, source, None, depth)
+    observation = TargetObservation(KERNELS, None, camera, source, None)
     target = Target(160.0, 40.0, 40.0, 40.0)
     model: Any = SimpleNamespace(
         depth=DepthExpert(0.05, focal * length), params=P, limit_growth=lambda growth, _: growth

@@ -24,7 +24,7 @@ def observation(factor: float, light: float = 1.0, angle: float = 0.0) -> Target
     scene = cv2.resize(texture, (320, 240), interpolation=cv2.INTER_CUBIC)
     seen = cv2.warpAffine(scene, cv2.getRotationMatrix2D((159.5, 119.5), angle, factor), (320, 240))
     picture = np.clip(light * seen, 0, 255).astype(np.uint8)
-    return TargetObservation(kernel_sets.load("native"), picture, "color", CAMERA, None, None)
+    return TargetObservation(kernel_sets.load("native"), picture, CAMERA, None, None)
 
 
 EXPERT = SizeExpert.from_target(observation(1.0), TARGET, P)
@@ -52,14 +52,14 @@ def test_growth_is_bounded():
     most = math.exp(2.5 * size.LOG_PER_CELL)
     for seed in range(10):
         noise = np.random.default_rng(seed).integers(0, 256, (240, 320, 3)).astype(np.uint8)
-        seen = TargetObservation(kernel_sets.load("native"), noise, "color", CAMERA, None, None)
+        seen = TargetObservation(kernel_sets.load("native"), noise, CAMERA, None, None)
         assert 1 / most <= EXPERT.growth(seen, TARGET) <= most
 
 
 def test_a_flat_picture_keeps_the_size():
     """Where there is nothing to compare, the size stays what it was."""
     flat = np.full((240, 320, 3), 90, np.uint8)
-    seen = TargetObservation(kernel_sets.load("native"), flat, "color", CAMERA, None, None)
+    seen = TargetObservation(kernel_sets.load("native"), flat, CAMERA, None, None)
     assert EXPERT.growth(seen, TARGET) == 1.0
 
 

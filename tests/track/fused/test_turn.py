@@ -52,7 +52,7 @@ def scene(degrees: float) -> Image:
 
 def observation(image: Image) -> TargetObservation:
     """What experts read of a color image."""
-    return TargetObservation(kernel_sets.load("native"), image, "color", CAMERA, None, None)
+    return TargetObservation(kernel_sets.load("native"), image, CAMERA, None, None)
 
 
 def models(tracker: FusedTracker) -> AppearanceModels:

@@ -28,7 +28,7 @@ def window_around(target: Target, context: float = 3.0) -> Window:
     rows, columns = np.indices((200, 250)).astype(np.uint8)
     picture = np.dstack([columns, rows, np.zeros_like(rows)])
     return extract_windows(
-        TargetObservation(kernel_sets.load("native"), picture, "color", CAMERA, None, None), [target], context
+        TargetObservation(kernel_sets.load("native"), picture, CAMERA, None, None), [target], context
     )[0]
 
 

@@ -84,7 +84,7 @@ class DepthTrust(NamedTuple):
     ) -> tuple["DepthTrust", FrameObservation]:
         if kind not in self.told:
             warn_of_frame(frame.messages, f"frame.depth: {message}", stacklevel=4)
-        return self._replace(told=self.told | {kind}), frame._replace(depth=None, depth_source=None)
+        return self._replace(told=self.told | {kind}), frame._replace(depth_source=None)
 
 
 def _sample(depth: Plane) -> Plane:

@@ -11,7 +11,7 @@ from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.camera.shared_frame import messages_of, once
 from tricue.kernels import Kernels
 from tricue.track.base import validation
-from tricue.track.fused.arrays import Image, Plane
+from tricue.track.fused.arrays import Image
 from tricue.track.fused.depth_sources import DepthImageSource, DepthSource, ExpectedDepth, StereoSource
 from tricue.track.fused.target_observation import TargetObservation
 
@@ -19,13 +19,12 @@ from tricue.track.fused.target_observation import TargetObservation
 class FrameObservation(NamedTuple):
     """A checked frame.
 
-    color: (H, W, 3) BGR. depth: (H, W) meters. camera: of the color, left or depth image.
-    depth_source: None without depth. timestamp: seconds. messages: as :func:`messages_of` the frame.
+    color: (H, W, 3) BGR. camera: of the color, left or depth image. depth_source: None without depth.
+    timestamp: seconds. messages: as :func:`messages_of` the frame.
     """
 
     shape: tuple[int, int]
     color: Image | None
-    depth: Plane | None
     depth_source: DepthSource | None
     camera: Intrinsics
     timestamp: float | None
@@ -36,10 +35,7 @@ class FrameObservation(NamedTuple):
 
         Without color they read a picture of depth.
         """
-        if self.color is not None:
-            return TargetObservation(k, self.color, "color", self.camera, self.depth_source, expected)
-        assert self.depth is not None, "a frame has color or depth"
-        return TargetObservation(k, None, "depth", self.camera, self.depth_source, expected, self.depth)
+        return TargetObservation(k, self.color, self.camera, self.depth_source, expected)
 
 
 def observe_frame(
@@ -77,9 +73,7 @@ def _observe(
     rig, camera = rig_and_camera(*cameras, size)
     color = None if frame.color is None else _bgr(frame.color)
     depth_source = _depth_source(frame, color, rig) if with_depth or color is None else None
-    return FrameObservation(
-        size, color, frame.depth, depth_source, camera, frame.timestamp, messages_of(frame)
-    )
+    return FrameObservation(size, color, depth_source, camera, frame.timestamp, messages_of(frame))
 
 
 def _picture(frame: Frame) -> tuple[str, Any]:

@@ -47,7 +47,7 @@ def propose_windows(model: TargetModel, observation: TargetObservation, lost: Lo
 
     With depth, each has the size that the target would have there.
     """
-    propose = _color_proposals if observation.depth_image is None else _object_proposals
+    propose = _color_proposals if observation.kind == "color" else _object_proposals
     targets = propose(model, observation, lost) + _grid_proposals(observation, lost, model.params)
     context = model.params.context
     if model.depth is None or observation.depth_source is None:
@@ -75,7 +75,6 @@ def _object_proposals(model: TargetModel, observation: TargetObservation, lost: 
 
     Sabeti, Parvizi and Wu 2008, section IV.A.
     """
-    assert observation.depth_image is not None, "the picture is made of depth"
     found = []
     for each in find_objects(observation, observation.depth_image)[0]:
         side = Target.of(each.box).side

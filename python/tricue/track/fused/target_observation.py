@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from tricue.camera.rig import Intrinsics
 from tricue.kernels import Kernels
 from tricue.track.fused.arrays import Floats, Image, Plane
-from tricue.track.fused.depth_sources import GATE_SIGMAS, DepthSource, ExpectedDepth
+from tricue.track.fused.depth_sources import GATE_SIGMAS, DepthImageSource, DepthSource, ExpectedDepth
 from tricue.track.fused.target import Target
 
 PictureKind = Literal["color", "depth"]
@@ -25,24 +25,32 @@ SAMPLE_REACH = 2  # pixels beyond a window that its samples may read
 class TargetObservation(NamedTuple):
     """A picture of the frame, and a source of depth for its pixels.
 
-    picture: (H, W, 3) BGR of color, None where it is drawn of depth. camera: the picture's.
-    depth_source: None where there is no depth. expected_depth: None where the target's depth isn't known.
-    depth_image: (H, W) meters, if the picture is drawn of it.
+    picture: (H, W, 3) BGR of color, None where it is drawn of the depth image that is the source of depth.
+    camera: the picture's. depth_source: None where there is no depth. expected_depth: None where the target's
+    depth isn't known.
     """
 
     k: Kernels
     picture: Image | None
-    kind: PictureKind
     camera: Intrinsics
     depth_source: DepthSource | None
     expected_depth: ExpectedDepth | None
-    depth_image: Plane | None = None
+
+    @property
+    def kind(self) -> PictureKind:
+        """What the picture is of."""
+        return "depth" if self.picture is None else "color"
+
+    @property
+    def depth_image(self) -> Plane:
+        """(H, W) meters: what a picture of depth is drawn of."""
+        assert isinstance(self.depth_source, DepthImageSource), "without color it is read from one"
+        return self.depth_source.depth
 
     @property
     def shape(self) -> tuple[int, int]:
         """Height and width of the picture."""
         image = self.depth_image if self.picture is None else self.picture
-        assert image is not None, "the picture is of color, or drawn of depth"
         return image.shape[0], image.shape[1]
 
     def expect(self, expected: ExpectedDepth) -> "TargetObservation":
@@ -58,7 +66,6 @@ class TargetObservation(NamedTuple):
             return self.k.sample_windows(self.picture, windows, side, side)
         if self.expected_depth is None:
             return np.zeros((len(windows), side, side, 3), np.uint8)
-        assert self.depth_image is not None, "the picture is drawn of it"
         height, width = self.shape
         lefts, tops, widths, heights = windows.T.tolist()
         left, right = _span(lefts, widths, width)
