@@ -64,10 +64,10 @@ def window_around(depth: np.ndarray | None, target: Target = LARGE, source: obje
 
 
 def reaches(
-    window: Window, right: float = 0.0, down: float = 0.0, covered: float = 0.0, standing: bool = False
+    window: Window, right: float = 0.0, down: float = 0.0, covered: float = 0.0, without_support: bool = False
 ) -> Reaches | None:
     """As of measure_reaches, by default from the window's center."""
-    return measure_reaches(window, right, down, covered, standing)
+    return measure_reaches(window, right, down, covered, without_support=without_support)
 
 
 def edges(target: Target) -> np.ndarray:
@@ -211,7 +211,7 @@ def test_what_it_stands_on_is_left_out():
     window, but for the strip that is within the tolerance of the plane; the others as before.
     """
     window = window_around(table())
-    blind, found = reaches(window), reaches(window, standing=True)
+    blind, found = reaches(window), reaches(window, without_support=True)
     assert blind.bottom is None or blind.bottom > 20 / 32 + 0.2
     strip = SLANT * SUPPORT_TOLERANCE
     assert (20 - strip - window.pixel_size) / 32 <= found.bottom <= (20 + window.pixel_size) / 32
@@ -275,7 +275,7 @@ def test_the_outline_follows_by_its_time_constant(rate):
     """After one time constant it is 1 - 1/e of the way to what is measured, at any frame rate."""
     p = FusedTracker.Params(outline_time_constant=1.0)
     window = window_around(thing((40, 32, 32, 32)))
-    reaches = measure_reaches(window, 0.0, 0.0, covered_share(window), standing=False)
+    reaches = measure_reaches(window, 0.0, 0.0, covered_share(window), without_support=False)
     state = SimpleNamespace(
         missed_frames=0, sides=ALL_SEEN, depth_object=None, outline=BOX_OUTLINE, seconds=1 / rate
     )

@@ -51,6 +51,17 @@ class ExpectedDepth(NamedTuple):
         return self.z
 
 
+class DepthPosterior(NamedTuple):
+    """What depth tells of the squares of a grid, (side, side) each.
+
+    posterior: P(target | depth), 0.5 where none is measured. occluded: 1 where it is nearer than expected by
+    more than a margin, else 0.
+    """
+
+    posterior: Plane
+    occluded: NDArray[np.uint8]
+
+
 class DepthSource(Protocol):
     """Measures the depth of pixels."""
 
@@ -65,8 +76,8 @@ class DepthSource(Protocol):
 
     def posterior(
         self, k: Kernels, grid: Grid, side: int, expected: ExpectedDepth, margin: float
-    ) -> tuple[Plane, NDArray[np.uint8]]:
-        """(side, side) P(target | depth), and 1 where it is nearer than expected by more than the margin."""
+    ) -> DepthPosterior:
+        """Of a grid of so many squares on a side. margin: meters; what is nearer by more is an occluder."""
 
     def noise(self, z: float, pixel_size: float) -> float:
         """Standard deviation, in meters, of a depth z sampled in squares of so many image pixels."""
@@ -90,9 +101,9 @@ class DepthImageSource(NamedTuple):
 
     def posterior(
         self, k: Kernels, grid: Grid, side: int, expected: ExpectedDepth, margin: float
-    ) -> tuple[Plane, NDArray[np.uint8]]:
+    ) -> DepthPosterior:
         """As of every DepthSource."""
-        return k.depth_posterior(self.depth, *grid, side, side, *expected, margin)
+        return DepthPosterior(*k.depth_posterior(self.depth, *grid, side, side, *expected, margin))
 
     def noise(self, z: float, pixel_size: float) -> float:
         """Proportional to the depth."""
@@ -202,10 +213,10 @@ class StereoSource(NamedTuple):
 
     def posterior(
         self, k: Kernels, grid: Grid, side: int, expected: ExpectedDepth, margin: float
-    ) -> tuple[Plane, NDArray[np.uint8]]:
+    ) -> DepthPosterior:
         """As of every DepthSource."""
         depths = self.sample(k, grid, side, expected)
-        return k.depth_posterior(depths, 0.0, 0.0, 1.0, side, side, *expected, margin)
+        return DepthPosterior(*k.depth_posterior(depths, 0.0, 0.0, 1.0, side, side, *expected, margin))
 
     def noise(self, z: float, pixel_size: float) -> float:
         """Proportional to the squared depth, by the noise of a disparity."""

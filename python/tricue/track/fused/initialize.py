@@ -114,7 +114,7 @@ def _appearance_models(observation: TargetObservation, target: Target, p: FusedP
 def _see_sides(sides: Sides, observation: TargetObservation, target: Target, p: FusedParams) -> Sides:
     """What depth says about the sides of a target, when it is first measured."""
     window = extract_windows(observation, [target], p.context)[0]
-    return sides.see(measure_reaches(window, 0.0, 0.0, covered_share(window), standing=False))
+    return sides.see(measure_reaches(window, 0.0, 0.0, covered_share(window), without_support=False))
 
 
 def _depth_models(

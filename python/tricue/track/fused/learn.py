@@ -117,7 +117,7 @@ def _update_outline(state: State, match: Match, p: FusedParams) -> State:
     if state.missed_frames or state.sides.are_hidden or state.depth_object is not None:
         return state
     place = match.window, match.right, match.down
-    reaches = measure_reaches(*place, covered_share(*place), Side.CUT in state.sides)
+    reaches = measure_reaches(*place, covered_share(*place), without_support=Side.CUT in state.sides)
     if reaches is None:
         return state
     rate = 1 - math.exp(-state.seconds / p.outline_time_constant)

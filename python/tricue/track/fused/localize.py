@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tricue.track.fused.arrays import NO_PLANE, Plane
+from tricue.track.fused.arrays import Plane
 from tricue.track.fused.experts.depth import DepthExpert
 from tricue.track.fused.identity import IdentityFeatures
 from tricue.track.fused.models import AppearanceModels
@@ -55,13 +55,12 @@ class Candidate(NamedTuple):
 def localize(model: TargetModel, window: Window) -> Candidate:
     """The place in a window with the most evidence, to a fraction of a cell."""
     appearance, p = model.appearance, model.params
-    depth = None if model.depth is None else model.depth.posterior(window)
     found, responses = window.observation.k.localize_target(
         window.patch,
         HANN_WINDOW,
         appearance.filter.applied,
         appearance.color.table if "color" in p.cues else NO_TABLE,
-        NO_PLANE if depth is None else depth,
+        window.depth_posterior,
         appearance.first_colors.roots,
         *window.size,
         p.surround_size,

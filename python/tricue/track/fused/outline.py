@@ -153,20 +153,19 @@ def _side(side: Side, reach: float | None) -> float:
 
 
 def measure_reaches(
-    window: Window, right: float, down: float, covered: float, standing: bool
+    window: Window, right: float, down: float, covered: float, *, without_support: bool
 ) -> Reaches | None:
     """How far the pixels at the target's depth reach from a place, in patch pixels from a window's center.
 
-    covered: the share of its box that an occluder covers. standing: whether to leave out what it stands on.
-    None if depth has no sharp edges, or the target is covered.
+    covered: the share of its box that an occluder covers. without_support: whether what it stands on is left
+    out. None if depth has no sharp edges, or the target is covered.
     """
     source = window.observation.depth_source
     if window.depth is None or source is None or not source.has_sharp_edges:
         return None
     if covered > MAX_COVERED_BY_OCCLUDER:
         return None
-    posterior = window.standing if standing else window.depth[0]
-    assert posterior is not None, "the window has depth"
+    posterior = window.posterior_without_support if without_support else window.depth_posterior
     rows, columns = window.inner(right, down, OUTLINE_CENTER_SHARE)
     x, y = PATCH_PIXELS / 2 + right, PATCH_PIXELS / 2 + down
     across, along = posterior[rows], posterior[:, columns]

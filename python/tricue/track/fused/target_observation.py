@@ -8,12 +8,17 @@ from typing import Literal, NamedTuple
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
 from tricue.camera.rig import Intrinsics
 from tricue.kernels import Kernels
 from tricue.track.fused.arrays import Floats, Image, Plane
-from tricue.track.fused.depth_sources import GATE_SIGMAS, DepthImageSource, DepthSource, ExpectedDepth
+from tricue.track.fused.depth_sources import (
+    GATE_SIGMAS,
+    DepthImageSource,
+    DepthPosterior,
+    DepthSource,
+    ExpectedDepth,
+)
 from tricue.track.fused.target import Target
 
 PictureKind = Literal["color", "depth"]
@@ -86,13 +91,10 @@ class TargetObservation(NamedTuple):
         squares = np.array([(t.x, t.y, *t.along(s, 0.0), *t.along(0.0, s)) for t, s in each])
         return self.k.sample_turned_windows(self.picture, squares, side, side)
 
-    def depth_posterior(
-        self, x: float, y: float, pixel_size: float, side: int
-    ) -> tuple[Plane, NDArray[np.uint8]] | None:
-        """(side, side) P(target | depth), and 1 where an occluder is, else 0.
+    def depth_posterior(self, x: float, y: float, pixel_size: float, side: int) -> DepthPosterior | None:
+        """What depth tells of a grid of so many squares on a side; None without, or if none is expected.
 
-        x, y, pixel_size: top left corner of a grid of squares and their side, in image pixels.
-        None if there is no depth, or none is expected.
+        x, y, pixel_size: top left corner of the grid and the squares' side, in image pixels.
         """
         if self.depth_source is None or self.expected_depth is None:
             return None

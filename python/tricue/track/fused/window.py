@@ -2,14 +2,12 @@
 """Square windows of a frame around a target: the part that the experts read."""
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tricue.track.base.params import Params, parameter
-from tricue.track.fused.arrays import Floats, Image, Plane
-from tricue.track.fused.depth_sources import DepthImageSource, Grid
+from tricue.track.fused.arrays import NO_PLANE, Floats, Image, Plane
+from tricue.track.fused.depth_sources import DepthImageSource, DepthPosterior, Grid
 from tricue.track.fused.sources import OURS
 from tricue.track.fused.support import find_support
 from tricue.track.fused.target import Target
@@ -34,9 +32,8 @@ class Window:
 
     patch: (64, 64, 3) BGR samples. pixel_size: image pixels per patch pixel. target: the one that the window
     is centered on. size: the target's width and height in patch pixels.
-    depth: (64, 64) P(target | depth), 0.5 where none is measured, and 1 where an occluder is, else 0. With a
-    picture of depth, what the target stands on is excluded, as it looks like the target there; color tells
-    them apart. None without depth or if none is expected.
+    depth: of its (64, 64) patch pixels. With a picture of depth, what the target stands on is excluded, as it
+    looks like the target there; color tells them apart. None without depth or if none is expected.
     has_occluder: whether anything in the window is nearer than expected.
     """
 
@@ -46,22 +43,26 @@ class Window:
         self.observation, self.target, self.patch, self.pixel_size = observation, target, patch, pixel_size
         self.size = target.width / pixel_size, target.height / pixel_size
         self.depth = self._measure_depth()
-        self.has_occluder = self.depth is not None and 1 in self.depth[1].tobytes()  # in bytes it is fastest
+        # In bytes it is found fastest.
+        self.has_occluder = self.depth is not None and 1 in self.depth.occluded.tobytes()
 
-    @cached_property
-    def standing(self) -> Plane | None:
-        """(64, 64) P(target | depth) without what the target stands on; None if ``depth`` is."""
+    @property
+    def depth_posterior(self) -> Plane:
+        """(64, 64) P(target | depth); NO_PLANE if ``depth`` is None."""
+        return NO_PLANE if self.depth is None else self.depth.posterior
+
+    @property
+    def posterior_without_support(self) -> Plane:
+        """The same without what the target stands on."""
         if self.depth is None or self.observation.kind == "depth":
-            return self.depth and self.depth[0]
-        return self._without_support(self.depth[0])
+            return self.depth_posterior
+        return self._without_support(self.depth.posterior)
 
-    def _measure_depth(self) -> tuple[Plane, NDArray[np.uint8]] | None:
-        if self.observation.depth_source is None:
-            return None
-        posterior = self.observation.depth_posterior(*self._grid, PATCH_PIXELS)
-        if posterior is None or self.observation.kind == "color":
-            return posterior
-        return self._without_support(posterior[0]), posterior[1]
+    def _measure_depth(self) -> DepthPosterior | None:
+        depth = self.observation.depth_posterior(*self._grid, PATCH_PIXELS)
+        if depth is None or self.observation.kind == "color":
+            return depth
+        return depth._replace(posterior=self._without_support(depth.posterior))
 
     @property
     def _grid(self) -> Grid:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tricue.track.base.params import Params, parameter
-from tricue.track.fused.arrays import NO_PLANE, Plane
+from tricue.track.fused.arrays import Plane
 from tricue.track.fused.sources import OURS
 from tricue.track.fused.window import Window
 
@@ -67,7 +67,7 @@ class ColorExpert(NamedTuple):
         return ColorExpert(
             *window.observation.k.learn_patch_colors(
                 window.patch,
-                NO_PLANE if window.depth is None else window.depth[0],
+                window.depth_posterior,
                 width,
                 height,
                 MIN_SURROUND_SIZE,

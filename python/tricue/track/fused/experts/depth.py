@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 
 from tricue.track.base.params import Params, parameter
-from tricue.track.fused.arrays import Floats, Plane
+from tricue.track.fused.arrays import Floats
 from tricue.track.fused.depth_sources import GATE_SIGMAS, MAX_EXPECTED_SIGMA, ExpectedDepth
 from tricue.track.fused.sources import OURS
 from tricue.track.fused.target import Target
@@ -66,10 +66,6 @@ class DepthExpert(NamedTuple):
     def from_measurement(cls, depth: "DepthMeasurement", length: float) -> "DepthExpert":
         """Learned from the first measurement."""
         return cls(INITIAL_DEPTH_SPREAD, length).learn(depth, length, 1.0)
-
-    def posterior(self, window: Window) -> Plane | None:
-        """(64, 64) P(target | depth)."""
-        return None if window.depth is None else window.depth[0]
 
     def growth(self, depth: "DepthMeasurement", side: float) -> float:
         """The ratio of the target's size at a measured depth to a side in pixels."""
@@ -146,7 +142,7 @@ def covered_share(window: Window, right: float = 0.0, down: float = 0.0) -> floa
     if not window.has_occluder:
         return 0.0
     assert window.depth is not None, "it has the occluder"
-    nearer = window.depth[1][window.inner(right, down, INNER_SHARE)]
+    nearer = window.depth.occluded[window.inner(right, down, INNER_SHARE)]
     return cv2.countNonZero(nearer) / nearer.size
 
 
@@ -160,7 +156,7 @@ def depth_continuity(window: Window, right: float, down: float) -> float:
     if window.depth is None or expected is None:
         return 0.0
     inner, outer = (
-        window.depth[0][window.inner(right, down, share)] for share in (INNER_SHARE, SURROUND_SIZE)
+        window.depth.posterior[window.inner(right, down, share)] for share in (INNER_SHARE, SURROUND_SIZE)
     )
     inside = float(np.add.reduce(inner, axis=None))
     outside = float(np.add.reduce(outer, axis=None)) - inside
