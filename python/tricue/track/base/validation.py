@@ -41,10 +41,15 @@ def _bgr(image: Any, shape: tuple[int, ...] | None) -> NDArray[np.uint8]:
         hint = "cv2.cvtColor(image, cv2.COLOR_GRAY2BGR) makes one"
         raise ValueError(f"frame.color: expected BGR (H, W, 3), got gray {image.shape}; {hint}")
     if shape is not None and image.shape != shape:
-        hint = "init starts again on another size"
-        raise ValueError(f"frame.color: expected the first frame's shape {shape}, got {image.shape}; {hint}")
+        raise changed_size("frame.color", "shape", shape, image.shape)
     bgr: NDArray[np.uint8] = image
     return bgr
+
+
+def changed_size(name: str, what: str, first: tuple[int, ...], found: tuple[int, ...]) -> ValueError:
+    """The error for a frame that isn't as large as the first one; what: "shape" or "size"."""
+    hint = "init starts again on another size"
+    return ValueError(f"{name}: expected the first frame's {what} {first}, got {found}; {hint}")
 
 
 def seed(value: int) -> int:
@@ -94,8 +99,7 @@ def depth_image(
     channels.require("depth")
     depth: Any = channels.depth
     if shape is not None and depth.shape != shape:
-        hint = "init starts again on another size"
-        raise ValueError(f"frame.depth: expected the first frame's shape {shape}, got {depth.shape}; {hint}")
+        raise changed_size("frame.depth", "shape", shape, depth.shape)
     return depth, channels.timestamp
 
 
@@ -138,8 +142,7 @@ def require_cue_channels(
     name = "depth" if channels.color is None else "color"
     axes = 3 if "flow" in cues else 2
     if shape is not None and image.shape[:axes] != shape[:axes]:
-        hint = "init starts again on another size"
-        raise ValueError(f"frame.{name}: expected the first frame's shape {shape}, got {image.shape}; {hint}")
+        raise changed_size(f"frame.{name}", "shape", shape, image.shape)
     if "disparity" in cues and channels.depth is not None:
         check_depth_size(channels.depth, image.shape[:2])
     return CueInput(channels, image)

@@ -51,10 +51,9 @@ def observe_frame(
     for depth of another size than color.
     """
     given = as_frame(frame)
-    size = _picture(given)[1].shape[:2]
-    if shape is not None and size != shape:
-        name, hint = _picture(given)[0], "init starts again on another size"
-        raise ValueError(f"frame.{name}: expected the first frame's size {shape}, got {size}; {hint}")
+    name, image = _picture(given)
+    if shape is not None and image.shape[:2] != shape:
+        raise validation.changed_size(f"frame.{name}", "size", shape, image.shape[:2])
     return once(given, _observe, cameras, with_depth)
 
 
