@@ -65,11 +65,7 @@ def _observe(
     size = image.shape[:2]
     if frame.depth is not None:
         validation.check_depth_size(frame.depth, size)
-    for known in (cameras[0].intrinsics if cameras[0] else None, cameras[1]):
-        if known is not None and (known.height, known.width) != size:
-            expected = f"the camera's size, {known.width}x{known.height}"
-            raise ValueError(f"frame.{name}: expected {expected}, got {size[1]}x{size[0]}")
-    rig, camera = rig_and_camera(*cameras, size)
+    rig, camera = rig_and_camera(*cameras, size, name)
     color = None if frame.color is None else _bgr(frame.color)
     depth_source = _depth_source(frame, color, rig) if with_depth or color is None else None
     return FrameObservation(size, color, depth_source, camera, frame.timestamp, messages_of(frame))
@@ -82,12 +78,14 @@ def _picture(frame: Frame) -> tuple[str, Any]:
 
 @lru_cache(maxsize=8)
 def rig_and_camera(
-    rig: StereoRig | None, camera: Intrinsics | None, size: tuple[int, int]
+    rig: StereoRig | None, camera: Intrinsics | None, size: tuple[int, int], channel: str = "color"
 ) -> tuple[StereoRig, Intrinsics]:
-    """The stereo rig and its left camera; default ones where none is given."""
-    if rig is None:
-        rig = StereoRig(validation.camera_or_default(camera, size), validation.DEFAULT_BASELINE)
-    return rig, rig.intrinsics
+    """The stereo rig and its left camera; default ones where none is given.
+
+    ValueError for a camera of another size than the named channel.
+    """
+    known = validation.camera_or_default(rig.intrinsics if rig else camera, size, channel)
+    return rig or StereoRig(known, validation.DEFAULT_BASELINE), known
 
 
 def _depth_source(frame: Frame, color: Image | None, rig: StereoRig) -> DepthSource | None:
