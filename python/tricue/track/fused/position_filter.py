@@ -173,11 +173,6 @@ def _dynamics(seconds: float, acceleration_noise: float) -> tuple[Floats, Floats
     return transition, noise
 
 
-@lru_cache(maxsize=8)
-def _intrinsics(*numbers: float) -> Floats:
-    return np.array(numbers)
-
-
 def back_project(
     observation: TargetObservation, target: Target, depth: DepthMeasurement
 ) -> tuple[Floats, Floats]:
@@ -189,8 +184,7 @@ def back_project(
     lateral_noise = LATERAL_NOISE * target.side
     k, place = observation.k, np.array([[target.x - 0.5, target.y - 0.5, disparity]])
     variances = np.array([lateral_noise**2, lateral_noise**2, depth_noise**2])
-    intrinsics = _intrinsics(camera.fx, camera.fy, camera.cx, camera.cy)
-    points, covariances = k.back_project(place, variances, intrinsics, 1.0)
+    points, covariances = k.back_project(place, variances, camera.vector, 1.0)
     return points[0], covariances[0].reshape(3, 3)
 
 
