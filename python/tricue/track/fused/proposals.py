@@ -15,12 +15,13 @@ from tricue.track.fused.params import FusedParams
 from tricue.track.fused.position_filter import PositionFilter
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.window import WINDOW_CELLS, Window, extract_windows
+from tricue.track.fused.window import Window, extract_windows
 
 MAX_OBJECT_PROPOSALS = 3  # per frame, of objects in depth
 MAX_COLOR_PLACES = 10  # in a frame, where the target's colors stand out
 COLOR_PLACES_IN_TURN = 2  # per frame, beside the one where they stand out most
 MAX_GRID_PROPOSALS = 3  # per frame, of a grid over the whole frame
+MAX_GRID_SIDE = 32  # places on a side of that grid, however small the target
 SAMPLES_PER_TARGET = 8  # on a side of the target, in the search for its colors
 MAX_FRAME_SAMPLES = 256  # on a side of the frame, in the search for the target's colors
 CONTRAST_STEP = 2  # samples between two places whose contrast is measured
@@ -131,7 +132,7 @@ def _grid_proposals(observation: TargetObservation, lost: LostTarget, p: FusedPa
     target = lost.target
     half = p.context * target.side / 2
     height, width = observation.shape
-    rows, columns = (min(max(math.ceil(length / half), 1), WINDOW_CELLS) for length in (height, width))
+    rows, columns = (min(max(math.ceil(length / half), 1), MAX_GRID_SIDE) for length in (height, width))
     x, y = (np.arange(columns) + 0.5) * width / columns, (np.arange(rows) + 0.5) * height / rows
     squared = np.add.outer((y - target.y) ** 2, (x - target.x) ** 2).ravel()
     nearest = _in_turn(np.argsort(squared, kind="stable").tolist(), MAX_GRID_PROPOSALS, lost.frame)
