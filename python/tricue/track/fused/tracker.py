@@ -120,8 +120,8 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         state = initialize_depth(state, observed, self._k, self.params)
         observation = observed.for_target(self._k, _expected_depth(state))
         state = ensure_models(state, observation, self.params)
-        match = self._localize(state, observation)
-        match = self._limit_log_odds(state, observation, match)
+        match = self._penalize_jump(state, self._localize(state, observation))
+        match = self._limit_log_odds(state, match)
         state = verify(state, match, self.params)
         state = update_models(before, state, observation, match, self.params)
         state = update_object(state, observation)
@@ -167,14 +167,15 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         lost = LostTarget(last, state.position, state.missed_frames, state.frames)
         return redetect(model, observation, lost, local, state.clutter.min_log_odds(p))
 
-    def _limit_log_odds(self, state: State, observation: TargetObservation, match: Match) -> Match:
-        """The match with log-odds reduced for its jump and, without depth, limited to those by the older
-        models.
-        """
+    def _penalize_jump(self, state: State, match: Match) -> Match:
+        """The match with log-odds reduced for its jump."""
         penalty = state.motion.penalty(state.target, match.target, state.seconds, self.params.jump_weight)
-        match = match._replace(log_odds=match.log_odds - penalty)
-        models = state.memory.older.get(observation.kind)
-        if observation.depth_source is not None or models is None:
+        return match._replace(log_odds=match.log_odds - penalty)
+
+    def _limit_log_odds(self, state: State, match: Match) -> Match:
+        """The match with log-odds limited to those by the older models; depth shows occluders by itself."""
+        models = state.memory.older.get(match.observation.kind)
+        if match.observation.depth_source is not None or models is None:
             return match
         return limit_log_odds(_target_model(state, models, self.params), match)
 
