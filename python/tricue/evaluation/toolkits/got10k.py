@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box, as_box
-from tricue.track.base.adapter import with_known_numbers
+from tricue.track.base.adapter import check_is_tracker, with_known_numbers
 from tricue.track.base.track import Tracker
 
 try:
@@ -59,8 +59,7 @@ def as_got10k(tracker: Tracker, name: str | None = None) -> Got10kTracker:
 
     name: of got10k's result folders; by default the tracker's class name.
     """
-    if not all(callable(getattr(tracker, each, None)) for each in ("init", "update")):
-        raise TypeError(f"tracker: expected a tricue tracker, got {type(tracker).__name__}")
+    check_is_tracker(tracker)
     return Got10kTracker(tracker, type(tracker).__name__ if name is None else name)
 
 

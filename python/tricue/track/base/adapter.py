@@ -92,6 +92,12 @@ def with_known_numbers(track: Track, last: Box) -> Track:
     return replace(track, **known) if known else track
 
 
+def check_is_tracker(value: Any) -> None:
+    """TypeError for anything but a tracker."""
+    if not _is_tracker(value):
+        raise TypeError(f"tracker: expected a tricue tracker, got {type(value).__name__}")
+
+
 def is_of_cv2(tracker: Any) -> bool:
     """Whether it is one of cv2's own trackers."""
     return type(tracker).__module__.partition(".")[0] == "cv2"

@@ -3,7 +3,7 @@
 
 from tricue.camera.box import BoxLike
 from tricue.camera.frame import FrameLike
-from tricue.track.base.adapter import with_known_numbers
+from tricue.track.base.adapter import check_is_tracker, with_known_numbers
 from tricue.track.base.track import Status, Track, Tracker
 
 
@@ -33,6 +33,5 @@ class OpenCVTracker:
 
 def as_opencv(tracker: Tracker) -> OpenCVTracker:
     """The tracker with the interface of ``cv2.Tracker``; TypeError for anything but a tracker."""
-    if not all(callable(getattr(tracker, name, None)) for name in ("init", "update")):
-        raise TypeError(f"tracker: expected a tricue tracker, got {type(tracker).__name__}")
+    check_is_tracker(tracker)
     return OpenCVTracker(tracker)
