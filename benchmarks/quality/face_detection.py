@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.data.open_source import open_source
-from tricue.track.base.face_detection import find_face
+from tricue.track.head_detection.face_detection import find_face
 
 from benchmarks.quality.common.sequences import data_folder
 from benchmarks.quality.common.tables import markdown

@@ -43,7 +43,7 @@ MODULES = {
     "toolkits.vot_sequences": "evaluation.toolkits.vot_sequences",
     "toolkits.vot_workspace": "evaluation.toolkits.vot_workspace",
     "track.create": "track.base.registry",
-    "track.faces": "track.base.face_detection",
+    "track.faces": "track.head_detection.face_detection",
     "track.opencv": "track.base.opencv",
     "track.params": "track.base.params",
     "track.settings": "track.base.settings",

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from tricue import Box
 from tricue.cli import main
-from tricue.track.base import face_detection
+from tricue.track.head_detection import face_detection
 
 FRAMES, FIRST_FACE = 5, 2
 SIDE = 192

@@ -10,7 +10,7 @@ import tricue
 from tricue import Frame, kernels
 from tricue.errors import BoxNeededError, TargetNotFoundError
 from tricue.scenes import head, room_scene
-from tricue.track.base import face_detection
+from tricue.track.head_detection import face_detection
 from tricue.track.head_detection.start_box import find_head_or_face
 
 

@@ -6,8 +6,8 @@ from tricue.camera.frame import Frame
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.errors import BoxNeededError, TargetNotFoundError
 from tricue.kernels import Kernels
-from tricue.track.base.face_detection import FACES_NEED, can_find_faces, find_face
 from tricue.track.base.validation import camera_or_default, rig_or_default
+from tricue.track.head_detection.face_detection import FACES_NEED, can_find_faces, find_face
 from tricue.track.head_detection.find_head import find_head_in_depth, find_head_in_pair
 
 

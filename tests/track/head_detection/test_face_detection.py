@@ -11,7 +11,7 @@ import tricue
 from tricue.camera.box import Box
 from tricue.data.open_source import open_source
 from tricue.errors import BoxNeededError, TargetNotFoundError
-from tricue.track.base import face_detection
+from tricue.track.head_detection import face_detection
 
 DETECTORS = ["cv2", "scikit-image"]
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
-from tricue.track.base import face_cascade
+from tricue.track.head_detection import face_cascade
 
 Image = NDArray[np.uint8]
 
