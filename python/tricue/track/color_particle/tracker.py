@@ -245,27 +245,21 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         LOST target has already passed the search's own test. first_log_likelihood: by the first frame's
         appearance, if known.
         """
-        k, p, log_likelihood = self._k, self.params, particles.log_likelihood
-        recognition = state.appearance.recognition(k, particles.seen)
-        recognized_mean = state.recognized_mean
-        recognized = recognition >= p.min_score and log_likelihood >= recognized_mean - p.max_likelihood_drop
+        p, log_likelihood = self.params, particles.log_likelihood
+        recognition = state.appearance.recognition(self._k, particles.seen)
         score, lead = recognition, state.lead
         if self._comparable:
-            if state.missed_frames or state.frames % LEAD_EVERY == 3:
-                measured = state.appearance.lead(k, image, particles.ellipse, log_likelihood)
-                lead += LEAD_RATE * (measured - lead)
+            lead = self._update_lead(state, image, particles)
             if first_log_likelihood is None:
-                first_log_likelihood = float(state.first.log_likelihood(k, image, particles.ellipse[None])[0])
+                first = state.first.log_likelihood(self._k, image, particles.ellipse[None])
+                first_log_likelihood = float(first[0])
             score = probability(first_log_likelihood, lead)
             if recognition < p.min_score:
                 score = min(score, recognition)
-            if state.missed_frames and not state.lost(p):
-                recognized = recognized and score >= MIN_SCORE_AFTER_MISS
-        if recognized and not state.lost(p) and self._jumped(state, particles):
-            recognized = False
+        recognized = self._recognized(state, particles, recognition, score)
+        mean, recognized_mean = state.mean_log_likelihood, state.recognized_mean
         if recognized:
             recognized_mean += MEAN_RATE * (log_likelihood - recognized_mean)
-        mean = state.mean_log_likelihood
         return state._replace(
             particles=particles,
             motion=motion,
@@ -276,6 +270,25 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             lead=lead,
             missed_frames=0 if recognized else state.missed_frames + 1,
         )
+
+    def _update_lead(self, state: State, image: Image, particles: ParticleSet) -> float:
+        """The running mean of the lead, which is measured in some frames, and always while it is missed."""
+        if not state.missed_frames and state.frames % LEAD_EVERY != LEAD_EVERY - 1:
+            return state.lead
+        lead = self._lead(state.appearance, image, particles.ellipse, particles.log_likelihood)
+        return state.lead + LEAD_RATE * (lead - state.lead)
+
+    def _recognized(self, state: State, particles: ParticleSet, recognition: float, score: float) -> bool:
+        """Whether the target is where the particles are."""
+        p = self.params
+        least = state.recognized_mean - p.max_likelihood_drop
+        if recognition < p.min_score or particles.log_likelihood < least:
+            return False
+        if state.lost(p):
+            return True
+        if self._comparable and state.missed_frames and score < MIN_SCORE_AFTER_MISS:
+            return False
+        return not self._jumped(state, particles)
 
     def _jumped(self, state: State, particles: ParticleSet) -> bool:
         """Whether the estimate is less likely than usual, and farther from the predicted place than a wide
