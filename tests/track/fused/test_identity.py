@@ -22,7 +22,7 @@ from tricue.track.fused.identity import (
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.window import Window, extract_windows
+from tricue.track.fused.window import Window, extract_window
 
 AVERAGE = IdentityFeatures(peak_sharpness=5.0, color_similarity=0.6, contrast=0.2, first_response=0.3)
 TYPICAL = IdentityFeatures(peak_sharpness=7.0, color_similarity=0.8, contrast=0.4, first_response=0.5)
@@ -37,7 +37,7 @@ def window_of(left: tuple[int, int, int], right: tuple[int, int, int]) -> Window
     picture = np.full((120, 160, 3), left, np.uint8)
     picture[:, 80:] = right
     observation = TargetObservation(kernel_sets.load("native"), picture, CAMERA, None, None)
-    return extract_windows(observation, [Target(80.0, 60.0, 24.0, 24.0)], 3.0)[0]
+    return extract_window(observation, Target(80.0, 60.0, 24.0, 24.0), 3.0)
 
 
 @pytest.mark.parametrize("typical", [None, TYPICAL], ids=["nothing typical yet", "typical"])

@@ -28,7 +28,7 @@ from tricue.track.fused.outline import (
 from tricue.track.fused.support import SUPPORT_TOLERANCE
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.window import Window, extract_windows
+from tricue.track.fused.window import Window, extract_window
 
 SHAPE = (300, 400)
 CAMERA = Intrinsics.from_fov(400, 300, 60)
@@ -60,7 +60,7 @@ def window_around(depth: np.ndarray | None, target: Target = LARGE, source: obje
     color = np.zeros((*SHAPE, 3), np.uint8)
     source = DepthImageSource(depth) if source is None and depth is not None else source
     observation = TargetObservation(kernel_sets.load("native"), color, CAMERA, source, ExpectedDepth(Z, 0.05))
-    return extract_windows(observation, [target], 3.0)[0]
+    return extract_window(observation, target, 3.0)
 
 
 def reaches(
@@ -120,7 +120,7 @@ def test_sets_of_kernels_agree(kernels):
         window.observation.depth_source,
         window.observation.expected_depth,
     )
-    found = reaches(extract_windows(observation, [LARGE], 3.0)[0])
+    found = reaches(extract_window(observation, LARGE, 3.0))
     assert found == pytest.approx(reaches(window), abs=1e-3)
 
 

@@ -15,7 +15,7 @@ from tricue.track.fused.params import FusedParams
 from tricue.track.fused.proposals import LostTarget, propose_windows
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.window import extract_windows
+from tricue.track.fused.window import extract_window
 
 P = FusedParams()
 KERNELS = kernel_sets.load("native")
@@ -39,7 +39,7 @@ def red_squares(width: int, height: int, *places: tuple[float, float], side: int
 
 def model_of(observation: TargetObservation, target: Target) -> Any:
     """What proposals need of a model that was learned of a target."""
-    window = extract_windows(observation, [target], P.context)[0]
+    window = extract_window(observation, target, P.context)
     appearance = SimpleNamespace(color=ColorExpert.from_window(window))
     return SimpleNamespace(appearance=appearance, depth=None, params=P)
 

@@ -13,7 +13,7 @@ from tricue.track.fused.experts.turn import TurnExpert
 from tricue.track.fused.models import AppearanceModels
 from tricue.track.fused.target import TURN_STEPS, Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.window import extract_windows
+from tricue.track.fused.window import extract_window
 
 Image = NDArray[np.uint8]
 
@@ -146,7 +146,7 @@ def test_turned_window_is_that_of_a_turned_picture(quarters: int) -> None:
     turned = np.ascontiguousarray(np.rot90(image, -quarters))
     target = Target(120.0, 120.0, 40.0, 30.0)
     windows = (
-        extract_windows(observation(seen), [each], 3.0)[0].patch.astype(int)
+        extract_window(observation(seen), each, 3.0).patch.astype(int)
         for seen, each in ((image, target), (turned, target.turn_by(quarters * TURN_STEPS / 4)))
     )
     upright, found = windows

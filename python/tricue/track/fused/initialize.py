@@ -26,7 +26,7 @@ from tricue.track.fused.position_filter import PositionFilter, back_project
 from tricue.track.fused.state import State
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.window import extract_windows
+from tricue.track.fused.window import Window, extract_window
 
 
 def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedParams) -> State:
@@ -35,10 +35,9 @@ def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedPara
     expected = None if measured is None else ExpectedDepth(measured.z, INITIAL_DEPTH_SPREAD)
     observation = frame.for_target(k, expected)
     depth, position = _depth_models(observation, target, measured, p)
-    appearance = _appearance_models(observation, target, p)
-    sides = _see_sides(Sides.cut_by_border(target, frame.shape), observation, target, p)
+    window = extract_window(observation, target, p.context)
+    appearance = _appearance_models(window, p)
     model = TargetModel(appearance, depth, target.side, None, p)
-    window = extract_windows(observation, [target], p.context)[0]
     models: ModelsByKind = {observation.kind: appearance}
     return State(
         shape=frame.shape,
@@ -48,7 +47,7 @@ def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedPara
         first_side=target.side,
         recognized_side=target.side,
         mean_response=localize(model, window).response,
-        sides=sides,
+        sides=_see_sides(Sides.cut_by_border(target, frame.shape), window),
         depth=depth,
         depth_object=DepthObject.from_first(observation, target),
         position=position,
@@ -70,7 +69,7 @@ def initialize_depth(state: State, frame: FrameObservation, k: Kernels, p: Fused
         depth=depth,
         depth_object=DepthObject.from_first(observation, state.target),
         position=position,
-        sides=_see_sides(state.sides, observation, state.target, p),
+        sides=_see_sides(state.sides, extract_window(observation, state.target, p.context)),
     )
 
 
@@ -95,13 +94,13 @@ def ensure_models(state: State, observation: TargetObservation, p: FusedParams) 
     """The state with models of the picture's kind; if they are new, of where the target should be now."""
     if observation.kind in state.models:
         return state
-    appearance = _appearance_models(observation, state.target, p)
+    appearance = _appearance_models(extract_window(observation, state.target, p.context), p)
     return state.replace(models={**state.models, observation.kind: appearance})
 
 
-def _appearance_models(observation: TargetObservation, target: Target, p: FusedParams) -> AppearanceModels:
+def _appearance_models(window: Window, p: FusedParams) -> AppearanceModels:
     """Learned from one window."""
-    window = extract_windows(observation, [target], p.context)[0]
+    observation, target = window.observation, window.target
     return AppearanceModels(
         CorrelationFilterExpert.from_window(window, p),
         ColorExpert.from_window(window),
@@ -111,9 +110,8 @@ def _appearance_models(observation: TargetObservation, target: Target, p: FusedP
     )
 
 
-def _see_sides(sides: Sides, observation: TargetObservation, target: Target, p: FusedParams) -> Sides:
-    """What depth says about the sides of a target, when it is first measured."""
-    window = extract_windows(observation, [target], p.context)[0]
+def _see_sides(sides: Sides, window: Window) -> Sides:
+    """What depth says about the sides of a window's target, when it is first measured."""
     return sides.see(measure_reaches(window, 0.0, 0.0, covered_share(window), without_support=False))
 
 

@@ -22,7 +22,7 @@ from tricue.track.fused.position_filter import PositionFilter, back_project
 from tricue.track.fused.state import State
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.window import CELL_PIXELS, Window, extract_windows
+from tricue.track.fused.window import CELL_PIXELS, Window, extract_window
 
 MAX_DRIFT = 0.5  # cells, from one learning to the next
 TURN_EVERY = 2  # updates of appearance per update of its turn: updating it more often is slower and no better
@@ -49,7 +49,7 @@ def update_models(
         return state
     if "filter" in p.cues:
         state = state.replace(target=without_drift(state.target, match))
-    window = extract_windows(observation, [state.target], p.context)[0]
+    window = extract_window(observation, state.target, p.context)
     # More than the usual interval doesn't count: one frame isn't worth several.
     seconds = min(state.unlearned_seconds, max(p.learn_every, FRAME))
     learnings = state.learnings + 1

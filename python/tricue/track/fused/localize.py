@@ -11,7 +11,7 @@ from tricue.track.fused.identity import IdentityFeatures
 from tricue.track.fused.models import AppearanceModels
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.target import Target
-from tricue.track.fused.window import CELL_PIXELS, HANN_WINDOW, INNER_SHARE, Window, extract_windows
+from tricue.track.fused.window import CELL_PIXELS, HANN_WINDOW, INNER_SHARE, Window, extract_window
 
 NO_TABLE: Plane = np.empty((0, 0, 0), np.float32)  # where colors tell nothing
 MAX_PEAK_CELLS = 6  # from a window's center; a peak farther off is localized again in a window of its own
@@ -88,7 +88,7 @@ def recenter(model: TargetModel, candidate: Candidate) -> Candidate:
     if not is_near_edge(candidate.right, candidate.down):
         return candidate
     observation = candidate.window.observation
-    return localize(model, extract_windows(observation, [candidate.target], model.params.context)[0])
+    return localize(model, extract_window(observation, candidate.target, model.params.context))
 
 
 def is_near_edge(right: float, down: float) -> bool:

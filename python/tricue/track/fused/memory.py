@@ -11,7 +11,7 @@ from tricue.track.fused.identity import in_any_light, log_odds_of
 from tricue.track.fused.localize import TargetModel, is_near_edge, localize
 from tricue.track.fused.measure import Match, recognize
 from tricue.track.fused.models import ModelsByKind
-from tricue.track.fused.window import CELL_PIXELS, extract_windows
+from tricue.track.fused.window import CELL_PIXELS, extract_window
 
 FRAMES_APART = 5  # from one snapshot to the next, of those that were recognized
 MAX_CELLS_OFF = 3  # from a match to where the older models see the target, if it is the same
@@ -45,7 +45,7 @@ def limit_log_odds(remembered: TargetModel, match: Match) -> Match:
     if match.log_odds >= log_odds_of(p.min_score_to_redetect):
         return match
     if is_near_edge(right, down):
-        window, right, down = extract_windows(match.observation, [match.target], p.context)[0], 0.0, 0.0
+        window, right, down = extract_window(match.observation, match.target, p.context), 0.0, 0.0
     seen = localize(remembered, window)
     if max(abs(seen.right - right), abs(seen.down - down)) > CELL_PIXELS * MAX_CELLS_OFF:
         log_odds = LOG_ODDS_ELSEWHERE

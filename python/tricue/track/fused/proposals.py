@@ -15,7 +15,7 @@ from tricue.track.fused.params import FusedParams
 from tricue.track.fused.position_filter import PositionFilter
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.window import Window, extract_windows
+from tricue.track.fused.window import Window, extract_window, extract_windows
 
 MAX_OBJECT_PROPOSALS = 3  # per frame, of objects in depth
 MAX_COLOR_PLACES = 10  # in a frame, where the target's colors stand out
@@ -54,21 +54,22 @@ def propose_windows(model: TargetModel, observation: TargetObservation, lost: Lo
     if model.depth is None or observation.depth_source is None:
         factor = PROPOSED_SCALES[lost.frame % len(PROPOSED_SCALES)]
         return extract_windows(observation, [each.scale(factor) for each in targets], context)
-    depths, windows = measure_center_depths(observation, targets), []
-    for target, depth in zip(targets, depths, strict=True):
-        windows += extract_windows(*_at_depth(model, observation, target, depth), context)
-    return windows
+    depths = measure_center_depths(observation, targets)
+    return [
+        extract_window(*_at_depth(model, observation, target, depth), context)
+        for target, depth in zip(targets, depths, strict=True)
+    ]
 
 
 def _at_depth(
     model: TargetModel, observation: TargetObservation, target: Target, depth: DepthMeasurement | None
-) -> tuple[TargetObservation, list[Target]]:
+) -> tuple[TargetObservation, Target]:
     """The target as large as it would be at its place's depth, and the frame with that depth expected."""
     if depth is None or model.depth is None:
-        return observation, [target]
+        return observation, target
     growth = model.depth.length / (depth.z * target.side)
     expected = ExpectedDepth(depth.z, model.depth.depth_spread)
-    return observation.expect(expected), [target.scale(model.limit_growth(growth, target))]
+    return observation.expect(expected), target.scale(model.limit_growth(growth, target))
 
 
 def _object_proposals(model: TargetModel, observation: TargetObservation, lost: LostTarget) -> list[Target]:

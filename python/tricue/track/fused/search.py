@@ -7,7 +7,7 @@ from tricue.track.fused.localize import Candidate, TargetModel, localize
 from tricue.track.fused.measure import Match, measure_candidate
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.window import Window, extract_windows
+from tricue.track.fused.window import Window, extract_window, extract_windows
 
 NEIGHBORS = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]  # in half windows
 
@@ -21,7 +21,7 @@ def search_local(
     frame anyway.
     """
     p = model.params
-    window = extract_windows(observation, [last], p.context)[0]
+    window = extract_window(observation, last, p.context)
     candidate = localize(model, window)
     if mean_response is not None and candidate.response < p.min_response_share * mean_response:
         neighbors = _neighboring_windows(observation, last, p.context)

@@ -88,6 +88,11 @@ class Window:
         return rows, _span(PATCH_PIXELS / 2 + right, share * self.size[0])
 
 
+def extract_window(observation: TargetObservation, target: Target, context: float) -> Window:
+    """The window around a target; context: as of :func:`extract_windows`."""
+    return extract_windows(observation, [target], context)[0]
+
+
 def extract_windows(observation: TargetObservation, targets: list[Target], context: float) -> list[Window]:
     """The windows around targets; context: a window's side in sides of its target."""
     sides = [context * each.side for each in targets]
