@@ -171,7 +171,10 @@ def test_vot_with_restarts(tmp_path, folders, found, there):
     spec = results_spec(f"theirs={tmp_path}")
     (record,), supervised, _ = spec.read(there)
     assert (supervised, record.starts, record.error) == (True, (0, 11), "")
-    evaluation = evaluate(folders, tmp_path / "out", Options(("still-box",), results=(f"theirs={tmp_path}",)))
+    options, updates = Options(("still-box",), results=(f"theirs={tmp_path}",)), []
+    evaluation = evaluate(folders, tmp_path / "out", options, on_progress=updates.append)
+    assert all(each.done <= each.total for each in updates)
+    assert updates[-1].done == updates[-1].total
     (row,) = [each.row for each in evaluation.results if each.row.tracker == "theirs"]
     assert row.failures == 1
     assert np.isnan(row.auc)

@@ -19,6 +19,7 @@ from tricue.evaluation.eta import RemainingTime
 from tricue.evaluation.foreign.spec import DEFAULT_TIME_LIMIT
 from tricue.evaluation.protocols import ONE_PASS, RESTARTS, Order, orders
 from tricue.evaluation.record import Record
+from tricue.evaluation.restarts import Robustness
 from tricue.evaluation.results_folder import ResultError, ResultsSpec, results_spec
 from tricue.evaluation.rows import (
     Row,
@@ -176,7 +177,7 @@ def evaluate(
             plan.add(task, record)
     missing = sorted(plan.missing, key=plan.weight, reverse=True)
     remaining = RemainingTime(plan.weight, missing)
-    done = len(plan.scored)
+    done = len(plan.tasks) - len(missing)
     on_progress(ProgressUpdate(done, len(plan.tasks), None, None))
     with closing(run_tasks(missing, work, jobs, scheduler)) as results:
         for index, record, error in results:
@@ -205,7 +206,8 @@ class _Plan:
         self.failed: dict[str, str] = {}
         self.opened = dict(self._open_all(find_entries(root, options.reading)))
         self.left_out: dict[tuple[str, str], str] = {}
-        self.scored: dict[Task, Any] = {}
+        self.scored: dict[Task, tuple[ScoredRun, Speed]] = {}
+        self.restarted: dict[Task, Robustness] = {}
         self._read: defaultdict[TrackerSpec, Counter[str]] = defaultdict(Counter)
         self._described = {spec: spec.description for spec in self.trackers}
         self._digests = {name: opened.digest for name, opened in self.opened.items()}
@@ -257,7 +259,7 @@ class _Plan:
     @property
     def missing(self) -> list[Task]:
         """The tasks that haven't been run."""
-        return [task for task in self.tasks if task not in self.scored]
+        return [task for task in self.tasks if task not in self.scored and task not in self.restarted]
 
     def fingerprint(self, task: Task) -> str:
         return task.fingerprint(self._digests[task.entry.name], self._described[task.tracker])
@@ -274,7 +276,7 @@ class _Plan:
         """Score a finished run and keep only its scores, to limit memory."""
         opened = self.opened[task.entry.name]
         if task.kind == RESTARTS:
-            self.scored[task] = measure_robustness(record, opened)
+            self.restarted[task] = measure_robustness(record, opened)
         else:
             speed = measure_speed(opened, task.tracker.name, task.seed, record.run, task.kind)
             self.scored[task] = score_run(record, opened), speed
@@ -301,9 +303,8 @@ class _Plan:
     def _surplus_notes(self) -> Iterator[str]:
         """The sequences that have true boxes after their last frame."""
         seen: dict[str, int] = {}  # frames of videos, whose length only runs show
-        for task, scored in self.scored.items():
+        for task, (run, _) in self.scored.items():
             if task.kind == ONE_PASS and not isinstance(task.tracker, ResultsSpec):
-                run, _ = scored
                 seen[task.entry.name] = run.start + len(run.scores)
         for name, opened in self.opened.items():
             frames = opened.source.length or seen.get(name)
@@ -313,11 +314,12 @@ class _Plan:
 
     def _results(self) -> Iterator[RunResult]:
         for task in self.tasks:
-            if task.kind != RESTARTS and task in self.scored:
+            if task in self.scored:
                 run, speed = self.scored[task]
-                restarted = self.scored.get(replace(task, kind=RESTARTS)) if task.kind == ONE_PASS else None
+                again = replace(task, kind=RESTARTS)
+                robustness = self.restarted.get(again) if task.kind == ONE_PASS else None
                 opened, tracker = self.opened[task.entry.name], task.tracker.name
-                row = make_row(opened, tracker, task.seed, run, restarted, task.kind)
+                row = make_row(opened, tracker, task.seed, run, robustness, task.kind)
                 yield RunResult(task, run, row, speed)
 
 
