@@ -58,6 +58,10 @@ class Step(NamedTuple):
         """The tracks by their targets' ids; a single target has the id 1."""
         return {1: self.track} if self.tracks is None else self.tracks
 
+    def time(self, fps: float) -> float:
+        """The frame's time, seconds; at so many frames/s where it has no timestamp."""
+        return self.number / fps if self.frame.timestamp is None else self.frame.timestamp
+
 
 class Output(AbstractContextManager[Any], Protocol):
     """A context manager that writes the steps of a run."""
@@ -122,8 +126,7 @@ class JsonOutput(TextFile):
             self.put(f"{self._separator}  {json.dumps(named, allow_nan=False)}")
             self._separator = ",\n"
         for target, track in step.targets.items():
-            seconds = step.number / self._fps if step.frame.timestamp is None else step.frame.timestamp
-            self._lost.setdefault(target, LostRanges()).add(step.number, seconds, track.status)
+            self._lost.setdefault(target, LostRanges()).add(step.number, step.time(self._fps), track.status)
 
     def finish(self) -> None:
         lost = [
@@ -202,18 +205,14 @@ class VideoOutput:
             strip = self._strips.setdefault(target, StatusStrip(self._length))
             strip.add(track.status)
             strip.draw(picture, line)
-        self._writer.write(picture, self._seconds(step))
-
-    def _seconds(self, step: Step) -> float:
-        """The time of the step's frame."""
-        return step.number / self._fps if step.frame.timestamp is None else step.frame.timestamp
+        self._writer.write(picture, step.time(self._fps))
 
     def _draw_trails(self, picture: Image, step: Step, seconds: float) -> None:
         image = step.frame.depth if step.frame.color is None else step.frame.color
         assert image is not None  # a frame has one of the two
         for target, track in step.targets.items():
             trail = self._trails.setdefault(target, Trail(seconds))
-            trail.add(self._seconds(step), track)
+            trail.add(step.time(self._fps), track)
             trail.draw(picture, choose_scale(*image.shape[:2]), target_color(target))
 
     def _picture(self, step: Step, note: str) -> Image:

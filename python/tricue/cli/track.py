@@ -33,7 +33,7 @@ __all__ = ["EXAMPLES", "add_options", "run"]
 def run(options: argparse.Namespace) -> int:
     """Run the command and print the results; return the exit code."""
     run, notes = prepare(options)
-    clock = RunClock()
+    clock, fps = RunClock(), run.source.fps
     tracks: dict[int, dict[int, Track]] = {}
     lost: dict[int, LostRanges] = {}
     outputs: list[Output] = []
@@ -53,7 +53,7 @@ def run(options: argparse.Namespace) -> int:
                 output.write(step)
             for target, track in step.targets.items():
                 tracks.setdefault(target, {})[step.number] = track
-                lost.setdefault(target, LostRanges()).add(step.number, run.seconds(step), track.status)
+                lost.setdefault(target, LostRanges()).add(step.number, step.time(fps), track.status)
             progress(step.number + 1 - run.first, clock.speeds)
         signal_number = stop()
     interrupted = signal_number != 0

@@ -55,10 +55,6 @@ class TrackRun(NamedTuple):
         tracks = step.tracks and {target: track.in_image() for target, track in step.tracks.items()}
         return step._replace(track=step.track.in_image(), tracks=tracks)
 
-    def seconds(self, step: Step) -> float:
-        """The time of a step's frame."""
-        return step.number / self.source.fps if step.frame.timestamp is None else step.frame.timestamp
-
     @property
     def frames(self) -> int | None:
         """The number of frames; None if unknown."""
