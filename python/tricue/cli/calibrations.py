@@ -67,7 +67,7 @@ def find_calibration(options: Namespace, source: Source) -> Calibration:
     cameras = traits(options.tracker).camera
     if getattr(options, "assume_fov", None):  # not every command has it
         return _assume(options, source, cameras)
-    if "rig" in cameras and ("right" in source.channels or "intrinsics" not in cameras):
+    if _takes_rig(source, cameras):
         return _find_stereo(options, source)
     for option, value in (("--rectify", options.rectify), ("--unit", options.unit is not None)):
         if value:
@@ -82,6 +82,11 @@ def find_calibration(options: Namespace, source: Source) -> Calibration:
     if options.calibration:
         return _read_file(options.calibration, source, cameras)
     return _find_intrinsics(source, cameras, _advice("--calibration FILE or --fov H,V", options))
+
+
+def _takes_rig(source: Source, cameras: Collection[str]) -> bool:
+    """Whether a tracker that takes these cameras gets a stereo rig for a source, not a single camera."""
+    return "rig" in cameras and ("right" in source.channels or "intrinsics" not in cameras)
 
 
 def _find_stereo(options: Namespace, source: Source) -> Calibration:
@@ -140,7 +145,7 @@ def _assume(options: Namespace, source: Source, cameras: Collection[str]) -> Cal
     camera = _intrinsics_from_angles(source, options.assume_fov, "--assume-fov")
     known = source.calibration or ("the recording's or the camera's own" if source.camera else None)
     instead = "" if known is None else f", instead of the calibration that is there: {known}"
-    if "rig" in cameras and ("right" in source.channels or "intrinsics" not in cameras):
+    if _takes_rig(source, cameras):
         note = f"meters are assumed: cameras {DEFAULT_BASELINE:g} m apart, as --assume-fov says{instead}"
         return Calibration(rig=StereoRig(camera, DEFAULT_BASELINE), note=note, assumed=True)
     note = f"meters to the right and down are assumed, by --assume-fov{instead}"
