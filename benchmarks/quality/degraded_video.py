@@ -20,7 +20,6 @@ import numpy as np
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import one_pass
-from tricue.evaluation.rows import clip_to_image
 
 from benchmarks.quality.common.arguments import add_dataset, parser
 from benchmarks.quality.common.confidence_summary import summarize
@@ -74,7 +73,7 @@ def run_degraded(variant: Variant, recording: Recording, change: Degradation) ->
     start = Box(*(np.array(first) * change.scale).tolist())
     run = one_pass.run(variant.make(recording.inputs), _shown(frames, numbers, change), start)
     boxes = [scale_box(Box(*box), 1 / change.box) for box in (run.boxes / change.scale).tolist()]
-    return FrameResults.of(run, clip_to_image(np.array(boxes), opened), truth[numbers], absent[numbers])
+    return FrameResults.of(run, opened.clip(np.array(boxes)), truth[numbers], absent[numbers])
 
 
 def _shown(frames: Sequence[Frame], numbers: Iterable[int], change: Degradation) -> Iterator[Frame]:

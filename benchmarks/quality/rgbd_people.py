@@ -20,7 +20,6 @@ from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import metrics, one_pass
 from tricue.evaluation.dataset import Entry, OpenedSequence, ReadOptions, find_entries
-from tricue.evaluation.rows import clip_to_image
 
 from benchmarks.quality.common import sequences
 from benchmarks.quality.common.arguments import parser, seeds
@@ -85,7 +84,7 @@ def run(
     tracker = task.variant.make(inputs)
     box = jittered(Box(*opened.boxes[start].tolist()), seed)
     made = one_pass.run(tracker, frames, box, start)
-    overlaps = metrics.overlaps(clip_to_image(made.boxes, opened), opened.truth(count))[start:]
+    overlaps = metrics.overlaps(opened.clip(made.boxes), opened.truth(count))[start:]
     errors = metrics.position_errors(made.positions, opened.positions(count))[start:]
     known, errors = overlaps[~np.isnan(overlaps)], errors[~np.isnan(errors)]
     z_error = float(np.median(errors)) if errors.size else float("nan")

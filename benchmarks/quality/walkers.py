@@ -26,7 +26,6 @@ from tricue.camera.frame import Frame
 from tricue.evaluation import metrics, one_pass
 from tricue.evaluation.dataset import Entry, OpenedSequence, ReadOptions, find_entries
 from tricue.evaluation.protocols import Order
-from tricue.evaluation.rows import clip_to_image
 
 from benchmarks.quality.common import sequences
 from benchmarks.quality.common.arguments import parser, seeds
@@ -155,7 +154,7 @@ def run(
     truth, positions = opened.truth(len(covered))[numbers], opened.positions(len(covered))[numbers]
     tracker = task.variant.make(inputs, seed)
     made = one_pass.run(tracker, frames, jittered(Box(*truth[0].tolist()), seed))
-    overlaps = metrics.overlaps(clip_to_image(made.boxes, opened), truth)
+    overlaps = metrics.overlaps(opened.clip(made.boxes), truth)
     errors = metrics.position_errors(made.positions, positions)[1:]
     known, errors = overlaps[1:][~np.isnan(overlaps[1:])], errors[~np.isnan(errors)]
     after = [overlaps[i] for i in crossings(covered[numbers]) if not np.isnan(overlaps[i])]

@@ -15,7 +15,6 @@ from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import metrics
 from tricue.evaluation.dataset import OpenedSequence
-from tricue.evaluation.rows import clip_to_image
 from tricue.track.base.track import Status, Track
 
 from benchmarks.quality.common.confidence_summary import ON_TARGET_OVERLAP
@@ -115,4 +114,4 @@ def _tracked(tracks: Iterable[Track]) -> Flags:
 
 
 def _overlaps(tracks: Sequence[Track], truth: Array, opened: OpenedSequence) -> Array:
-    return metrics.overlaps(clip_to_image(np.array([track.box for track in tracks]), opened), truth)
+    return metrics.overlaps(opened.clip(np.array([track.box for track in tracks])), truth)

@@ -15,7 +15,6 @@ from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import one_pass
 from tricue.evaluation.protocols import Order, forward_times, jittered, orders
-from tricue.evaluation.rows import clip_to_image
 
 from benchmarks.quality.common.frame_results import FrameResults
 from benchmarks.quality.common.recordings import Recording
@@ -73,7 +72,7 @@ def run_order(
     first = Box(*truth[numbers[0]].tolist())
     box = jittered(first, opened.entry.name, draw) if draw else first
     run = one_pass.run(variant.make(recording.inputs), in_order(frames, numbers), box)
-    boxes = clip_to_image(run.boxes, opened)
+    boxes = opened.clip(run.boxes)
     return FrameResults.of(run, boxes, truth[numbers], absent[numbers], recording.depths[numbers])
 
 

@@ -95,7 +95,7 @@ def score_run(record: Record, opened: OpenedSequence) -> ScoredRun:
     run, since = record.run, slice(record.starts[0], None)
     numbers = record.numbers[since]
     frames = int(numbers.max()) + 1
-    boxes = clip_to_image(run.boxes, opened)[since]
+    boxes = opened.clip(run.boxes)[since]
     truth, absent = opened.truth(frames)[numbers], opened.absent(frames)[numbers]
     return ScoredRun(
         int(numbers[0]),
@@ -116,11 +116,6 @@ def without_truth(run: ScoredRun) -> ScoredRun:
     """The same run, with no frame counted."""
     unknown = {name: np.full_like(getattr(run, name), np.nan) for name in _OF_TRUTH}
     return dataclasses.replace(run, absent=np.zeros_like(run.absent), **unknown)
-
-
-def clip_to_image(boxes: Array, opened: OpenedSequence) -> Array:
-    """The boxes as they are compared with the truth: :meth:`OpenedSequence.clip`."""
-    return opened.clip(boxes)
 
 
 def make_row(
@@ -207,7 +202,7 @@ def over_sequences(rows: Iterable[Row]) -> dict[str, float]:
 
 def measure_robustness(record: Record, opened: OpenedSequence) -> restarts.Robustness:
     """The numbers of a run with restarts."""
-    boxes = clip_to_image(record.run.boxes, opened)
+    boxes = opened.clip(record.run.boxes)
     overlaps = metrics.overlaps(boxes, opened.truth(len(boxes)))
     return restarts.robustness(record, overlaps)
 
