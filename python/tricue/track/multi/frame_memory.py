@@ -10,7 +10,6 @@ import numpy as np
 
 from tricue.camera.shared_frame import SharedFrame
 
-IMAGES = ("color", "depth", "right")
 ALIGNMENT = 64  # bytes, of an image's first pixel
 
 
@@ -29,11 +28,10 @@ class Layout(NamedTuple):
     def of(cls, frame: SharedFrame) -> "Layout":
         """The layout with the images in sequence."""
         images, end = [], 0
-        for name in IMAGES:
+        for name in frame.channels:
             image = getattr(frame, name)
-            if image is not None:
-                images.append((name, image.dtype.str, image.shape, end))
-                end += -(-image.nbytes // ALIGNMENT) * ALIGNMENT
+            images.append((name, image.dtype.str, image.shape, end))
+            end += -(-image.nbytes // ALIGNMENT) * ALIGNMENT
         return cls(tuple(images), end, {"timestamp": frame.timestamp, "pose": frame.pose})
 
 
