@@ -18,7 +18,7 @@ from tricue.track.fused.memory import (
     Memory,
     limit_log_odds,
 )
-from tricue.track.fused.search import search_local
+from tricue.track.fused.search import search_last_place
 from tricue.track.fused.state import State
 from tricue.track.fused.target import Target
 
@@ -66,7 +66,7 @@ def model_of(tracker: FusedTracker) -> TargetModel:
 def match_of(tracker: FusedTracker, frame: Frame) -> Match:
     """What it finds around the target's place."""
     observation = tracker._observe(frame, None).for_target(tracker._k, None)
-    return search_local(model_of(tracker), observation, TARGET, None)
+    return search_last_place(model_of(tracker), observation, TARGET)
 
 
 def in_doubt(match: Match) -> Match:

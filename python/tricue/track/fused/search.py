@@ -13,28 +13,36 @@ NEIGHBORS = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]  # in hal
 
 
 def search_local(
-    model: TargetModel, observation: TargetObservation, last: Target, mean_response: float | None
+    model: TargetModel, observation: TargetObservation, last: Target, mean_response: float
 ) -> Match:
-    """Search where the target should be, and if the filter responds weakly there, beside it, too.
+    """Search where a followed target should be, and if the filter responds weakly there, beside it, too.
 
-    mean_response: of the filter on the target; None for a missed target, which is searched for in the whole
-    frame anyway.
+    mean_response: of the filter on the target.
     """
     p = model.params
     window = extract_window(observation, last, p.context)
     candidate = localize(model, window)
-    if mean_response is not None and candidate.response < p.min_response_share * mean_response:
+    if candidate.response < p.min_response_share * mean_response:
         neighbors = _neighboring_windows(observation, last, p.context)
         candidates = [_localize_beside(model, each, last) for each in neighbors]
         candidate = max([candidate, *candidates], key=lambda each: each.evidence)
+    continuity = depth_continuity(candidate.window, candidate.right, candidate.down)
+    return _measured(model, candidate, window, p.depth_continuity_weight * continuity)
+
+
+def search_last_place(model: TargetModel, observation: TargetObservation, last: Target) -> Match:
+    """Search for a missed target where it was; the search of the whole frame looks for it elsewhere."""
+    window = extract_window(observation, last, model.params.context)
+    return _measured(model, localize(model, window), window, 0.0)
+
+
+def _measured(model: TargetModel, candidate: Candidate, last: Window, bonus: float) -> Match:
+    """A candidate measured, with a bonus of log-odds; last: the window in which the target was last."""
     match = measure_candidate(model, candidate)
-    log_odds = match.log_odds
-    if mean_response is not None:
-        continuity = depth_continuity(candidate.window, candidate.right, candidate.down)
-        log_odds += p.depth_continuity_weight * continuity
-    if observation.kind == "color":
+    log_odds = match.log_odds + bonus
+    if match.observation.kind == "color":
         log_odds = in_any_light(log_odds, match.structure_log_odds)
-    return match._replace(log_odds=log_odds, covered=max(match.covered, covered_share(window)))
+    return match._replace(log_odds=log_odds, covered=max(match.covered, covered_share(last)))
 
 
 def _localize_beside(model: TargetModel, window: Window, last: Target) -> Candidate:

@@ -29,7 +29,7 @@ from tricue.track.fused.params import FusedParams
 from tricue.track.fused.position_filter import lateral_variances
 from tricue.track.fused.proposals import LostTarget
 from tricue.track.fused.redetect import redetect
-from tricue.track.fused.search import search_local
+from tricue.track.fused.search import search_last_place, search_local
 from tricue.track.fused.state import State
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
@@ -162,7 +162,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         model = _target_model(state, state.models[observation.kind], p)
         if state.is_followed(p):
             return search_local(model, observation, state.target, state.mean_response)
-        local = search_local(model, observation, state.target, None)
+        local = search_last_place(model, observation, state.target)
         last = state.target.scale(state.recognized_side / state.target.side)
         lost = LostTarget(last, state.position, state.missed_frames, state.frames)
         return redetect(model, observation, lost, local, state.clutter.min_log_odds(p))
