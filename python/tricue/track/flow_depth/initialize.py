@@ -6,8 +6,8 @@ import numpy as np
 from tricue.camera.box import Box
 from tricue.errors import NoDepthInBoxError
 from tricue.kernels import Kernels
-from tricue.track.base.validation import CueInput
 from tricue.track.flow_depth.blocks import Blocks
+from tricue.track.flow_depth.cue_input import CueInput
 from tricue.track.flow_depth.disparity_geometry import DisparityGeometry
 from tricue.track.flow_depth.initial_disparity import find_initial_disparity
 from tricue.track.flow_depth.outline import PixelOutline

@@ -20,6 +20,7 @@ from tricue.track.base.tracker import TrackerBase
 from tricue.track.base.traits import Channels, Traits
 from tricue.track.flow_depth.blocks import OCCLUDED_BLOCK, TARGET_BLOCK
 from tricue.track.flow_depth.complete_occlusion import disparity_in_window, is_back, is_occluded
+from tricue.track.flow_depth.cue_input import require_cue_channels
 from tricue.track.flow_depth.cues import Cues, measure
 from tricue.track.flow_depth.disparity_geometry import DisparityGeometry
 from tricue.track.flow_depth.initialize import initialize
@@ -89,7 +90,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         its pixels share no disparity or depth. Warns (UserWarning) if left and right seem to be swapped, or
         not rectified.
         """
-        checked = validation.require_cue_channels(frame, self.params.cues)
+        checked = require_cue_channels(frame, self.params.cues)
         target = validation.initial_box(box, checked.image.shape)
         by_pair = "disparity" in self.params.cues and _has_pair_alone(checked.frame)
         if by_pair and not self.params.vergence:  # a verged pair's right image isn't rotated back yet
@@ -106,7 +107,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         RuntimeError before ``init``. An error leaves the tracker as it was.
         """
         before = validation.require_initialized(self._state)
-        checked = validation.require_cue_channels(frame, self.params.cues, before.shape)
+        checked = require_cue_channels(frame, self.params.cues, before.shape)
         seconds = validation.elapsed(before.timestamp, checked.frame.timestamp, self.params.rate)
         state = _predict(before, self.params)
         expected = before.occluder_disparity if _waits(before) else before.disparity
