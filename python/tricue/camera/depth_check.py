@@ -114,10 +114,10 @@ def check_depth(color: NDArray[np.uint8], depth: Plane) -> DepthCheck:
     return DepthCheck(count, width, (best_of(np.flatnonzero(SCALES == 1)), best_of(np.arange(len(SCALES)))))
 
 
-def warn_of_depth(frame: Frame, stacklevel: int = 2) -> DepthCheck:
+def warn_of_depth(frame: Frame) -> DepthCheck:
     """Check a frame's depth against its color, warn (UserWarning) of a problem, and return the check.
 
-    stacklevel: as in warnings.warn, counted from the caller: 2 is the line that calls the caller.
+    The warning names the line that calls the caller.
     ValueError for a frame without color or depth.
     """
     frame.require("color", "depth")
@@ -125,7 +125,7 @@ def warn_of_depth(frame: Frame, stacklevel: int = 2) -> DepthCheck:
     assert frame.depth is not None
     check = check_depth(frame.color, frame.depth)
     if check.problem:
-        warn_of_frame(messages_of(frame), f"depth: {check.problem}", stacklevel + 1)
+        warn_of_frame(messages_of(frame), f"depth: {check.problem}", stacklevel=3)
     return check
 
 

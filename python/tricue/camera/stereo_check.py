@@ -70,10 +70,10 @@ def check_stereo(left: NDArray[np.uint8], right: NDArray[np.uint8]) -> StereoChe
     )
 
 
-def warn_of_stereo(frame: Frame, stacklevel: int = 2) -> StereoCheck:
+def warn_of_stereo(frame: Frame) -> StereoCheck:
     """Check a frame's stereo pair, warn (UserWarning) of a problem, and return the check.
 
-    stacklevel: as in warnings.warn, counted from the caller: 2 is the line that calls the caller.
+    The warning names the line that calls the caller.
     ValueError for a frame without a stereo pair.
     """
     frame.require("color", "right")
@@ -81,7 +81,7 @@ def warn_of_stereo(frame: Frame, stacklevel: int = 2) -> StereoCheck:
     assert frame.right is not None
     check = check_stereo(frame.color, frame.right)
     if check.problem:
-        warn_of_frame(messages_of(frame), f"right: {check.problem}", stacklevel + 1)
+        warn_of_frame(messages_of(frame), f"right: {check.problem}", stacklevel=3)
     return check
 
 

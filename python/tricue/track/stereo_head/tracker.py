@@ -92,7 +92,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         head = validation.check_box_in(given, left.shape)
         if max(head.width, head.height) > MAX_BOX_SIDE:
             raise BoxError(f"box: expected a head of at most {MAX_BOX_SIDE} pixels, got {tuple(head)}")
-        warn_of_stereo(as_frame(frame), stacklevel=2)
+        warn_of_stereo(as_frame(frame))
         pair = PreparedPair.of(self._k, left, right, None, self.params)
         first_mean = pair.mean if self.params.compensate_light else None
         first = self._measure_first(pair, geometry, head)
