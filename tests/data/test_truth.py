@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-from tricue.data.truth import OTB_TRUTH, VOT_TRUTH, find_truth, otb_targets, read_true_boxes
+from tricue.data.truth import OTB_TRUTH, VOT_TRUTH, find_truth, otb_targets, read_truth_file
 
 
 def read(folder: Path, name: str, text: str) -> NDArray[np.float64]:
     """The boxes of a file with this name and text."""
     (folder / name).write_text(text)
-    return read_true_boxes(folder / name)
+    return read_truth_file(folder / name).boxes
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from tricue.camera.read_calibration import read_rig
 from tricue.camera.rig import StereoRig
 from tricue.data import kitti
 from tricue.data.open_source import Source, open_source
-from tricue.data.truth import read_true_boxes
+from tricue.data.truth import read_truth_file
 
 RIGHT, CALIBRATION = "groundtruth_right.txt", "calibration.yml"
 KITTI_RATE = 10.0  # frames/s of its cameras (Geiger et al. 2013), not in its folders
@@ -65,7 +65,7 @@ def _single_target(source: Source, folder: Path, unit: float) -> StereoSequence:
     frames = tuple(source)
     if source.truth is None:
         raise ValueError(f"{folder}: expected true boxes of the left images")
-    left, right = source.truth, read_true_boxes(folder / RIGHT)
+    left, right = source.truth, read_truth_file(folder / RIGHT).boxes
     if len(left) != len(frames) or len(right) != len(frames):
         raise ValueError(f"{folder}: expected {len(frames)} true boxes, got {len(left)} and {len(right)}")
     disparities = (left[:, 0] + left[:, 2] / 2) - (right[:, 0] + right[:, 2] / 2)

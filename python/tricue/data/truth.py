@@ -39,13 +39,13 @@ class Truth(NamedTuple):
     positions: NDArray[np.float64] | None = None
 
 
-def truth_from_rows(boxes: ArrayLike, positions: NDArray[np.float64] | None = None) -> Truth:
+def truth_from_rows(boxes: ArrayLike) -> Truth:
     """The truth from the rows (M, 4) of a file: a row with NaN, or a width or height of 0, means absent."""
     rows = np.array(boxes, np.float64).reshape(-1, 4)
     there = np.isfinite(rows).all(axis=1) & (rows[:, 2:] > 0).all(axis=1)
     absent: NDArray[np.bool_] = np.logical_not(there)
     rows[absent] = np.nan
-    return Truth(rows, absent, positions)
+    return Truth(rows, absent)
 
 
 def find_truth(folder: Path, target: str | None = None) -> Truth | None:
@@ -100,11 +100,6 @@ def add_tags_and_depths(truth: Truth, folder: Path, rows: int = 0) -> Truth:
         unknown = np.full(len(depths), np.nan)
         truth = truth._replace(positions=np.stack([unknown, unknown, depths], axis=1))
     return truth
-
-
-def read_true_boxes(path: Path, count: int | None = None) -> NDArray[np.float64]:
-    """Only the boxes (M, 4) of :func:`read_truth_file`."""
-    return read_truth_file(path, count).boxes
 
 
 def read_truth_file(path: Path, count: int | None = None) -> Truth:

@@ -24,6 +24,7 @@ NAMES = (
     *("CSRT", "KCF", "KCF-0.1", "MIL", "MOSSE", "MedianFlow"),  # of cv2, if the installed version has them
     *("CamShift", "meanShift", "script-pf", "still-box"),
 )
+SCRIPT_PARTICLES = 100
 CONTRIB = "opencv-contrib-python-headless"  # the package whose cv2 has all of them
 _IN_CONTRIB = ("CSRT", "KCF", "KCF-0.1", "MIL", "MOSSE", "MedianFlow", "Boosting", "TLD")
 Maker = Callable[[int], AnyTracker]
@@ -91,13 +92,13 @@ class HueShift:
 class ScriptedParticleFilter:
     """A particle filter that a user may write in twenty lines: cv2's HS histograms, the rest in NumPy."""
 
-    def __init__(self, seed: int = 0, particles: int = 100) -> None:
-        self._rng, self._count = np.random.default_rng(seed), particles
+    def __init__(self, seed: int = 0) -> None:
+        self._rng = np.random.default_rng(seed)
 
     def init(self, frame: Frame, box: Box) -> Track:
         self._size = np.array(box[2:])
         self._model = self._histogram(cv2.cvtColor(bgr(frame), cv2.COLOR_BGR2HSV), box)
-        self._states = np.tile([*box.center, 1.0], (self._count, 1))  # x, y, scale
+        self._states = np.tile([*box.center, 1.0], (SCRIPT_PARTICLES, 1))  # x, y, scale
         return Track(box, 1.0, Status.TRACKED)
 
     def update(self, frame: Frame) -> Track:
@@ -111,7 +112,7 @@ class ScriptedParticleFilter:
         weights = np.exp(-20 * distances**2)
         weights /= weights.sum()
         box = self._box(weights @ self._states)
-        self._states = self._states[self._rng.choice(self._count, self._count, p=weights)]
+        self._states = self._states[self._rng.choice(SCRIPT_PARTICLES, SCRIPT_PARTICLES, p=weights)]
         return Track(box, float(1 - weights @ distances), Status.TRACKED)
 
     def _box(self, state: NDArray[np.float64]) -> Box:

@@ -10,14 +10,12 @@ from tricue.evaluation.tasks import Task
 class RemainingTime:
     """Estimates the remaining time; a task's weight is its share of the work."""
 
-    def __init__(
-        self, weight: Callable[[Task], float], tasks: Sequence[Task], clock: Callable[[], float] = monotonic
-    ) -> None:
-        self._weight, self._clock = weight, clock
+    def __init__(self, weight: Callable[[Task], float], tasks: Sequence[Task]) -> None:
+        self._weight = weight
         self._total, self._done = sum(map(weight, tasks)), 0.0
-        self._start = clock()
+        self._start = monotonic()
 
     def update(self, task: Task) -> float:
         """Count a task as done; return the estimated remaining seconds."""
         self._done += self._weight(task)
-        return (self._clock() - self._start) * (self._total - self._done) / self._done
+        return (monotonic() - self._start) * (self._total - self._done) / self._done

@@ -31,11 +31,6 @@ class Rates(NamedTuple):
     true_negative: float
     """Share of the absent frames reported as absent."""
 
-    @property
-    def geometric_mean(self) -> float:
-        """The geometric mean of both, OxUvA's single number for a tracker."""
-        return float(np.sqrt(self.true_positive * self.true_negative))
-
 
 class Frames(NamedTuple):
     """A sequence as the VOT toolkit counts it: arrays with one value per frame."""
@@ -108,14 +103,14 @@ def vot_frames(boxes: ArrayLike, truth: ArrayLike, scores: ArrayLike, absent: Ar
     return Frames(overlap[known], score[known], ~gone[known])
 
 
-def precision_recall(sequences: Sequence[Frames], resolution: int = RESOLUTION) -> PrecisionRecall:
+def precision_recall(sequences: Sequence[Frames]) -> PrecisionRecall:
     """The tracker's curve: the mean of the sequences' curves, with one set of thresholds for all.
 
     ValueError for a sequence without a visible frame, whose recall isn't defined.
     """
     if not sequences:
         raise ValueError("sequences: expected one or more, got none")
-    limits = thresholds(np.concatenate([each.scores for each in sequences]), resolution)
+    limits = thresholds(np.concatenate([each.scores for each in sequences]))
     curves = [_curve(*each, limits, index) for index, each in enumerate(sequences)]
     precision, recall = np.mean(curves, axis=0)
     return PrecisionRecall(limits, precision, recall)

@@ -20,16 +20,17 @@ def serve_camera(
     browser: bool = True,
     tracker: str = "",
     seed: int = 0,
-    folder: Path | None = None,
     say: Callable[[str], None] = print,
 ) -> None:
     """Serve a camera until Ctrl-C. The page is served at once, even before the camera is open.
 
+    Recordings go to the working folder, if it can be written to.
+
     open_: opens it, in a thread. name: shown in the page. port: None for the default one, or a free one if
-    that is in use. tracker: the default for new targets. folder: for recordings, None for the working folder.
-    say: gets the lines for the user. OSError if the port is in use.
+    that is in use. tracker: the default for new targets. say: gets the lines for the user. OSError if the
+    port is in use.
     """
-    place = Path.cwd() if folder is None else folder
+    place = Path.cwd()
     if not os.access(place, os.W_OK):
         place = data_folder()
     with closing(LiveSession(open_, name, place, seed, say)) as session:

@@ -23,6 +23,7 @@ SKIN_TONES = np.array(
 HAIR_TONES = np.array(
     [[22, 22, 26], [36, 48, 66], [44, 66, 100], [92, 140, 180], [40, 74, 140], [140, 142, 148]], float
 )
+MIN_LEVEL_SIDE = 4  # texels, of a pyramid's level
 HEAD_TEXTURE_SHAPE = (256, 512)  # rows of latitude, columns of longitude
 PLAIN_SURFACE, WOOD_SURFACE, STRIPED_SURFACE, BLOTCHED_SURFACE, CLUTTERED_SURFACE = SURFACE_KINDS = (
     "plain",
@@ -209,10 +210,10 @@ def random_color(rng: np.random.Generator) -> NDArray[np.float64]:
     return np.asarray(level * (1 + 0.9 * vivid * (wave - 1) / 2))
 
 
-def build_pyramid(texture: Picture, smallest: int = 4) -> list[Picture]:
-    """An image pyramid of a texture, whose levels halve in size. smallest: the least side, in texels."""
+def build_pyramid(texture: Picture) -> list[Picture]:
+    """An image pyramid of a texture, whose levels halve in size."""
     levels = [texture]
-    while min(levels[-1].shape[:2]) >= 2 * smallest:
+    while min(levels[-1].shape[:2]) >= 2 * MIN_LEVEL_SIDE:
         height, width = levels[-1].shape[:2]
         levels.append(imgproc.resize(levels[-1], height // 2, width // 2, "area"))
     return levels
