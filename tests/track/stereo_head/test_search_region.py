@@ -138,7 +138,7 @@ def test_disparities_of_a_region_are_those_of_the_whole_images(shape, limits, el
         (width + 5, height + 5, width + 9, height + 12),
         (-40, -30, -20, -10),
     ):
-        found = pair.disparities(K, region, ellipse, limits, cells, P)
+        found = pair.disparities(K, region, limits, P, ellipse=ellipse, cells=cells)
         expected = K.sad_disparity(*whole, region, ellipse, *limits, window, P.uniqueness, P.prefilter)
         np.testing.assert_array_equal(found, expected)
 

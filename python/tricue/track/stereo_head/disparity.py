@@ -82,7 +82,7 @@ def _match(
 ) -> tuple[Disparities, float]:
     """The disparities (N,) found in an ellipse without its margin, and that ellipse's number of pixels."""
     region, area = _inner_region(ellipse, pair.pixel_window(p), p)
-    disparities = pair.disparities(k, region, True, limits, False, p)
+    disparities = pair.disparities(k, region, limits, p, ellipse=True, cells=False)
     matched = disparities[np.isfinite(disparities)]
     if not p.subpixel:
         matched = np.ceil(matched - np.float32(0.5))  # of two equal costs the smaller disparity, as in (3)

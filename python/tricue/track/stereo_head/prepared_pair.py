@@ -70,7 +70,7 @@ class PreparedPair(NamedTuple):
         return k.color_bins(self.left, pixels, p.bins, p.max_chroma, step * stride, gains)
 
     def disparities(
-        self, k: Kernels, region: Region, ellipse: bool, limits: Limits, cells: bool, p: StereoHeadParams
+        self, k: Kernels, region: Region, limits: Limits, p: StereoHeadParams, *, ellipse: bool, cells: bool
     ) -> Disparities:
         """The ``sad_disparity`` in a region of cells, or of pixels, or in the ellipse inscribed in it."""
         side = self.step if cells else 1

@@ -97,5 +97,6 @@ def _match_cells(
     """The disparity of each searched cell, in cells, within the head's possible range."""
     height, width = pair.shape
     first, last = limits_between(geometry, *head.distances(p), pair.step)
-    disparities = pair.disparities(k, (0, 0, width, height), False, (first - 1, last + 1), True, p)
+    region, limits = (0, 0, width, height), (first - 1, last + 1)
+    disparities = pair.disparities(k, region, limits, p, ellipse=False, cells=True)
     return disparities[CELL_STRIDE // 2 :: CELL_STRIDE, CELL_STRIDE // 2 :: CELL_STRIDE]
