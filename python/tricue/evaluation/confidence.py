@@ -11,6 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tricue.evaluation.metrics import as_flags, share
+
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
@@ -45,7 +47,7 @@ def lost(overlaps: ArrayLike, absent: ArrayLike | None = None, threshold: float 
     """Which frames have an overlap below the threshold or no target: (M,) bool from (M,) and (M,) bool."""
     overlap = np.asarray(overlaps, dtype=np.float64)
     below: Flags = overlap < threshold
-    return below if absent is None else below | _flags(absent, "absent", overlap.shape)
+    return below if absent is None else below | as_flags(absent, "absent", overlap.shape)
 
 
 def auroc(overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None = None) -> float:
@@ -70,8 +72,8 @@ def tracked(overlaps: ArrayLike, reported_present: ArrayLike, absent: ArrayLike 
     truth, NaN without any.
     """
     overlap = np.asarray(overlaps, dtype=np.float64)
-    present = _flags(reported_present, "reported_present", overlap.shape)
-    return _share(present[_known(overlap, lost(overlap, absent))])
+    present = as_flags(reported_present, "reported_present", overlap.shape)
+    return share(present[_known(overlap, lost(overlap, absent))])
 
 
 def tracked_while_lost(
@@ -79,9 +81,9 @@ def tracked_while_lost(
 ) -> FalselyTracked:
     """How often a tracker reported the target as present, (M,) bool, in lost frames."""
     overlap = np.asarray(overlaps, dtype=np.float64)
-    present = _flags(reported_present, "reported_present", overlap.shape)
+    present = as_flags(reported_present, "reported_present", overlap.shape)
     bad = lost(overlap, absent)
-    return FalselyTracked(_share(present[bad]), _share((present & bad)[_known(overlap, bad)]))
+    return FalselyTracked(share(present[bad]), share((present & bad)[_known(overlap, bad)]))
 
 
 def reliability(
@@ -116,7 +118,7 @@ def _frames(overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None) ->
         raise ValueError(f"overlaps: expected an array of shape (M,), got {overlap.shape}")
     if score.shape != overlap.shape:
         raise ValueError(f"scores: expected an array of shape {overlap.shape}, got {score.shape}")
-    gone = np.zeros(overlap.shape, bool) if absent is None else _flags(absent, "absent", overlap.shape)
+    gone = np.zeros(overlap.shape, bool) if absent is None else as_flags(absent, "absent", overlap.shape)
     known = _known(overlap, gone)
     return overlap[known], score[known], gone[known]
 
@@ -133,14 +135,3 @@ def _ranks(values: Array) -> Array:
     last = np.cumsum(counts)
     ranks: Array = (last - (counts - 1) / 2)[group]
     return ranks
-
-
-def _share(flags: Flags) -> float:
-    return float(flags.mean()) if flags.size else float("nan")
-
-
-def _flags(value: ArrayLike, name: str, shape: tuple[int, ...]) -> Flags:
-    array = np.asarray(value)
-    if array.dtype != np.bool_ or array.shape != shape:
-        raise ValueError(f"{name}: expected bool of shape {shape}, got {array.dtype} of shape {array.shape}")
-    return array

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tricue.evaluation.metrics import overlaps
+from tricue.evaluation.metrics import as_flags, overlaps, share
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -79,11 +79,11 @@ def rates(boxes: ArrayLike, truth: ArrayLike, reported_present: ArrayLike, absen
     """
     overlap = overlaps(boxes, truth)
     present, gone = (
-        _flags(reported_present, "reported_present", len(overlap)),
-        _flags(absent, "absent", len(overlap)),
+        as_flags(reported_present, "reported_present", overlap.shape),
+        as_flags(absent, "absent", overlap.shape),
     )
     known = ~gone & ~np.isnan(overlap)
-    return Rates(_share((present & (overlap >= FOUND_OVERLAP))[known]), _share(~present[gone]))
+    return Rates(share((present & (overlap >= FOUND_OVERLAP))[known]), share(~present[gone]))
 
 
 def vot_frames(boxes: ArrayLike, truth: ArrayLike, scores: ArrayLike, absent: ArrayLike) -> Frames:
@@ -95,7 +95,7 @@ def vot_frames(boxes: ArrayLike, truth: ArrayLike, scores: ArrayLike, absent: Ar
     """
     overlap = overlaps(boxes, truth)
     score = _values(scores, "scores", len(overlap)).copy()
-    gone = _flags(absent, "absent", len(overlap))
+    gone = as_flags(absent, "absent", overlap.shape)
     known = gone | ~np.isnan(overlap)
     no_box = np.isnan(np.asarray(boxes, dtype=np.float64)).any(axis=1)
     overlap = np.where(gone, no_box.astype(np.float64), overlap)
@@ -140,19 +140,6 @@ def _curve(overlap: Array, scores: Array, visible: Flags, limits: Array, index: 
     given = scores >= limits[:, None]
     count, total = given.sum(axis=1), given @ overlap
     return np.where(count > 0, total / np.maximum(count, 1), 1.0), total / visible.sum()
-
-
-def _share(flags: Flags) -> float:
-    return float(flags.mean()) if flags.size else float("nan")
-
-
-def _flags(value: ArrayLike, name: str, count: int) -> Flags:
-    array = np.asarray(value)
-    if array.dtype != np.bool_ or array.shape != (count,):
-        raise ValueError(
-            f"{name}: expected bool of shape ({count},), got {array.dtype} of shape {array.shape}"
-        )
-    return array
 
 
 def _values(value: ArrayLike, name: str, count: int) -> Array:

@@ -122,6 +122,19 @@ def _share(values: Array, holds: Callable[[Array], NDArray[np.bool_]]) -> Array:
     return passed.mean(axis=1) if known.size else np.full(passed.shape[0], np.nan)
 
 
+def share(flags: NDArray[np.bool_]) -> float:
+    """The share of the flags that are set; NaN without any."""
+    return float(flags.mean()) if flags.size else float("nan")
+
+
+def as_flags(value: ArrayLike, name: str, shape: tuple[int, ...]) -> NDArray[np.bool_]:
+    """An array of flags of that shape; ValueError for anything else."""
+    array = np.asarray(value)
+    if array.dtype != np.bool_ or array.shape != shape:
+        raise ValueError(f"{name}: expected bool of shape {shape}, got {array.dtype} of shape {array.shape}")
+    return array
+
+
 def _missing(values: Array, found: Array, true: Array, miss: float) -> Array:
     values[np.isnan(found).any(axis=1)] = miss
     values[np.isnan(true).any(axis=1)] = np.nan
