@@ -150,3 +150,23 @@ def test_memory_blends_the_densities(kernels):
     np.testing.assert_array_equal(
         model_of(kernels, wider, before=before, density_memory=0).densities, alone.densities
     )
+
+
+@pytest.mark.parametrize("scale", [0.3, 1 / 0.3])
+def test_memory_keeps_disparities(scale, kernels):
+    """The density before, of a stereo pair, stays at its disparities and as wide when a depth camera's frame
+    comes next, whose bins have another width; and the other way round.
+    """
+    expected = [*EXPECTED[:2], ExpectedPeak(11.5, 100, 6 * scale)]
+    other = CUES._replace(disparity_scale=scale)
+    before = model_of(kernels)
+    after = model_of(kernels, other, expected, before=before, density_memory=0.99)
+    assert mean_and_deviation(after) == pytest.approx(mean_and_deviation(before), abs=0.1)
+
+
+def mean_and_deviation(model: TargetModel) -> tuple[float, float]:
+    """Those of the disparity's density, cells."""
+    (low, high), density = model.ranges[2], model.densities[2]
+    middles = low + (np.arange(P.bins) + 0.5) * (high - low) / P.bins
+    mean = float(middles @ density)
+    return mean, float(np.sqrt((middles - mean) ** 2 @ density))

@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from tricue import Box, FlowDepthTracker, Frame, Status, Track
-from tricue.scenes import WalkScene
+from tricue.scenes import StressScene, WalkScene, stress_scene
 
 CAMERAS = {"pair": {}, "depth camera": {"depth": True}}
 LATE, BACK = 4, 8  # frames until an occlusion is detected, and until the target is TRACKED again
@@ -17,7 +17,7 @@ LATE, BACK = 4, 8  # frames until an occlusion is detected, and until the target
 Run = tuple[WalkScene, list[Track], list[np.ndarray]]
 
 
-def run_of(scene: WalkScene, frames: tuple[Frame, ...] | list[Frame], **parameters) -> Run:
+def run_of(scene: WalkScene | StressScene, frames: tuple[Frame, ...] | list[Frame], **parameters) -> Run:
     """The tracks and masks of a scene's frames."""
     tracker = FlowDepthTracker(**{"rig": scene.rig, **parameters})
     tracks, masks = [tracker.init(frames[0], scene.boxes[0])], [tracker.mask]
@@ -112,6 +112,18 @@ def test_the_mask_is_on_the_target(camera, right, whole, ran):
     hits = np.array([np.count_nonzero((masks[i] > 0) & scene.masks[i]) for i in frames])
     assert np.median(hits / [max(np.count_nonzero(masks[i]), 1) for i in frames]) > right
     assert np.median(hits / [scene.masks[i].sum() for i in frames]) > whole
+
+
+@pytest.mark.parametrize("first", [0, 1])
+def test_pairs_and_depth_images_may_take_turns(first, rendered):
+    """A target in changing light is followed to the end by stereo pairs and depth images in turn."""
+    pairs, depth = (
+        rendered(stress_scene, "light", 2, (160, 120), channels=channels) for channels in ("stereo", "rgbd")
+    )
+    frames = [(pairs, depth)[(i + first) % 2].frames[i] for i in range(len(pairs.frames))]
+    _, tracks, _ = run_of(pairs, frames)
+    assert {track.status for track in tracks} == {Status.TRACKED}
+    assert min(track.box.iou(Box(*box)) for track, box in zip(tracks, pairs.boxes, strict=True)) > 0.5
 
 
 def test_blocks_are_hidden_as_the_target_is(overtaken: WalkScene):

@@ -9,20 +9,20 @@ from tricue.track.flow_depth.state import FlowDepthState
 from tricue.track.flow_depth.verify import Verdict, disparity_limits, estimate
 
 
-def is_occluded(k: Kernels, state: FlowDepthState, verdict: Verdict, p: FlowDepthParams) -> bool:
+def is_occluded(k: Kernels, state: FlowDepthState, cues: Cues, verdict: Verdict, p: FlowDepthParams) -> bool:
     """Whether the target is completely occluded in this frame.
 
     It is if its disparity has become much larger, and if it has too few pixels and an occluded block.
     """
-    if verdict.disparity > disparity_limits(state, state.disparity, p).occluder:
+    if verdict.disparity > disparity_limits(state, state.disparity, cues.disparity_scale, p).occluder:
         return True
     blocks = state.blocks.voted(k, verdict.observed, verdict.limits, p)
     return not verdict.has_pixels(state, p.min_pixels) and bool((blocks.states == OCCLUDED_BLOCK).any())
 
 
-def is_back(state: FlowDepthState, disparity: float, p: FlowDepthParams) -> bool:
+def is_back(state: FlowDepthState, disparity: float, cues: Cues, p: FlowDepthParams) -> bool:
     """Whether the disparity in the window is much smaller than in the frame before: the occluder is gone."""
-    return state.occluder_disparity > disparity_limits(state, disparity, p).occluder
+    return state.occluder_disparity > disparity_limits(state, disparity, cues.disparity_scale, p).occluder
 
 
 def disparity_in_window(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) -> float:

@@ -24,12 +24,14 @@ class CueMap(NamedTuple):
 class Cues(NamedTuple):
     """The observations of a region's cells: flow u, v, cells per frame, and disparity d, cells.
 
-    A cue that isn't used is None.
+    A cue that isn't used is None. disparity_scale: cells in parameters that are lengths in disparity, by what
+    this frame measured it with.
     """
 
     region: Region
     flow: tuple[CueMap, CueMap] | None
     disparity: CueMap | None
+    disparity_scale: float = 1.0
 
     @property
     def maps(self) -> tuple[CueMap, ...]:
@@ -61,7 +63,7 @@ def measure(
         flow = _measure_flow(k, before, now, region, p)
     if "disparity" in p.cues:
         disparity = _measure_disparity(k, now, region, expected, p)
-    return Cues(region, flow, disparity)
+    return Cues(region, flow, disparity, now.disparity_scale(p))
 
 
 def _measure_flow(

@@ -74,15 +74,15 @@ def _learn_unoccluded(
     counts = np.bincount(states, minlength=OCCLUDED_BLOCK + 1).tolist()
     occluded = counts[OCCLUDED_BLOCK] / max(counts[TARGET_BLOCK] + counts[OCCLUDED_BLOCK], 1)
     if occluded <= MAX_OCCLUDED_FOR_OUTLINE and cues.disparity is not None:
-        blocks, (disparity, tolerance, _) = state.blocks, disparity_limits(state, state.disparity, p)
+        blocks, limits = state.blocks, disparity_limits(state, state.disparity, cues.disparity_scale, p)
         box, count = k.target_outline(
             verdict.pixels,
             cues.disparity.values,
             blocks.corners,
             blocks.place_in(cues.region),
             states,
-            disparity,
-            tolerance,
+            limits.target,
+            limits.tolerance,
         )
         if count:
             outline = outline.learned(moved(box, *cues.region[:2]), blocks)

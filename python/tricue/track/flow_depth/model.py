@@ -16,6 +16,8 @@ from tricue.track.flow_depth.rectangles import Rectangle, moved
 Floats = NDArray[np.float64]
 Range = tuple[float, float]
 
+MIN_DENSITY_SUM = 1e-300  # keeps a density of zeros from a division by 0
+
 
 class ExpectedPeak(NamedTuple):
     """The expected peak of one observation's histogram.
@@ -32,13 +34,22 @@ class TargetModel(NamedTuple):
     """Two densities, their range, and the target's peak, for each of the K used observations of u, v, d.
 
     densities: (K, bins) of the target, with sum 1. alternatives: (K, bins) of its surround. ranges: of the
-    histograms. peaks: the representative velocity or disparity.
+    histograms. peaks: the representative velocity or disparity. disparity_scale: of the cues.
     """
 
     densities: Floats
     alternatives: Floats
     ranges: tuple[Range, ...]
     peaks: tuple[float, ...]
+    disparity_scale: float
+
+    def with_disparity_range(self, new: Range) -> "TargetModel":
+        """The model with the disparity's density, the last one, in the bins of another range."""
+        *flow, density = self.densities
+        middles, old_middles = (_bin_middles(each, len(density)) for each in (new, self.ranges[-1]))
+        density = np.interp(middles, old_middles, density, left=0.0, right=0.0)
+        densities = np.array([*flow, density / max(density.sum(), MIN_DENSITY_SUM)])
+        return self._replace(densities=densities, ranges=(*self.ranges[:-1], new))
 
 
 def estimate_model(
@@ -58,6 +69,9 @@ def estimate_model(
     """
     x, y = cues.region[:2]
     mine = blocks and (blocks.corners, blocks.place_in(cues.region), blocks.states, blocks.trusted)
+    ranges = tuple((value - half_range, value + half_range) for value, _, half_range in expected)
+    if before and before.disparity_scale != cues.disparity_scale:  # of the other kind: bins differ in width
+        before = before.with_disparity_range(ranges[-1])
     former = before and (before.densities, [low for low, _ in before.ranges], before.peaks)
     densities, alternatives, peaks = k.target_model(
         cues.maps,
@@ -68,5 +82,9 @@ def estimate_model(
         former,
         (p.bins, p.smoothing, p.min_prominence, p.density_memory, p.surround_weight),
     )
-    ranges = tuple((value - half_range, value + half_range) for value, _, half_range in expected)
-    return TargetModel(densities, alternatives, ranges, tuple(peaks.tolist()))
+    return TargetModel(densities, alternatives, ranges, tuple(peaks.tolist()), cues.disparity_scale)
+
+
+def _bin_middles(ends: Range, bins: int) -> Floats:
+    low, high = ends
+    return np.asarray(low + (np.arange(bins) + 0.5) * ((high - low) / bins))

@@ -43,10 +43,10 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
     through overtaking and complete occlusion.
 
     Each frame has ``color`` (BGR or gray), rectified, and ``right`` or ``depth``; depth has to be registered
-    to color. If a frame has both, ``right`` isn't used. ``cues`` chooses flow, disparity or both. Flow alone
-    needs only color. Disparity alone with a depth camera needs only depth. The box is in pixels of the left
-    image. Tracks have a ``position`` and a ``covariance`` with ``rig=`` for a stereo pair, or ``intrinsics=``
-    for a depth camera.
+    to color. If a frame has both, ``right`` isn't used. With ``rig=`` some frames may have one and some the
+    other. ``cues`` chooses flow, disparity or both. Flow alone needs only color. Disparity alone with a depth
+    camera needs only depth. The box is in pixels of the left image. Tracks have a ``position`` and a
+    ``covariance`` with ``rig=`` for a stereo pair, or ``intrinsics=`` for a depth camera.
     ``vergence`` is the angle of a verged stereo pair. The tracker isn't random: the seed changes nothing.
 
         tracker = tricue.FlowDepthTracker(rig=rig)
@@ -165,13 +165,13 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         state = state._replace(region=cues.region, pixels=np.zeros(cues.shape, np.uint8))
         if _waits(state):
             disparity = disparity_in_window(k, state, cues, p)
-            if not is_back(state, disparity, p):
+            if not is_back(state, disparity, cues, p):
                 return _coast(state, seconds, occluder_disparity=disparity)
             state = state._replace(
                 disparity=disparity, occluder_disparity=math.nan, temporal_window=state.window
             )
         verdict = verify_by(k, state, cues, None, p)
-        if is_occluded(k, state, verdict, p):
+        if is_occluded(k, state, cues, verdict, p):
             disparity = disparity_in_window(k, state._replace(occluded=False), cues, p)
             return _coast(state, seconds, occluded=True, occluder_disparity=disparity)
         if verdict.has_pixels(state, p.min_pixels):

@@ -70,7 +70,7 @@ def verify_by(
     known = model is not None
     model = model or estimate(k, state, cues, p)
     disparity = state.disparity if known or cues.disparity is None else model.peaks[-1]
-    limits = disparity_limits(state, disparity, p)
+    limits = disparity_limits(state, disparity, cues.disparity_scale, p)
     x0, y0, x1, y1 = window = moved(state.window, -x, -y)
     box, count, pixels, observed, share = k.observe_target(
         [cue.values for cue in cues.maps],
@@ -91,12 +91,12 @@ def verify_by(
     return Verdict(model, disparity, pixels, count, moved(box, x, y), seen, limits, share)
 
 
-def disparity_limits(state: FlowDepthState, disparity: float, p: FlowDepthParams) -> DisparityLimits:
-    """The limits of disparities similar to the target's, and of those of occluders."""
-    reduced = state.reduced
-    scale = reduced.disparity_scale(p)
+def disparity_limits(
+    state: FlowDepthState, disparity: float, scale: float, p: FlowDepthParams
+) -> DisparityLimits:
+    """The limits of disparities similar to the target's, and of those of occluders. scale: of the cues."""
     thickness = p.thickness * abs(disparity + state.disparity_offset)
-    tolerance = max(p.disparity_tolerance, thickness / reduced.scale) * scale
+    tolerance = max(p.disparity_tolerance, thickness / state.reduced.scale) * scale
     return DisparityLimits(disparity, tolerance, disparity + max(p.occluder_margin * scale, thickness))
 
 
@@ -116,7 +116,7 @@ def estimate(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) 
     Surfaces at other depths, such as the background in the first window, move differently, so flow counts
     only at the target's.
     """
-    scale, disparity_scale = state.reduced.scale, state.reduced.disparity_scale(p)
+    scale, disparity_scale = state.reduced.scale, cues.disparity_scale
     expected = []
     if cues.flow is not None:
         known = state.has_mean_velocity
