@@ -31,23 +31,36 @@ def color_image(
     """
     channels = as_frame(frame)
     channels.require("color")
-    return _bgr(channels.color, shape), channels.timestamp
+    return _bgr(channels.color, shape, None), channels.timestamp
 
 
-def _bgr(image: Any, shape: tuple[int, ...] | None) -> NDArray[np.uint8]:
+def _bgr(
+    image: Any, shape: tuple[int, ...] | None, camera: StereoRig | Intrinsics | None
+) -> NDArray[np.uint8]:
     """The image itself. ValueError for a gray one, and for a shape other than the first frame's."""
     if image.ndim != 3:
         hint = "cv2.cvtColor(image, cv2.COLOR_GRAY2BGR) makes one"
         raise ValueError(f"frame.color: expected BGR (H, W, 3), got gray {image.shape}; {hint}")
     if shape is not None and image.shape != shape:
-        raise changed_size("frame.color", "shape", shape, image.shape)
+        raise changed_size("frame.color", "shape", shape, image.shape, camera)
     bgr: NDArray[np.uint8] = image
     return bgr
 
 
-def changed_size(name: str, what: str, first: tuple[int, ...], found: tuple[int, ...]) -> ValueError:
-    """The error for a frame that isn't as large as the first one; what: "shape" or "size"."""
+def changed_size(
+    name: str,
+    what: str,
+    first: tuple[int, ...],
+    found: tuple[int, ...],
+    camera: StereoRig | Intrinsics | None,
+) -> ValueError:
+    """The error for a frame that isn't as large as the first one. what: "shape" or "size".
+
+    camera: the tracker's, because ``init`` takes only its size.
+    """
     hint = "init starts again on another size"
+    if camera is not None and found[:2] != first[:2]:
+        hint = "this tracker's camera has that size, so another size needs another tracker"
     return ValueError(f"{name}: expected the first frame's {what} {first}, got {found}; {hint}")
 
 
@@ -89,30 +102,30 @@ def require_initialized(state: State | None) -> State:
 
 
 def depth_image(
-    frame: FrameLike, shape: tuple[int, ...] | None = None
+    frame: FrameLike, shape: tuple[int, ...] | None = None, camera: Intrinsics | None = None
 ) -> tuple[NDArray[np.float32], float | None]:
     """The frame's depth, (H, W) float32 meters with NaN, and its timestamp. ValueError for a shape other than
-    the first frame's.
+    the first frame's. camera: the tracker's, for the error.
     """
     channels = as_frame(frame)
     channels.require("depth")
     depth: Any = channels.depth
     if shape is not None and depth.shape != shape:
-        raise changed_size("frame.depth", "shape", shape, depth.shape)
+        raise changed_size("frame.depth", "shape", shape, depth.shape, camera)
     return depth, channels.timestamp
 
 
 def stereo_pair(
-    frame: FrameLike, shape: tuple[int, ...] | None = None
+    frame: FrameLike, shape: tuple[int, ...] | None = None, stereo: StereoRig | None = None
 ) -> tuple[NDArray[np.uint8], NDArray[np.uint8], float | None]:
     """The frame's left image, BGR (H, W, 3), its right image, gray if the left one was, and its timestamp.
 
-    ValueError as :func:`color_image`, and if there is no right image.
+    ValueError as :func:`color_image`, and if there is no right image. stereo: the tracker's, for the error.
     """
     channels = as_frame(frame)
     channels.require("color", "right")
     right: Any = channels.right
-    return _bgr(channels.color, shape), right, channels.timestamp
+    return _bgr(channels.color, shape, stereo), right, channels.timestamp
 
 
 def check_depth_size(depth: NDArray[np.float32], size: tuple[int, ...]) -> None:

@@ -170,7 +170,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         before ``init``. An error leaves the tracker unchanged.
         """
         before = validation.require_initialized(self._state)
-        depth, timestamp = validation.depth_image(frame, before.shape)
+        depth, timestamp = validation.depth_image(frame, before.shape, self.intrinsics)
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
         self._random.resume(before.random)
         return self._keep(self._follow(before, depth, timestamp, seconds), frame)

@@ -107,7 +107,8 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         RuntimeError before ``init``. An error leaves the tracker as it was.
         """
         before = validation.require_initialized(self._state)
-        checked = require_cue_channels(frame, self.params.cues, before.shape)
+        camera = self.rig or self.intrinsics
+        checked = require_cue_channels(frame, self.params.cues, before.shape, camera)
         seconds = validation.elapsed(before.timestamp, checked.frame.timestamp, self.params.rate)
         state = _predict(before, self.params)
         expected = before.occluder_disparity if _waits(before) else before.disparity

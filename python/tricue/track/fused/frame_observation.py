@@ -53,7 +53,8 @@ def observe_frame(
     given = as_frame(frame)
     name, image = _picture(given)
     if shape is not None and image.shape[:2] != shape:
-        raise validation.changed_size(f"frame.{name}", "size", shape, image.shape[:2])
+        camera = cameras[0] or cameras[1]
+        raise validation.changed_size(f"frame.{name}", "size", shape, image.shape[:2], camera)
     return once(given, _observe, cameras, with_depth)
 
 

@@ -122,7 +122,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         RuntimeError before ``init``. An error leaves the tracker as it was.
         """
         before = validation.require_initialized(self._state)
-        left, right, timestamp = validation.stereo_pair(frame, before.shape)
+        left, right, timestamp = validation.stereo_pair(frame, before.shape, self.rig)
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
         pair = PreparedPair.of(self._k, left, right, before.first_mean, self.params)
         return self._keep(self._follow(before, pair, seconds, timestamp), frame)
