@@ -164,6 +164,7 @@ def test_noise_grows_with_the_distance():
     stereo, camera = pair(8.0), DepthImageSource(NUMBERED)
     assert stereo.noise(4.0, 1.0) == pytest.approx(4 * stereo.noise(2.0, 1.0))
     assert stereo.noise(2.0, 3.0) == pytest.approx(3 * stereo.noise(2.0, 1.0))
+    assert stereo.noise(2.0, 0.3) == stereo.noise(2.0, 1.0)  # a match in finer samples is no more precise
     assert camera.noise(4.0, 1.0) == pytest.approx(2 * camera.noise(2.0, 1.0))
 
 

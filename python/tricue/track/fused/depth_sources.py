@@ -27,7 +27,7 @@ MAX_DISPARITY_OF_SIDE = 4  # sides of the sampled square, which limits the time
 MIN_AGREEING_SHARE = 0.3  # of the measured samples
 AGREEING_OFFSET, AGREEING_SAMPLES = 0.1, 2  # meters, and samples of disparity, from the median
 MIN_NEARER_SHARE = 0.5  # for a small box: surfaces nearer than its samples can find
-DISPARITY_NOISE = 0.15  # samples, standard deviation
+DISPARITY_NOISE = 0.15  # standard deviation, in samples, or in pixels if samples are finer
 DEPTH_IMAGE_NOISE = 0.005  # of the depth, standard deviation of a pixel
 
 Gate = tuple[float, float]  # meters from the expected depth, and the smallest share of samples within it
@@ -219,5 +219,9 @@ class StereoSource(NamedTuple):
         return DepthPosterior(*k.depth_posterior(depths, 0.0, 0.0, 1.0, side, side, *expected, margin))
 
     def noise(self, z: float, pixel_size: float) -> float:
-        """Proportional to the squared depth, by the noise of a disparity."""
-        return DISPARITY_NOISE * pixel_size * z * z / (self.rig.intrinsics.fx * self.rig.baseline)
+        """Proportional to the squared depth, by the noise of a disparity.
+
+        Samples finer than pixels make a disparity no finer.
+        """
+        disparity_noise = DISPARITY_NOISE * max(pixel_size, 1.0)  # pixels
+        return disparity_noise * z * z / (self.rig.intrinsics.fx * self.rig.baseline)
