@@ -118,7 +118,7 @@ def test_times_rise(told: list[float], expected: list[float]) -> None:
 def test_a_rate_that_nobody_stated(tmp_path: Path) -> None:
     """It proves that a unit of time isn't taken for a frame rate, as in what browsers record."""
     path = write(tmp_path / "o.webm", PAUSES, "libvpx-vp9", Fraction(1000))
-    assert cv2.VideoCapture(str(path)).get(cv2.CAP_PROP_FPS) == 1000
+    assert cv2.VideoCapture(str(path)).get(cv2.CAP_PROP_FPS) in (1000, 30)  # 30: cv2 4.8
     assert Video(path).fps == pytest.approx(30, rel=0.02)
     assert checked_fps(120.0, [0, 1 / 120, 2 / 120]) == 120
     assert checked_fps(25.0, [0, 1, 2]) == 25

@@ -196,8 +196,11 @@ def _write_timed(writer: OverlayWriter, times: list[float]) -> list[float]:
 @pytest.mark.parametrize("name", ["o.mp4", "o.mkv", "o.webm"])
 def test_frames_have_their_own_times(tmp_path: Path, name: str) -> None:
     """It proves that a video of a variable rate plays as long as the frames took, from 0 on."""
-    pytest.importorskip("av")
-    found = _write_timed(OverlayWriter(tmp_path / name, 25.0), TIMES)
+    av = pytest.importorskip("av")
+    writer = OverlayWriter(tmp_path / name, 25.0)
+    _write_timed(writer, TIMES)
+    with av.open(str(writer.path)) as file:  # cv2 4.8 finds no times in Matroska
+        found = [frame.time for frame in file.decode(video=0)]
     assert found == pytest.approx([time - TIMES[0] for time in TIMES], abs=0.0006)
 
 
