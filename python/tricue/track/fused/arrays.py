@@ -8,4 +8,4 @@ Image = NDArray[np.uint8]  # (H, W, 3) BGR, or (H, W) gray
 Plane = NDArray[np.float32]
 Floats = NDArray[np.float64]
 
-NO_PLANE: Plane = np.empty((0, 0), np.float32)  # where a cue has no evidence
+NO_PLANE: Plane = np.empty((0, 0), np.float32)  # for a cue without evidence

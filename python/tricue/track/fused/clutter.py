@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Clutter: what was seen while the target was searched for. A better match than all of it is the target.
+"""Clutter: the false matches of a search. A clearly better match is the target.
 
-How much other places look like the target varies from scene to scene, by more than the target changes while
-it is away. So a missed target's threshold follows the matches found in the search of the whole frame, like
-that of a detector with a constant rate of false alarms (Finn and Johnson 1968).
+How similar other places are to the target varies from scene to scene, by more than the target changes while
+it is away. So the threshold for a missed target adapts to the matches found in the search of the whole frame,
+as in a constant false alarm rate (CFAR) detector (Finn and Johnson 1968).
 """
 
 from typing import NamedTuple
@@ -11,14 +11,15 @@ from typing import NamedTuple
 from tricue.track.fused.identity import log_odds_of
 from tricue.track.fused.params import FusedParams
 
-RECENT_FRAMES = 5  # not counted yet: a target that comes back gradually is in them, too
-MIN_FRAMES = 5  # counted, before they describe the scene
+RECENT_FRAMES = 5  # not counted yet, as a target that comes back gradually may already be visible in them
+MIN_FRAMES = 5  # counted frames, below which they don't describe the scene
 
 
 class Clutter(NamedTuple):
-    """Log-odds of the best matches in the frames of a search, which weren't recognized.
+    """Log-odds of each frame's best match while the target is searched for and not recognized.
 
-    highest: of the counted frames. recent: of the last frames, which aren't counted yet.
+    frames: number of counted frames. highest: over the counted frames. recent: of the last frames, which
+    aren't counted yet.
     """
 
     frames: int = 0
@@ -26,7 +27,7 @@ class Clutter(NamedTuple):
     recent: tuple[float, ...] = ()
 
     def add(self, log_odds: float) -> "Clutter":
-        """With one more frame."""
+        """The clutter with the best match of one more frame."""
         recent = *self.recent, log_odds
         if len(recent) <= RECENT_FRAMES:
             return self._replace(recent=recent)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The target as an object of the depth image: a person or a thing that stands apart.
+"""The target as an object segmented in the depth image: a person or a thing that stands apart.
 
-If the first box holds such an object and little else, the target is that object and its box the object's,
-however it turns, spreads its arms or comes into the image. But objects also merge. So an object that is
-suddenly much larger is ignored.
+If the first box holds such an object and little else, the object is the target. The target's box is then the
+object's, even when it turns, spreads its arms or is still entering the image. But the segments of neighboring
+objects also merge, so an object that is suddenly much larger is ignored.
 """
 
 from typing import NamedTuple
@@ -21,21 +21,23 @@ from tricue.track.fused.depth_sources import DepthImageSource
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 
-SEGMENTATION = SegmentationParams(resolution=240)  # finer, bodies fall apart more often, and it takes longer
-MIN_FIRST_IOU = 0.7  # of the first box and an object's: people's have 0.8, of what stands on a table 0.3
-MIN_SIDE = 0.3  # meters, the longer: smaller things can't be told from the table or the hand that they touch
-MIN_INSIDE = 0.5  # of the target's own box, in that of its object
+SEGMENTATION = SegmentationParams(resolution=240)  # finer is slower and splits bodies more often
+MIN_FIRST_IOU = 0.7  # of the first box with an object's: 0.8 for people, 0.3 for things on a table
+MIN_SIDE = 0.3  # meters, of the longer side: smaller things merge with the table or the hand that they touch
+MIN_INSIDE = 0.5  # share of the target's own box that is inside the object's
 MAX_DEPTH_OFFSET = 0.5  # meters, from the target's depth to its object's mean depth
-MAX_GROWTH = 1.5  # of the width or height: a neighbor that merges with it adds more
-MAX_GROWTH_OF_PART = 2.0  # the same of an object of which a part was hidden
-MIN_RENEWED_GROWTH = 3.0  # of the area, from which the models know too little of the target
-REGION = 2 * MAX_GROWTH_OF_PART  # times the target's box: where its object is searched for
-INTERVAL = 0.2  # seconds between two searches: each takes half as long as all other steps
+MAX_GROWTH = 1.5  # of the width or height: a neighbor that merges with the object adds more
+MAX_GROWTH_OF_PART = 2.0  # the same for an object that was partly hidden
+MIN_RENEWED_GROWTH = 3.0  # of the area, above which the models know too little of the target
+REGION = 2 * MAX_GROWTH_OF_PART  # size of the region searched for the object, relative to the target's box
+INTERVAL = 0.2  # seconds between two searches: each takes half as long as all other steps of an update
 
 
 class SeenObject(NamedTuple):
-    """box: of the visible part, pixels. z: mean depth. z, width, height: meters. is_whole: whether neither
-    the image's border nor anything nearer cuts it off.
+    """An object in one frame.
+
+    box: of the visible part, pixels. z: mean depth. z, width, height: meters. is_whole: whether neither the
+    image's border nor anything nearer hides a part of it.
     """
 
     box: Box
@@ -46,18 +48,18 @@ class SeenObject(NamedTuple):
 
     @property
     def is_small(self) -> bool:
-        """Whether all of it is small; unknown, so False, if only a part is visible."""
+        """Whether the object is small; False if only a part is visible, as its size isn't known then."""
         return self.is_whole and max(self.width, self.height) < MIN_SIDE
 
 
 class DepthObject(NamedTuple):
     """The state of the object that is the target.
 
-    floor: (6,) the plane of the floor in the last search for objects. first: the object when the models were
-    made. width, height: meters, when last seen; if a part was hidden then, at least those before. is_whole:
-    whether nothing was hidden then; was_whole: whether ever. seen: in this frame; None if it wasn't found or
-    wasn't searched for. growth: the larger one of its width and height, since it was seen before. seconds:
-    since it was searched for.
+    floor: (6,) the plane of the floor in the last search. first: the object when the models were made. width,
+    height: meters, when last seen; if a part was hidden then, not less than before. is_whole: whether it was
+    fully visible when last seen. was_whole: whether it was ever fully visible. seen: the object in this
+    frame; None if it wasn't found or not searched for. growth: the larger ratio of width or height between
+    the last two times that it was seen. seconds: since the last search.
     """
 
     floor: Floats
@@ -72,7 +74,9 @@ class DepthObject(NamedTuple):
 
     @classmethod
     def from_first(cls, observation: TargetObservation, target: Target) -> "DepthObject | None":
-        """The object in the first box; None if the box holds none, or more than that, or a small one."""
+        """The object in the first box; None without a depth image, or if no object fills the box, or a small
+        one does.
+        """
         source = observation.depth_source
         if not isinstance(source, DepthImageSource):
             return None
@@ -85,27 +89,27 @@ class DepthObject(NamedTuple):
 
     @property
     def is_due(self) -> bool:
-        """Whether it is time to search for it."""
+        """Whether it is time for the next search."""
         return self.seconds >= INTERVAL - ADDED_TIME_ERROR
 
     @property
     def outgrew_models(self) -> bool:
-        """Whether the models were made of a small part of it.
+        """Whether the models were made from a small part of the object.
 
-        Only while it comes into sight gradually: an object that was wholly visible, or that grows suddenly,
-        has merged with something else.
+        Only an object that comes into sight gradually counts: one that was fully visible before, or grows
+        suddenly, has merged with another.
         """
         grown = self.width * self.height > MIN_RENEWED_GROWTH * self.first.width * self.first.height
         return grown and not self.was_whole and self.growth <= MAX_GROWTH
 
     def wait(self, seconds: float) -> "DepthObject":
-        """The object after some seconds without a search."""
+        """The object so many seconds later, without a search."""
         return self._replace(seen=None, seconds=self.seconds + seconds)
 
     def look(self, observation: TargetObservation, target: Target, around: Box, z: float) -> "DepthObject":
-        """Search for the object near depth z, in meters, that contains most of the target's own box.
+        """Search near depth z, in meters, for the object that contains most of the target's own box.
 
-        around: the whole target's box.
+        around: the box around which objects are searched for, that of the whole target.
         """
         source = observation.depth_source
         assert isinstance(source, DepthImageSource), "the first object was found in a depth image"
@@ -138,7 +142,7 @@ class DepthObject(NamedTuple):
 def find_objects(
     observation: TargetObservation, depth: Plane, floor: Floats = NO_FLOOR, around: Box | None = None
 ) -> tuple[list[SeenObject], Floats]:
-    """The objects in the frame's depth image, all or those around a box, and the plane (6,) of the floor.
+    """The objects in the frame's depth image, or only those around a box, and the plane (6,) of the floor.
 
     floor: its plane in an earlier frame. Sabeti, Parvizi and Wu 2008, section IV.A.
     """
@@ -156,7 +160,7 @@ def find_objects(
 
 
 def _region(box: Box, foreground: Foreground) -> Region:
-    """The columns and rows of the foreground, x0, y0, x1, y1, in which the object in a box is."""
+    """The part of the foreground that is searched for the object in a box: x0, y0, x1, y1."""
     (x, y), step = box.center, foreground.step
     reach_x, reach_y = REGION / 2 * box.width, REGION / 2 * box.height
     height, width = foreground.depth.shape
@@ -171,7 +175,7 @@ def _visible(box: Box, observation: TargetObservation) -> Box:
 
 
 def _share_inside(box: Box, other: Box) -> float:
-    """The share of a box that is inside the other one; 0 for an empty box."""
+    """The share of a box that is inside another; 0 for an empty box."""
     wide = min(box.x + box.width, other.x + other.width) - max(box.x, other.x)
     high = min(box.y + box.height, other.y + other.height) - max(box.y, other.y)
     return wide * high / box.area if min(wide, high, box.area) > 0 else 0.0

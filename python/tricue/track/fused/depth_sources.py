@@ -12,39 +12,42 @@ from tricue.kernels import Kernels
 from tricue.track.fused.arrays import Floats, Image, Plane
 
 GATE_SIGMAS = 3  # standard deviations from the expected depth within which a pixel may be the target's
-MAX_EXPECTED_SIGMA = 0.5  # meters; a less certain expectation is no help
+MAX_EXPECTED_SIGMA = 0.5  # meters; a less certain expected depth isn't used
 MAX_OCCLUDER_MARGIN = 0.5  # meters
 MIN_OCCLUDER_MARGIN = MAX_OCCLUDER_MARGIN / 2
 
 SAD_WINDOW = 7  # samples, side of the windows that are compared
 SAD_UNIQUENESS = 15  # percent
-SAD_TOLERANCE = 1  # samples between the disparities from left to right and back
+SAD_TOLERANCE = 1  # samples, of the left-right check
 MAX_DISPARITY_ABOVE_EXPECTED = 16  # samples
 MAX_DISPARITY_BELOW_EXPECTED = 8  # samples
-MAX_DISPARITY_OF_WIDTH = 0.25  # of the image's width, where no depth is expected
-MAX_DISPARITY_OF_SIDE = 4  # sides of the sampled square, which limits the time
-# At most a fifth of random matches agree with their median; of recorded targets' matches, at least a third.
+MAX_DISPARITY_OF_WIDTH = 0.25  # of the image's width, if no depth is expected
+MAX_DISPARITY_OF_SIDE = 4  # sides of the sampled square: limits the time
+# At most a fifth of random matches agree with their median; on recorded targets, at least a third of all do.
 MIN_AGREEING_SHARE = 0.3  # of the measured samples
-AGREEING_OFFSET, AGREEING_SAMPLES = 0.1, 2  # meters, and samples of disparity, from the median
-MIN_NEARER_SHARE = 0.5  # for a small box: surfaces nearer than its samples can find
-DISPARITY_NOISE = 0.15  # standard deviation, in samples, or in pixels if samples are finer
-DEPTH_IMAGE_NOISE = 0.005  # of the depth, standard deviation of a pixel
+AGREEING_OFFSET, AGREEING_SAMPLES = 0.1, 2  # from the median: meters, plus samples of disparity
+MIN_NEARER_SHARE = 0.5  # of a small box, that a surface too near for fine samples has to fill
+DISPARITY_NOISE = 0.15  # standard deviation, in samples; in pixels if samples are finer than pixels
+DEPTH_IMAGE_NOISE = 0.005  # standard deviation of a pixel, as a share of its depth
 
-Gate = tuple[float, float]  # meters from the expected depth, and the smallest share of samples within it
-Grid = tuple[float, float, float]  # pixels: x and y of the top left corner, side of a square of the grid
+Gate = tuple[float, float]  # meters from the expected depth, and the smallest share of samples within them
+Grid = tuple[float, float, float]  # x and y of the top left corner, and a square's side; image pixels
 
 
 class ExpectedDepth(NamedTuple):
-    """z: depth at which the target should be. sigma: standard deviation of its pixels' depths. Meters."""
+    """The depth at which the target should be.
+
+    z: meters. sigma: standard deviation of its pixels' depths around z, meters.
+    """
 
     z: float
     sigma: float
 
     @property
     def occluder_margin(self) -> float:
-        """Meters: what is nearer than expected by more than this is an occluder.
+        """Meters; anything nearer than the expected depth by more than this margin is an occluder.
 
-        With an uncertain expectation there are no occluders: the margin reaches to the camera.
+        If the expected depth is uncertain, the margin reaches to the camera, so that nothing is an occluder.
         """
         if self.sigma < MAX_EXPECTED_SIGMA:
             return max(min(GATE_SIGMAS * self.sigma, MAX_OCCLUDER_MARGIN), MIN_OCCLUDER_MARGIN)
@@ -52,10 +55,10 @@ class ExpectedDepth(NamedTuple):
 
 
 class DepthPosterior(NamedTuple):
-    """What depth tells of the squares of a grid, (side, side) each.
+    """What depth tells about the squares of a grid, (side, side) each.
 
-    posterior: P(target | depth), 0.5 where none is measured. occluded: 1 where it is nearer than expected by
-    more than a margin, else 0.
+    posterior: P(target | depth), 0.5 where no depth is measured. occluded: 1 where depth is nearer than
+    expected by more than a margin, else 0.
     """
 
     posterior: Plane
@@ -67,20 +70,23 @@ class DepthSource(Protocol):
 
     @property
     def has_sharp_edges(self) -> bool:
-        """Whether depth edges are at the same pixels as the picture's."""
+        """Whether depth edges are at the same pixels as the edges in the picture."""
 
     def medians(
         self, k: Kernels, boxes: Floats, samples: int, expected: ExpectedDepth | None, gate: Gate
     ) -> Floats:
-        """(N, 3) median depths, spreads and shares in boxes (N, 4), as ``median_depths`` gives them."""
+        """(N, 3) median depths, spreads and shares of samples in boxes (N, 4); see ``median_depths``."""
 
     def posterior(
         self, k: Kernels, grid: Grid, side: int, expected: ExpectedDepth, margin: float
     ) -> DepthPosterior:
-        """Of a grid of so many squares on a side. margin: meters; what is nearer by more is an occluder."""
+        """The posterior of a grid with so many squares on a side.
+
+        margin: meters; anything nearer than expected by more is an occluder.
+        """
 
     def noise(self, z: float, pixel_size: float) -> float:
-        """Standard deviation, in meters, of a depth z sampled in squares of so many image pixels."""
+        """Standard deviation, in meters, of a depth z that is sampled in squares of so many image pixels."""
 
 
 class DepthImageSource(NamedTuple):
@@ -96,7 +102,7 @@ class DepthImageSource(NamedTuple):
     def medians(
         self, k: Kernels, boxes: Floats, samples: int, expected: ExpectedDepth | None, gate: Gate
     ) -> Floats:
-        """From the pixels under the samples, all boxes in one call."""
+        """All boxes are measured in one call, each sample by the pixel under it."""
         return k.median_depths(self.depth, boxes, samples, expected.z if expected else math.nan, *gate)
 
     def posterior(
@@ -119,18 +125,17 @@ class StereoSource(NamedTuple):
 
     @property
     def has_sharp_edges(self) -> bool:
-        """False: matching windows extend beyond edges."""
+        """False: the windows of block matching reach beyond edges."""
         return False
 
     def sample(self, k: Kernels, grid: Grid, side: int, expected: ExpectedDepth | None) -> Plane:
         """(side, side) depths of a grid's squares in meters, NaN where nothing is measured.
 
-        Only those near the expected depth are found; where none is expected, disparities up to a quarter of
-        the image's width, and up to four sides of the grid.
+        Samples of both images are matched by sums of absolute differences (Moreno et al. 2002, section 3.2).
+        The right image is sampled farther left by the expected disparity, which makes that disparity 0.
 
-        By sums of absolute differences (Moreno et al. 2002, section 3.2) between samples of both images.
-
-        The right image is sampled farther left by the expected disparity, so that this becomes 0.
+        Only depths near the expected one are found. If no depth is expected, disparities up to a quarter of
+        the image's width, and up to four sides of the grid, are found.
         """
         x, y, step = grid
         focal_baseline = self.rig.intrinsics.fx * self.rig.baseline
@@ -149,17 +154,17 @@ class StereoSource(NamedTuple):
             left, right, region, False, first, last, SAD_WINDOW, SAD_UNIQUENESS, True, SAD_TOLERANCE
         )
         disparity = found * np.float32(step) + np.float32(shift)
-        disparity[~(disparity > 0)] = np.nan  # beyond infinity, or not found
+        disparity[~(disparity > 0)] = np.nan  # not found, or not in front of the camera
         depths: Plane = np.float32(focal_baseline) / disparity
         return depths
 
     def medians(
         self, k: Kernels, boxes: Floats, samples: int, expected: ExpectedDepth | None, gate: Gate
     ) -> Floats:
-        """Each box is matched by itself, in the square that has its samples.
+        """Each box is matched separately, in the square that its samples cover.
 
-        The samples of a small box are too fine for the disparities of near surfaces. So if no depth is
-        expected, coarser samples look for surfaces nearer than these can find.
+        The samples of a small box are so fine that the disparities of near surfaces are out of range. So if
+        no depth is expected, coarser samples are tried first, for such near surfaces.
         """
         found = []
         for box in boxes.tolist():
@@ -173,9 +178,9 @@ class StereoSource(NamedTuple):
         return np.concatenate(found)
 
     def _unexpected(self, k: Kernels, box: list[float], step: float, samples: int, gate: Gate) -> Floats:
-        """(1, 3) as ``medians``, NaN if the depths don't agree with their median.
+        """(1, 3) as in ``medians``, without an expected depth; NaN if too few depths agree with their median.
 
-        Surfaces that the right image doesn't show, left of its border or covered there, match at random.
+        A surface that the right image doesn't show, outside its border or occluded there, matches at random.
         """
         depths, part = self._sample_around(k, box, step, samples, None)
         medians = k.median_depths(depths, part, samples, math.nan, *gate)
@@ -188,8 +193,8 @@ class StereoSource(NamedTuple):
         return medians if agree else np.full((1, 3), np.nan)
 
     def _nearer(self, k: Kernels, box: list[float], step: float, samples: int, gate: Gate) -> Floats | None:
-        """(1, 3) as ``medians``, of a surface that fills most of a box and is nearer than ``sample`` can find
-        with samples so many pixels apart; None if there is none.
+        """(1, 3) as in ``medians``, for a surface that fills most of a box and is nearer than ``sample`` can
+        find with samples ``step`` pixels apart; None if there is no such surface.
         """
         coarse = MAX_DISPARITY_OF_WIDTH * self.left.shape[1] / (MAX_DISPARITY_OF_SIDE * samples)
         if step >= coarse:
@@ -205,7 +210,7 @@ class StereoSource(NamedTuple):
     def _sample_around(
         self, k: Kernels, box: list[float], step: float, samples: int, expected: ExpectedDepth | None
     ) -> tuple[Plane, Floats]:
-        """The depths of a square of samples so many pixels apart around a box, and the box (1, 4) in it."""
+        """The depths of a square of samples ``step`` pixels apart around a box, and the box (1, 4) in it."""
         x, y, width, height = box
         half = step * samples / 2
         depths = self.sample(k, (x - half, y - half, step), samples, expected)
@@ -219,9 +224,9 @@ class StereoSource(NamedTuple):
         return DepthPosterior(*k.depth_posterior(depths, 0.0, 0.0, 1.0, side, side, *expected, margin))
 
     def noise(self, z: float, pixel_size: float) -> float:
-        """Proportional to the squared depth, by the noise of a disparity.
+        """Proportional to the squared depth, as the noise of a disparity is constant.
 
-        Samples finer than pixels make a disparity no finer.
+        Samples finer than pixels don't reduce this noise.
         """
         disparity_noise = DISPARITY_NOISE * max(pixel_size, 1.0)  # pixels
         return disparity_noise * z * z / (self.rig.intrinsics.fx * self.rig.baseline)

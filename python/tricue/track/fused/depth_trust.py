@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Whether to trust a frame's depth: not if it is in another unit, or frozen while color changes.
+"""Whether a frame's depth can be trusted: not if it is in another unit, or frozen while color changes.
 
-Such depth is left out, with one warning; the target is then followed by color.
+Such depth is left out, with one warning, and the target is followed by color alone.
 """
 
 import math
@@ -18,18 +18,19 @@ from tricue.track.fused.arrays import Image, Plane
 from tricue.track.fused.depth_sources import DepthImageSource
 from tricue.track.fused.frame_observation import FrameObservation
 
-MAX_METERS, MIN_METERS = 100.0, 0.01  # no depth camera measures more, or less: it's another unit
-SAMPLED = 24, 32  # rows and columns that are looked at, about
+MAX_METERS, MIN_METERS = 100.0, 0.01  # an image whose depths are all above or all below: another unit
+SAMPLED = 24, 32  # rows and columns that are compared, approximately
 MIN_FROZEN_FRAMES, MIN_FROZEN_SECONDS = 15, 0.5  # slow depth cameras repeat an image for less
-MIN_COLOR_CHANGE, MIN_CHANGED_SHARE = 10, 0.01  # levels of a sample, above noise; of the samples
+MIN_COLOR_CHANGE, MIN_CHANGED_SHARE = 10, 0.01  # gray levels, above a sample's noise; share of the samples
 
 
 class DepthTrust(NamedTuple):
     """An immutable memory of the depth images so far.
 
-    sample: bytes of the last one's sampled pixels. checksum: of all its pixels, None until it is repeated.
-    color: sampled at the first repetition. repeats, seconds: frames since then with the same depth. frozen:
-    whether color changed meanwhile. told: what the user was warned of.
+    sample: bytes of the last depth image's sampled pixels. checksum: of all its pixels; None until the sample
+    is repeated. color: thinned color image at the first repetition. repeats, seconds: number and duration of
+    the repetitions. frozen: whether color changed meanwhile. told: kinds of bad depth that the user was
+    warned of.
     """
 
     sample: bytes = b""
@@ -41,11 +42,11 @@ class DepthTrust(NamedTuple):
     told: frozenset[str] = frozenset()
 
     def examine(self, frame: FrameObservation, seconds: float) -> tuple["DepthTrust", FrameObservation]:
-        """The memory with a frame that comes so many seconds after the last, and the frame, without its depth
-        if that can't be trusted.
+        """The memory after a frame, and the frame, without its depth if that can't be trusted.
 
-        ValueError for depth in another unit without color to follow instead. UserWarning, to the caller's
-        caller, for the first depth of a kind that is left out.
+        seconds: since the last frame. ValueError for depth in another unit if there is no color to follow
+        instead. UserWarning, on behalf of the caller's caller, the first time that a kind of bad depth is
+        left out.
         """
         if not isinstance(frame.depth_source, DepthImageSource):
             return self, frame
@@ -63,12 +64,12 @@ class DepthTrust(NamedTuple):
         return seen._leave_out(frame, "frozen", f"expected another image in each frame, got {still}; {hint}")
 
     def _see(self, depth: Plane, sample: Plane, color: Image | None, seconds: float) -> "DepthTrust":
-        """The memory with depth in the right unit."""
+        """The memory after depth in the right unit."""
         content = sample.tobytes()
         if content != self.sample or np.isnan(sample).all():
             return DepthTrust(content, told=self.told)
         checksum = zlib.crc32(depth.data)
-        if self.checksum not in (None, checksum):  # the change is between the sampled pixels
+        if self.checksum not in (None, checksum):  # only pixels that aren't sampled have changed
             return DepthTrust(content, checksum, told=self.told)
         first = self.color
         if first is None:
@@ -93,9 +94,9 @@ def _sample(depth: Plane) -> Plane:
 
 
 def _wrong_unit(sample: Plane) -> str:
-    """What is wrong with the unit and how to fix it; "" if nothing was noticed."""
+    """What is wrong with the unit and how to fix it; "" if it seems right."""
     low, high = float(np.fmin.reduce(sample, axis=None)), float(np.fmax.reduce(sample, axis=None))
-    if math.isnan(low):  # none is measured
+    if math.isnan(low):  # nothing is measured
         return ""
     found = f"expected meters, got {low:.4g} to {high:.4g}"
     give = "tricue.Frame(depth_scale={0}) or --depth-scale {0} tells their unit"

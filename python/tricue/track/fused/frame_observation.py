@@ -19,8 +19,9 @@ from tricue.track.fused.target_observation import TargetObservation
 class FrameObservation(NamedTuple):
     """A checked frame.
 
-    color: (H, W, 3) BGR. camera: of the color, left or depth image. depth_source: None without depth.
-    timestamp: seconds. messages: as :func:`messages_of` the frame.
+    shape: height and width. color: (H, W, 3) BGR; None if the frame has depth alone. depth_source: None
+    without depth. camera: of the color, left or depth image. timestamp: seconds. messages: as from
+    :func:`messages_of`.
     """
 
     shape: tuple[int, int]
@@ -33,7 +34,7 @@ class FrameObservation(NamedTuple):
     def for_target(self, k: Kernels, expected: ExpectedDepth | None) -> TargetObservation:
         """The frame as the experts read it, given the target's expected depth.
 
-        Without color they read a picture of depth.
+        Without color, they read a picture drawn from depth.
         """
         return TargetObservation(k, self.color, self.camera, self.depth_source, expected)
 
@@ -46,9 +47,9 @@ def observe_frame(
 ) -> FrameObservation:
     """Check and prepare a frame's channels.
 
-    shape: the first frame's, None for the first. with_depth: whether to read depth beside color.
-    ValueError for another size than the first frame's or the camera's. UnregisteredDepthError, a ValueError,
-    for depth of another size than color.
+    shape: the first frame's; None for the first. with_depth: whether to read depth in addition to color.
+    ValueError if the size isn't the first frame's or the camera's. UnregisteredDepthError, a ValueError, if
+    depth and color differ in size.
     """
     given = as_frame(frame)
     name, image = _picture(given)
@@ -73,7 +74,7 @@ def _observe(
 
 
 def _picture(frame: Frame) -> tuple[str, Any]:
-    """The image in whose pixels boxes are given, and its name."""
+    """The name of the channel in whose pixels boxes are given, and its image."""
     return ("depth", frame.depth) if frame.color is None else ("color", frame.color)
 
 
@@ -81,9 +82,9 @@ def _picture(frame: Frame) -> tuple[str, Any]:
 def rig_and_camera(
     rig: StereoRig | None, camera: Intrinsics | None, size: tuple[int, int], channel: str = "color"
 ) -> tuple[StereoRig, Intrinsics]:
-    """The stereo rig and its left camera; default ones where none is given.
+    """The stereo rig and its left camera; a default for each that isn't given.
 
-    ValueError for a camera of another size than the named channel.
+    ValueError if the camera's size isn't that of the named channel.
     """
     known = validation.camera_or_default(rig.intrinsics if rig else camera, size, channel)
     return rig or StereoRig(known, validation.DEFAULT_BASELINE), known

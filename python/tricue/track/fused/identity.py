@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Whether a place shows the target: features, and the log-odds that they give."""
+"""Whether a place shows the target: features, and the log-odds computed from them."""
 
 import math
 import operator
@@ -14,33 +14,34 @@ from tricue.track.fused.window import INNER_SHARE, Window
 
 
 class Weights(NamedTuple):
-    """Log-odds per unit of the IdentityFeatures, in their order, and of their change; and an offset."""
+    """Log-odds per unit of each of the IdentityFeatures, in their order, and of their changes; an offset."""
 
     features: tuple[float, float, float, float]
     change: tuple[float, float, float, float]
     offset: float
 
 
-# By logistic regression on 30 recorded color videos: "the overlap is above 0.3" against "under 0.1, or the
-# target is covered" (python -m benchmarks.quality.identity_fit). Features that added nothing are 0. Offsets
-# are 0.7 above the fitted ones.
+# Fitted by logistic regression on 30 recorded color videos: "the overlap is above 0.3" against "under 0.1, or
+# the target is covered" (python -m benchmarks.quality.identity_fit). Features that added nothing have weight
+# 0. The offsets are 0.7 above the fitted ones.
 APPEARANCE = Weights((0.0, 1.5, 7.7, 13.1), (0.2, 5.0, 0.0, 7.9), -4.0)
-STRUCTURE = Weights((0.0, 0.0, 0.0, 17.2), (0.2, 0.0, 0.0, 11.7), -1.2)  # without what light changes
+STRUCTURE = Weights((0.0, 0.0, 0.0, 17.2), (0.2, 0.0, 0.0, 11.7), -1.2)  # without features that light changes
 DEPTH_PICTURE_OFFSET = -3.0  # of the log-odds in a picture of depth, in which most things look similar
-# Platt 1999, on tracks of the same videos (python -m benchmarks.quality.score_fit): a followed target is
-# mostly still there, and its features give similar evidence in consecutive frames.
+# Platt scaling (Platt 1999), fitted on tracks of the same videos (python -m benchmarks.quality.score_fit).
+# The offset is positive because a followed target is usually still there; the slope is below 1 because the
+# evidence of consecutive frames is similar.
 SCORE_SLOPE, SCORE_OFFSET = 0.5, 2.0
 STRUCTURE_ONLY_PENALTY = 2.0  # log-odds
-MAX_LOG_ODDS = 50.0  # beyond it a probability doesn't change
+MAX_LOG_ODDS = 50.0  # beyond it the probability doesn't change
 
 
 class IdentityFeatures(NamedTuple):
     """The features that tell whether a place shows the target.
 
-    peak_sharpness: standard deviations of the filter's peak above its mean response.
+    peak_sharpness: height of the filter's peak above its mean response, in standard deviations.
     color_similarity: Bhattacharyya coefficient with the first frame's colors.
-    contrast: mean P(target | pixel) in the box less a share of that in its surround.
-    first_response: of the first frame's filter.
+    contrast: mean P(target | pixel) in the box minus a share of the mean in its surround.
+    first_response: response of the first frame's filter.
     """
 
     peak_sharpness: float
@@ -49,20 +50,20 @@ class IdentityFeatures(NamedTuple):
     first_response: float
 
     def log_odds(self, typical: "IdentityFeatures | None", weights: Weights) -> float:
-        """Log-odds of the target against anything else, by the features and their change from typical ones.
+        """Log-odds that this is the target, from the features and their differences from typical values.
 
-        typical: running means of them, None until the target was recognized after the first frame.
+        typical: running means of the features; None until the target is recognized after the first frame.
         """
         change = map(operator.sub, self, typical or SECOND_FRAME)
         return weights.offset + _weighted_sum(weights.features, self) + _weighted_sum(weights.change, change)
 
     def blend(self, other: "IdentityFeatures", rate: float) -> "IdentityFeatures":
-        """The features moved toward other ones by a share of their difference."""
+        """The features moved toward others by a share ``rate`` of the difference."""
         return IdentityFeatures(*(old + rate * (new - old) for old, new in zip(self, other, strict=True)))
 
 
-# The least that 95 % of the targets of the same videos have in their second frame: then typical values aren't
-# known yet, and a black image or noise has much less.
+# Used until typical values are known. In the second frame, 95 % of the targets of the same videos have at
+# least these values; a black image or noise has much lower ones.
 SECOND_FRAME = IdentityFeatures(7.6, 0.68, 0.33, 0.24)
 
 
@@ -71,18 +72,18 @@ def _weighted_sum(weights: Iterable[float], values: Iterable[float]) -> float:
 
 
 def in_any_light(log_odds: float, structure_log_odds: float) -> float:
-    """Log-odds in a color picture: light may have changed the colors, so the structure alone is enough."""
+    """Log-odds in a color picture: as light may have changed the colors, the structure alone may suffice."""
     return max(log_odds, structure_log_odds - STRUCTURE_ONLY_PENALTY)
 
 
 def score_of(log_odds: float) -> float:
-    """The probability in [0, 1] that a place whose features give these log-odds shows a followed target."""
+    """The probability in [0, 1] that a place with these log-odds shows a followed target."""
     calibrated = SCORE_SLOPE * log_odds + SCORE_OFFSET
     return 1 / (1 + math.exp(-min(max(calibrated, -MAX_LOG_ODDS), MAX_LOG_ODDS)))
 
 
 def log_odds_of(score: float) -> float:
-    """The log-odds, by its features, of a place with this score in [0, 1]."""
+    """The log-odds that give this score in [0, 1]: the inverse of :func:`score_of`."""
     if score in (0.0, 1.0):
         return math.copysign(MAX_LOG_ODDS / SCORE_SLOPE, score - 0.5)
     return (math.log(score / (1 - score)) - SCORE_OFFSET) / SCORE_SLOPE
@@ -98,12 +99,12 @@ class FirstColors(NamedTuple):
 
     @classmethod
     def from_window(cls, window: Window) -> "FirstColors":
-        """Of the target at the window's center."""
+        """The colors of the target at the window's center."""
         return cls(np.sqrt(color_histogram(window).astype(float)))
 
 
 def color_histogram(window: Window) -> Plane:
-    """(4096,) of the inner part of the target's box at the window's center."""
+    """(4096,) histogram of the inner part of the target's box at the window's center."""
     pixels: Image = window.patch[window.inner(share=INNER_SHARE)]
     samples = np.ascontiguousarray(pixels.transpose(2, 0, 1)).reshape(1, 3, -1)
     histogram: Plane = window.observation.k.joint_histogram(samples, HISTOGRAM_BINS)[0]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Makes the models: in the first frame, at the first picture of a new kind, and at the first depth."""
+"""Creates the models: in the first frame, at the first picture of another kind, and at the first depth."""
 
 from tricue.kernels import Kernels
 from tricue.track.fused.depth_object import DepthObject
@@ -56,7 +56,7 @@ def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedPara
 
 
 def initialize_depth(state: State, frame: FrameObservation, k: Kernels, p: FusedParams) -> State:
-    """The state with the depth at the target's last place, if it was never measured before."""
+    """The state with models of the depth at the target's last place, if none was measured before."""
     if state.depth is not None or frame.depth_source is None or state.missed_frames:
         return state
     observation = frame.for_target(k, None)
@@ -74,7 +74,7 @@ def initialize_depth(state: State, frame: FrameObservation, k: Kernels, p: Fused
 
 
 def renew_models(state: State, frame: FrameObservation, k: Kernels, p: FusedParams) -> State:
-    """The state with models of the whole object, if those of the first frame know only a small part of it."""
+    """The state with models of the whole object, if the present ones were made from a small part of it."""
     whole = state.depth_object
     if whole is None or whole.seen is None or not whole.outgrew_models or state.position is None:
         return state
@@ -91,7 +91,7 @@ def renew_models(state: State, frame: FrameObservation, k: Kernels, p: FusedPara
 
 
 def ensure_models(state: State, observation: TargetObservation, p: FusedParams) -> State:
-    """The state with models of the picture's kind; if they are new, of where the target should be now."""
+    """The state with models for the picture's kind; new ones are made where the target should be now."""
     if observation.kind in state.models:
         return state
     appearance = _appearance_models(extract_window(observation, state.target, p.context), p)
@@ -99,7 +99,7 @@ def ensure_models(state: State, observation: TargetObservation, p: FusedParams) 
 
 
 def _appearance_models(window: Window, p: FusedParams) -> AppearanceModels:
-    """Learned from one window."""
+    """Models learned from one window."""
     observation, target = window.observation, window.target
     return AppearanceModels(
         CorrelationFilterExpert.from_window(window, p),
@@ -111,14 +111,14 @@ def _appearance_models(window: Window, p: FusedParams) -> AppearanceModels:
 
 
 def _see_sides(sides: Sides, window: Window) -> Sides:
-    """What depth says about the sides of a window's target, when it is first measured."""
+    """What the first measured depth tells about the sides of the window's target."""
     return sides.see(measure_reaches(window, 0.0, 0.0, covered_share(window), without_support=False))
 
 
 def _depth_models(
     observation: TargetObservation, target: Target, measured: DepthMeasurement | None, p: FusedParams
 ) -> tuple[DepthExpert, PositionFilter] | tuple[None, None]:
-    """The depth expert and the position filter after the first measurement; None without one."""
+    """The depth expert and the position filter after the first measurement; None if nothing was measured."""
     if measured is None:
         return None, None
     expert = DepthExpert.from_measurement(measured, target.side * measured.z)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Update the models of a found target: appearance, outline and depth.
 
-A target learned slightly off its place is found slightly off. Over thousands of frames that adds up, and the
-models drift. So if the first frame's filter peaks close to the match, the target is learned at that peak
-(Matthews, Ishikawa and Baker 2004, strategy 3). A peak farther off, or a low one, comes from another pose,
-which the first frame doesn't show.
+A target that is learned slightly off its place is later found slightly off. Over thousands of frames these
+errors add up, and the models drift. So if the first frame's filter peaks close to the match, the target is
+learned at that peak (Matthews, Ishikawa and Baker 2004, strategy 3). A peak that is low or farther off isn't
+used: it comes from another pose, which the first frame doesn't show.
 """
 
 import math
@@ -24,21 +24,21 @@ from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import CELL_PIXELS, Window, extract_window
 
-MAX_DRIFT = 0.5  # cells, from one learning to the next
-TURN_EVERY = 2  # updates of appearance per update of its turn: updating it more often is slower and no better
-DUE_TOLERANCE = 0.25  # of the time between two frames: how early appearance may be learned
-FRAME = 1 / 30  # seconds: the interval for which learning rates are given
-MIN_FIRST_RESPONSE = 0.2  # of the first frame's filter, which responds with about 1 to the unchanged target
+MAX_DRIFT = 0.5  # cells, between two updates of appearance
+TURN_EVERY = 2  # updates of appearance per update of the turn: more frequent ones are slower and no better
+DUE_TOLERANCE = 0.25  # of the time between two frames, by which appearance may be learned early
+FRAME = 1 / 30  # seconds: the interval that the learning rates refer to
+MIN_FIRST_RESPONSE = 0.2  # of the first frame's filter, whose response to the unchanged target is about 1
 
 
 def update_models(
     before: State, state: State, observation: TargetObservation, match: Match, p: FusedParams
 ) -> State:
-    """The state with a match blended into its models; before: the state after the last frame.
+    """The state with a match blended into its models.
 
-    Nothing is learned if the target wasn't moved to the match. Appearance is learned as long as the target is
-    followed, and only in some frames of fast video, at rates that make up for it: targets change with time,
-    so frames of slow video differ more.
+    before: the state after the last frame. Nothing is learned if the target wasn't moved to the match.
+    Appearance is learned while the target is followed. At high frame rates it is learned in some of the
+    frames only, at higher rates, because targets change with time and not with the number of frames.
     """
     if state.target is not match.target:
         return state
@@ -50,7 +50,7 @@ def update_models(
     if "filter" in p.cues:
         state = state.replace(target=without_drift(state.target, match))
     window = extract_window(observation, state.target, p.context)
-    # More than the usual interval doesn't count: one frame isn't worth several.
+    # After a longer interval the rates stay the same: one frame mustn't outweigh the earlier ones.
     seconds = min(state.unlearned_seconds, max(p.learn_every, FRAME))
     learnings = state.learnings + 1
     appearance = _learn_appearance(state.models[observation.kind], window, seconds, p)
@@ -61,7 +61,7 @@ def update_models(
 
 
 def without_drift(target: Target, match: Match) -> Target:
-    """A match's target, moved to the peak of the first frame's filter if that is close to the match."""
+    """The target of a match, moved to the peak of the first frame's filter if that is close to the match."""
     window = match.window
     peak = window.observation.k.evidence_peak(match.first_responses[None], NO_PLANE, 1.0, 0.0).tolist()
     right, down = peak[0] - match.right / CELL_PIXELS, peak[1] - match.down / CELL_PIXELS
@@ -88,16 +88,16 @@ def _learn_turn(models: AppearanceModels, window: Window, seconds: float, p: Fus
 
 
 def rate_over(seconds: float, rate: float) -> float:
-    """The learning rate of one step over so many seconds, from the rate per frame."""
+    """The learning rate of one step over so many seconds, given the rate per frame."""
     kept: float = (1 - rate) ** (seconds / FRAME)
     return 1 - kept
 
 
 def update_object(state: State, observation: TargetObservation) -> State:
-    """The state with the outline of the object that the target is, if it is one.
+    """The state with the outline of the target's object, if the target is an object of the depth image.
 
-    A depth image that the camera repeats may be older than the target's place. Frames without timestamps may
-    be far apart, so each of them is searched.
+    A repeated depth image isn't searched: it may be older than the color image that gave the target's place.
+    Frames without timestamps may be far apart, so each of them is searched.
     """
     known, position = state.depth_object, state.position
     if known is None or position is None:
@@ -127,9 +127,10 @@ def _update_outline(state: State, match: Match, p: FusedParams) -> State:
 def _update_depth(
     state: State, observation: TargetObservation, match: Match, was_lost: bool, p: FusedParams
 ) -> State:
-    """Correct the position filter by the measured depth; after LOST it starts anew, once recognized.
+    """Correct the position filter and the depth expert by the measured depth.
 
-    If none is measured, a recognized target still has a known place in the picture.
+    When a LOST target is recognized again, the position filter is restarted. If no depth is measured, a
+    recognized target's place in the picture corrects the filter.
     """
     if state.depth is None or state.position is None:
         return state

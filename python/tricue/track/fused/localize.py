@@ -13,14 +13,15 @@ from tricue.track.fused.params import FusedParams
 from tricue.track.fused.target import Target
 from tricue.track.fused.window import CELL_PIXELS, HANN_WINDOW, INNER_SHARE, Window, extract_window
 
-NO_TABLE: Plane = np.empty((0, 0, 0), np.float32)  # where colors tell nothing
-MAX_PEAK_CELLS = 6  # from a window's center; a peak farther off is localized again in a window of its own
+NO_TABLE: Plane = np.empty((0, 0, 0), np.float32)  # without the cue "color"
+MAX_PEAK_CELLS = 6  # from a window's center; a peak farther off is localized again in a window around it
 
 
 class TargetModel(NamedTuple):
-    """The models and parameters by which the target is searched for.
+    """The models and parameters with which the target is searched for.
 
-    typical: running means of its features, None until it was recognized after the first frame.
+    first_side: pixels, of the first box. typical: running means of the target's features; None until it is
+    recognized after the first frame.
     """
 
     appearance: AppearanceModels
@@ -30,7 +31,7 @@ class TargetModel(NamedTuple):
     params: FusedParams
 
     def limit_growth(self, growth: float, target: Target) -> float:
-        """The growth of a target, limited so that its size stays within ``size_range``."""
+        """A target's growth, limited so that its size stays within ``size_range``."""
         low, high = (bound * self.first_side / target.side for bound in self.params.size_range)
         return min(max(growth, low), high)
 
@@ -38,8 +39,8 @@ class TargetModel(NamedTuple):
 class Candidate(NamedTuple):
     """A place that may be the target's.
 
-    right, down: patch pixels from the window's center. evidence: by which it was chosen. response: of the
-    learned filter there. first_responses: (32, 32) of the first frame's filter in the window.
+    right, down: patch pixels from the window's center. evidence: what the place was chosen by. response: of
+    the learned filter there. first_responses: (32, 32) responses of the first frame's filter in the window.
     """
 
     target: Target
@@ -84,7 +85,7 @@ def localize(model: TargetModel, window: Window) -> Candidate:
 
 
 def recenter(model: TargetModel, candidate: Candidate) -> Candidate:
-    """The candidate, localized again in a window around it if it was near its window's edge."""
+    """The candidate, localized again in a window around it if it is near its window's edge."""
     if not is_near_edge(candidate.right, candidate.down):
         return candidate
     observation = candidate.window.observation
@@ -92,7 +93,7 @@ def recenter(model: TargetModel, candidate: Candidate) -> Candidate:
 
 
 def is_near_edge(right: float, down: float) -> bool:
-    """Whether a place so many patch pixels from a window's center is too near its edge to be seen well."""
+    """Whether a place, in patch pixels from a window's center, is too near the edge to be measured there."""
     return max(abs(right), abs(down)) > CELL_PIXELS * MAX_PEAK_CELLS
 
 

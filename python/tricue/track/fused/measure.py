@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Measure a candidate: its size, its depth, what covers it, and its log-odds of being the target."""
+"""Measure a candidate: its size, its depth, the covered share, and its log-odds of being the target."""
 
 from typing import NamedTuple
 
@@ -19,8 +19,9 @@ from tricue.track.fused.window import Window
 
 
 class Recognition(NamedTuple):
-    """A candidate, and its log-odds of being the target: by its whole appearance, and by its structure, which
-    light doesn't change.
+    """A candidate, and its log-odds of being the target.
+
+    log_odds: from the whole appearance. structure_log_odds: from the structure, which light doesn't change.
     """
 
     candidate: Candidate
@@ -31,11 +32,12 @@ class Recognition(NamedTuple):
 class Match(NamedTuple):
     """A candidate that was measured.
 
-    window, right, down: where it was measured, in patch pixels from the window's center.
-    log_odds, structure_log_odds: that it is the target, by all evidence, and by what light doesn't change.
-    response: of the learned filter. first_responses: (32, 32) of the first frame's, in the window. covered:
-    the share of its box that an occluder covers. best_seen: log-odds of the best match in a search of the
-    whole frame; None without one.
+    right, down: its place in the window, patch pixels from the window's center.
+    log_odds, structure_log_odds: of being the target, from all evidence, and from the structure, which light
+    doesn't change.
+    response: of the learned filter. first_responses: (32, 32) responses of the first frame's filter in the
+    window. covered: the share of its box that an occluder covers. best_seen: log-odds of the best match in a
+    search of the whole frame; None without such a search.
     """
 
     target: Target
@@ -53,12 +55,12 @@ class Match(NamedTuple):
 
     @property
     def observation(self) -> TargetObservation:
-        """The frame, given the depth at which the target was expected there."""
+        """The frame, with the depth at which the target was expected there."""
         return self.window.observation
 
     @property
     def score(self) -> float:
-        """The probability that it is the target, if that is followed."""
+        """The probability that this is the target, for a target that is followed."""
         return score_of(self.log_odds)
 
 
@@ -68,7 +70,7 @@ def measure_candidate(model: TargetModel, candidate: Candidate) -> Match:
 
 
 def recognize(model: TargetModel, candidate: Candidate) -> Recognition:
-    """The candidate with its log-odds by appearance."""
+    """The candidate, recentered, and its log-odds by appearance."""
     candidate = recenter(model, candidate)
     features = candidate.features
     offset_of_kind = DEPTH_PICTURE_OFFSET if candidate.window.observation.kind == "depth" else 0.0

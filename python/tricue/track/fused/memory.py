@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Models from some frames ago verify what the current ones find.
+"""Older models verify what the current ones find.
 
-Models gradually learn an occluder that moves in front of the target, and soon take it for the target. Those
-from before it came don't recognize it, or see the target beside it.
+When an occluder moves in front of the target, the models gradually learn it, and soon take it for the target.
+Models from before don't recognize the occluder, or find the target beside it.
 """
 
 from typing import NamedTuple
@@ -13,15 +13,15 @@ from tricue.track.fused.measure import Match, recognize
 from tricue.track.fused.models import ModelsByKind
 from tricue.track.fused.window import CELL_PIXELS, extract_window
 
-FRAMES_APART = 5  # from one snapshot to the next, of those that were recognized
-MAX_CELLS_OFF = 3  # from a match to where the older models see the target, if it is the same
-LOG_ODDS_ELSEWHERE = -5.0  # of a match that is farther off
+FRAMES_APART = 5  # between two snapshots; only frames in which the target was recognized count
+MAX_CELLS_OFF = 3  # between the places where the current and the older models find the target
+LOG_ODDS_ELSEWHERE = -5.0  # of a match if these places are farther apart
 
 
 class Memory(NamedTuple):
-    """Two snapshots of the models; the older one, from 5 to 10 recognized frames ago, verifies.
+    """Two snapshots of the models; the older one, from 5 to 10 recognized frames ago, verifies matches.
 
-    frames: recognized since the newer one.
+    frames: number of frames since the newer snapshot in which the target was recognized.
     """
 
     older: ModelsByKind
@@ -29,17 +29,17 @@ class Memory(NamedTuple):
     frames: int = 0
 
     def keep(self, models: ModelsByKind) -> "Memory":
-        """The memory after one more frame in which the target was recognized, by these models."""
+        """The memory after one more frame in which the target was recognized by these models."""
         frames = self.frames + 1
         return self._replace(frames=frames) if frames < FRAMES_APART else Memory(self.newer, models)
 
 
 def limit_log_odds(remembered: TargetModel, match: Match) -> Match:
-    """A match in a color picture, its log-odds at most those by the older models in the same window.
+    """A match in a color picture, with its log-odds limited to those by the older models in the same window.
 
-    A match with the log-odds that a missed target needs isn't limited: the first frame's models are sure. If
-    a match is near its window's edge even after it was localized again, as in a window without texture, the
-    older models look at it in a window of its own.
+    A match with the log-odds that a missed target needs isn't limited: it is similar enough to the first
+    frame. If a match is near its window's edge even after it was localized again, as in a window without
+    texture, the older models search a window around it.
     """
     p, window, right, down = remembered.params, match.window, match.right, match.down
     if match.log_odds >= log_odds_of(p.min_score_to_redetect):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The models of the target's appearance."""
+"""The models of the target's appearance, one set per kind of picture."""
 
 from typing import NamedTuple
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The outline: how far the target extends from its center, by the pixels at its depth.
+"""The outline: how far the target extends from its center, according to the pixels at its depth.
 
 The outline gives the box that a track reports. The target's own box, in which its appearance is measured,
-keeps its aspect ratio. A side counts only where depth showed it in the first frame: a target may stand on
-something that is as far away.
+keeps its aspect ratio. A side follows depth only if depth agreed with it in the first frame: something that
+the target touches, such as the floor, may be at the same depth.
 """
 
 from dataclasses import dataclass
@@ -20,18 +20,18 @@ from tricue.track.fused.target import Target
 from tricue.track.fused.window import PATCH_PIXELS, Window
 
 MIN_FILLED_POSTERIOR = 0.45  # mean P(target | depth) along a row or column of the target: half of its maximum
-FILLED = float(np.float32(MIN_FILLED_POSTERIOR))  # as profiles hold it
-OUTLINE_CENTER_SHARE = 0.25  # of the box's sides: the rows and columns that are followed outwards
-MAX_COVERED_BY_OCCLUDER = 0.05  # of the box, above which its outline can't be measured
-BORDER_MARGIN = 0.1  # of the target's side, distance to the image's border: boxes are drawn by hand
+FILLED = float(np.float32(MIN_FILLED_POSTERIOR))  # rounded like the profiles
+OUTLINE_CENTER_SHARE = 0.25  # of the box's sides: the rows and columns that are followed outward
+MAX_COVERED_BY_OCCLUDER = 0.05  # of the box, above which the outline can't be measured
+BORDER_MARGIN = 0.1  # of the target's side, from the image's border, as boxes are drawn by hand
 MAX_FIRST_DEVIATION = 0.2  # of half the box, between a side of the first box and what depth shows
-MAX_SEEN_DEVIATION = 0.6  # of half the box, of a side that was seen; farther off it belongs to something else
+MAX_SEEN_DEVIATION = 0.6  # of half the box, for a SEEN side; farther off, the edge is something else's
 MAX_CUT_REACH = 6.0  # halves of the box
 
 
 @dataclass(frozen=True, kw_only=True)
 class OutlineParams(Params):
-    """Of the outline."""
+    """The parameters of the outline."""
 
     outline_time_constant: float = parameter(
         0.5,
@@ -53,7 +53,7 @@ class Outline(NamedTuple):
 
     @classmethod
     def of(cls, box: Box, target: Target) -> "Outline":
-        """The outline that gives the target this box."""
+        """The outline with which the target has this box."""
         left, top, right, bottom = box.xyxy
         half_width, half_height = target.width / 2, target.height / 2
         return cls(
@@ -64,14 +64,14 @@ class Outline(NamedTuple):
         )
 
     def apply_to(self, target: Target) -> Target:
-        """The target with these sides."""
+        """The target with its sides moved to the outline."""
         half_width, half_height = target.width / 2, target.height / 2
         left, right = target.x - self.left * half_width, target.x + self.right * half_width
         top, bottom = target.y - self.top * half_height, target.y + self.bottom * half_height
         return Target((left + right) / 2, (top + bottom) / 2, right - left, bottom - top)
 
     def blend(self, measured: "Outline", rate: float) -> "Outline":
-        """The outline moved toward a measured one by a share of their difference."""
+        """The outline moved toward a measured one by a share ``rate`` of the difference."""
         return Outline(*(old + rate * (new - old) for old, new in zip(self, measured, strict=True)))
 
 
@@ -81,7 +81,7 @@ BOX_OUTLINE = Outline()
 class Reaches(NamedTuple):
     """How far the pixels at the target's depth reach from its center, in halves of its width and height.
 
-    None if they start elsewhere, or go on to the edge of the window.
+    None in a direction in which they reach the window's edge, or if the center isn't at that depth.
     """
 
     left: float | None
@@ -91,10 +91,10 @@ class Reaches(NamedTuple):
 
 
 class Side(Enum):
-    """What depth says about a side of the target, by its first frame.
+    """What depth tells about a side of the target, decided at the first depth.
 
-    HIDDEN: nothing, as something as far away is there, a table or a chair. SEEN: where it is. CUT: the
-    image's border cuts the target off there, so it may reach farther.
+    HIDDEN: nothing, because something at the same depth is there, such as a table or a chair. SEEN: where the
+    side is. CUT: the image's border cuts the target off there, so the target may extend farther later.
     """
 
     HIDDEN = 0
@@ -103,7 +103,7 @@ class Side(Enum):
 
 
 class Sides(NamedTuple):
-    """What depth says about each side."""
+    """What depth tells about each side."""
 
     left: Side
     top: Side
@@ -124,7 +124,7 @@ class Sides(NamedTuple):
         return self == ALL_HIDDEN
 
     def see(self, reaches: Reaches | None) -> "Sides":
-        """The same after the first depth: sides that depth shows where the box has them are SEEN."""
+        """The sides after the first depth: HIDDEN becomes SEEN where depth agrees with the box."""
         if reaches is None:
             return self
         return Sides(
@@ -137,7 +137,7 @@ class Sides(NamedTuple):
         )
 
     def outline(self, reaches: Reaches) -> Outline:
-        """The outline with the sides that depth shows; the other ones are the box's."""
+        """The outline with the sides that depth shows; the others stay those of the box."""
         return Outline(*(_side(*each) for each in zip(self, reaches, strict=True)))
 
 
@@ -155,10 +155,11 @@ def _side(side: Side, reach: float | None) -> float:
 def measure_reaches(
     window: Window, right: float, down: float, covered: float, *, without_support: bool
 ) -> Reaches | None:
-    """How far the pixels at the target's depth reach from a place, in patch pixels from a window's center.
+    """How far the pixels at the target's depth reach from the target's center.
 
-    covered: the share of its box that an occluder covers. without_support: whether what it stands on is left
-    out. None if depth has no sharp edges, or the target is covered.
+    right, down: that center, in patch pixels from the window's. covered: the share of the target's box that
+    an occluder covers. without_support: whether to exclude what the target stands on. None if there is no
+    depth, if depth has no sharp edges, or if the target is covered.
     """
     source = window.observation.depth_source
     if window.depth is None or source is None or not source.has_sharp_edges:
@@ -175,7 +176,7 @@ def measure_reaches(
 
 
 def _extent(profile: Plane, center: float, half: float) -> tuple[float | None, float | None]:
-    """How far the filled part reaches before and after a place, in halves of the box."""
+    """How far the filled part of a profile reaches before and after a place, in halves of the box."""
     values = profile.tolist()
     start = min(max(int(center), 0), len(values) - 1)
     if values[start] < FILLED:
@@ -195,6 +196,6 @@ def _first_empty(profile: list[float], start: int, end: int, step: int) -> int |
 
 
 def _crossing(profile: list[float], index: int) -> float:
-    """Where MIN_FILLED_POSTERIOR is crossed between the centers of a pixel and the next."""
+    """Where the profile crosses MIN_FILLED_POSTERIOR between the centers of a pixel and the next."""
     first, second = profile[index], profile[index + 1]
     return index + 0.5 + (MIN_FILLED_POSTERIOR - first) / (second - first)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The parameters of the fused tracker: those of its experts, and of its loop."""
+"""The parameters of the fused tracker: those of its experts and of its loop."""
 
 from dataclasses import dataclass
 
@@ -16,7 +16,7 @@ from tricue.track.fused.sources import OURS
 
 
 @dataclass(frozen=True, kw_only=True)
-class FusedParams(  # dataclasses take the fields of the last base first
+class FusedParams(  # fields are in the order of the bases, last base first
     PositionParams, OutlineParams, DepthParams, TurnParams, SizeParams, ColorParams, FilterParams, CueParams
 ):
     """Units: "target" is the side of the square with the target's area, "box" a side of its box."""
@@ -40,7 +40,7 @@ class FusedParams(  # dataclasses take the fields of the last base first
         was="far",
     )
 
-    # whether it is the target, and what follows from that
+    # whether a match is the target, and what follows from that
     max_covered: float = parameter(
         0.5,
         unit="of the box",

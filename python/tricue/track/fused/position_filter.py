@@ -20,16 +20,16 @@ from tricue.track.fused.sources import OURS
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 
-LATERAL_NOISE = 0.02  # of the target's side, standard deviation of its center
+LATERAL_NOISE = 0.02  # standard deviation of the target's center, as a share of its side
 MIN_POSITION_Z = 0.05  # meters in front of the camera
 MAX_POSITION_SIGMA = 3.0  # meters, in the expected depth
-LATERAL, AHEAD = [0, 1, 3, 4], [2, 5]  # of a state: X and Y, and Z, and their velocities
-MOVING = np.arange(6)  # all of a state: its position and velocity
-MAX_INNOVATION = 2.0  # standard deviations; a larger innovation widens the state
-POSITION_MATRIX = np.eye(3, 6)  # from a state to the position that is measured
+LATERAL, AHEAD = [0, 1, 3, 4], [2, 5]  # indices of X, Y and their velocities, and of Z and its velocity
+MOVING = np.arange(6)  # indices of position and velocity: the whole state
+MAX_INNOVATION = 2.0  # standard deviations; a larger innovation widens the state's covariance
+POSITION_MATRIX = np.eye(3, 6)  # the measurement matrix: from a state to the measured position
 SHARED_DEPTH_ERROR = 0.6  # of the depth spread, standard deviation; fitted: docs/fused-figures.md
 SHARED_LATERAL_ERROR = 0.05  # of the side of a track's box, standard deviation; fitted: docs/fused-figures.md
-MISSED_MEAN_FACTORS = np.array([1, 1, 1, 0.8, 0.8, 0.8])
+MISSED_MEAN_FACTORS = np.array([1, 1, 1, 0.8, 0.8, 0.8])  # of position and velocity, in a missed frame
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,8 +59,8 @@ class PositionParams(Params):
 class PositionFilter(NamedTuple):
     """A Gaussian over position and velocity.
 
-    mean: (6,), X, Y, Z in meters, x right, y down, z forward, and their velocities in m/s. covariance:
-    (6, 6).
+    mean: (6,) X, Y, Z in meters in the camera's frame (x right, y down, z forward), and their velocities in
+    m/s. covariance: (6, 6).
     """
 
     mean: Floats
@@ -85,10 +85,11 @@ class PositionFilter(NamedTuple):
         return np.array(self.covariance[:3, :3])
 
     def error_covariance(self, spread: float) -> Floats:
-        """The covariance (3, 3), m², of all errors, for a target with that standard deviation of its depths.
+        """The position's covariance (3, 3), m², including errors that consecutive frames share.
 
-        The visible part of a thick target and the background measured with it are the same in many frames.
-        This error lies along the line of sight and doesn't average out: it is added to the filter's.
+        spread: standard deviation of the target's depths, meters. Many frames show the same part of a thick
+        target, and the same background is measured with it. The resulting error lies along the line of sight
+        and doesn't average out, so it is added to the filter's.
         """
         x, y, z = self.mean[:3].tolist()
         depth = max(z, MIN_POSITION_Z)
@@ -98,13 +99,13 @@ class PositionFilter(NamedTuple):
         return error
 
     def expected_depth(self, spread: float) -> ExpectedDepth:
-        """The expected depth, meters, of a target whose surface's depths have that standard deviation."""
+        """The expected depth. spread: standard deviation of the depths of the target's surface, meters."""
         sigma = min(math.sqrt(float(self.covariance[2, 2])), MAX_POSITION_SIGMA)
         z = max(float(self.mean[2]), MIN_POSITION_Z)
         return ExpectedDepth(z, float(np.hypot(sigma, spread)))
 
     def move_like(self, other: "PositionFilter") -> "PositionFilter":
-        """The state with the velocity of the other one."""
+        """The state with the velocity of another."""
         mean, covariance = np.concatenate([self.mean[:3], other.mean[3:]]), np.zeros((6, 6))
         covariance[:3, :3], covariance[3:, 3:] = self.covariance[:3, :3], other.covariance[3:, 3:]
         return PositionFilter(mean, covariance)
@@ -114,9 +115,9 @@ class PositionFilter(NamedTuple):
         return PositionFilter(self.mean * MISSED_MEAN_FACTORS, self.covariance)
 
     def predict(self, k: Kernels, seconds: float, p: PositionParams) -> "PositionFilter":
-        """The state after some seconds of white acceleration, its uncertainty limited to MAX_SIGMA.
+        """The state so many seconds later, under white acceleration noise.
 
-        Bar-Shalom, Li and Kirubarajan 2001, section 6.3.2.
+        Bar-Shalom, Li and Kirubarajan 2001, section 6.3.2. :func:`limit_covariance` limits its uncertainty.
         """
         dynamics = _dynamics(seconds, p.acceleration_noise)
         mean, covariance = k.kalman_predict(self.mean, self.covariance, *dynamics)
@@ -130,9 +131,9 @@ class PositionFilter(NamedTuple):
         return float(np.sqrt(off @ np.linalg.solve(self.covariance[:3, :3] + noise, off)))
 
     def correct(self, k: Kernels, point: Floats, noise: Floats) -> "PositionFilter":
-        """The state after a measured point (3,) with covariance ``noise`` (3, 3).
+        """The state corrected by a measured point (3,) with covariance ``noise`` (3, 3).
 
-        A large innovation shows that the motion model failed: the covariance is widened to it first.
+        A large innovation shows that the motion model failed, so the covariance is first widened to match it.
         """
         mean, covariance, *_ = k.kalman_update(
             self.mean, self.covariance, point, POSITION_MATRIX, noise, MAX_INNOVATION
@@ -140,10 +141,10 @@ class PositionFilter(NamedTuple):
         return PositionFilter(mean, covariance)
 
     def aim(self, k: Kernels, target: Target, camera: Intrinsics) -> "PositionFilter":
-        """The state after a target was seen at a place in the picture; its depth doesn't change.
+        """The state corrected by the target's place in the picture; depth doesn't change.
 
-        Depth and its errors count as independent of the rest: otherwise errors of the motion model to the
-        right or down would change the depth.
+        Depth is treated as independent of X and Y. Otherwise, errors of the motion model to the right or down
+        would change it.
         """
         z, variance = max(float(self.mean[2]), MIN_POSITION_Z), (LATERAL_NOISE * target.side) ** 2
         x, y = (target.x - 0.5 - camera.cx) / camera.fx, (target.y - 0.5 - camera.cy) / camera.fy
@@ -179,7 +180,7 @@ def back_project(
     """A target's position (3,), meters in the camera's frame, and its covariance (3, 3)."""
     assert observation.depth_source is not None, "it was measured"
     camera, z = observation.camera, depth.z
-    disparity = camera.fx / z  # of a stereo pair with a baseline of 1 m, which is equivalent to z
+    disparity = camera.fx / z  # the disparity at depth z of a stereo pair with a baseline of 1 m
     depth_noise = disparity / z * observation.depth_source.noise(z, target.side / DEPTH_SAMPLES)
     lateral_noise = LATERAL_NOISE * target.side
     k, place = observation.k, np.array([[target.x - 0.5, target.y - 0.5, disparity]])
@@ -189,10 +190,10 @@ def back_project(
 
 
 def lateral_variances(target: Target, box: Box, z: float, camera: Intrinsics) -> tuple[float, float]:
-    """The variance, m², of errors to the right and down that don't average out, of a position at depth z.
+    """The variances, m², of a position's errors to the right and down that don't average out, at depth z.
 
-    The place of the position in the target stays the same in many frames. The position is the center of the
-    target's own box; a track's box may have another center, and the true one may be either.
+    A position that is off the target's true center stays off it by the same amount in many frames. It is the
+    center of the target's own box; a track's ``box`` may have another center, and either may be the true one.
     """
     variance, (x, y) = SHARED_LATERAL_ERROR**2 * box.width * box.height, box.center
     right = (variance + (x - target.x) ** 2) * (z / camera.fx) ** 2

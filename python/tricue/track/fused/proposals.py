@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The windows that are examined in a search of the whole frame."""
+"""Proposals: the windows that are examined in a search of the whole frame."""
 
 import math
 from typing import NamedTuple, TypeVar
@@ -17,24 +17,25 @@ from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import Window, extract_window, extract_windows
 
-MAX_OBJECT_PROPOSALS = 3  # per frame, of objects in depth
-MAX_COLOR_PLACES = 10  # in a frame, where the target's colors stand out
-COLOR_PLACES_IN_TURN = 2  # per frame, beside the one where they stand out most
-MAX_GRID_PROPOSALS = 3  # per frame, of a grid over the whole frame
+MAX_OBJECT_PROPOSALS = 3  # objects in depth, per frame
+MAX_COLOR_PLACES = 10  # places where the target's colors stand out, found in a frame
+COLOR_PLACES_IN_TURN = 2  # of these, examined per frame in turn, in addition to the best
+MAX_GRID_PROPOSALS = 3  # places of a grid over the whole frame, per frame
 MAX_GRID_SIDE = 32  # places on a side of that grid, however small the target
 SAMPLES_PER_TARGET = 8  # on a side of the target, in the search for its colors
-MAX_FRAME_SAMPLES = 256  # on a side of the frame, in the search for the target's colors
+MAX_FRAME_SAMPLES = 256  # on the longer side of the frame, in the search for the target's colors
 CONTRAST_STEP = 2  # samples between two places whose contrast is measured
-PROPOSED_SCALES = 1.0, 0.7, 1.0, 1.4  # of the target's last size, one per frame in turn, without depth
+PROPOSED_SCALES = 1.0, 0.7, 1.0, 1.4  # relative to the target's last size, in turn; used without depth
 
 T = TypeVar("T")
 
 
 class LostTarget(NamedTuple):
-    """A target that wasn't recognized in the last frame.
+    """A target that is searched for.
 
-    target: where it may be, as large as when it was last recognized, as later matches needn't be the target.
-    missed_frames: since then. frame: number of the current one, by which proposals take turns.
+    target: its last place, with the size at which it was last recognized, because later matches may not have
+    been the target. missed_frames: number of frames since then. frame: index of the current frame, which
+    decides whose turn it is among the proposals.
     """
 
     target: Target
@@ -46,7 +47,7 @@ class LostTarget(NamedTuple):
 def propose_windows(model: TargetModel, observation: TargetObservation, lost: LostTarget) -> list[Window]:
     """Windows where the target's colors or objects in depth stand out, and some of a grid over the frame.
 
-    With depth, each has the size that the target would have there.
+    With depth, each window has the size that fits the target at its depth.
     """
     propose = _color_proposals if observation.kind == "color" else _object_proposals
     targets = propose(model, observation, lost) + _grid_proposals(observation, lost, model.params)
@@ -64,7 +65,7 @@ def propose_windows(model: TargetModel, observation: TargetObservation, lost: Lo
 def _at_depth(
     model: TargetModel, observation: TargetObservation, target: Target, depth: DepthMeasurement | None
 ) -> tuple[TargetObservation, Target]:
-    """The target as large as it would be at its place's depth, and the frame with that depth expected."""
+    """The frame with a place's depth as the expected depth, and the target with its size at that depth."""
     if depth is None or model.depth is None:
         return observation, target
     growth = model.depth.length / (depth.z * target.side)
@@ -73,7 +74,7 @@ def _at_depth(
 
 
 def _object_proposals(model: TargetModel, observation: TargetObservation, lost: LostTarget) -> list[Target]:
-    """The target at the objects of a depth image, those of its size in meters first.
+    """The target at the objects of a depth image, those closest to it in metric size first.
 
     Sabeti, Parvizi and Wu 2008, section IV.A.
     """
@@ -87,7 +88,7 @@ def _object_proposals(model: TargetModel, observation: TargetObservation, lost: 
 
 
 def _color_proposals(model: TargetModel, observation: TargetObservation, lost: LostTarget) -> list[Target]:
-    """The target where its colors stand out most, and at some of the next such places in turn."""
+    """The target where its colors stand out most, and, in turn, at some of the next best places."""
     assert observation.picture is not None, "the picture is of color"
     height, width = observation.shape
     k, target = observation.k, lost.target
@@ -113,9 +114,9 @@ def _color_proposals(model: TargetModel, observation: TargetObservation, lost: L
 
 
 def _separate_peaks(contrast: Plane, apart: tuple[float, float]) -> list[tuple[int, int]]:
-    """Row and column of the cells with the most contrast, each so many rows or columns from those before.
+    """Row and column of the cells with the most contrast, in descending order.
 
-    contrast: (R, C); overwritten.
+    contrast: (R, C); overwritten. apart: rows and columns; two peaks are at least one of them apart.
     """
     rows, columns = (max(math.ceil(each), 1) for each in apart)
     peaks: list[tuple[int, int]] = []
@@ -129,7 +130,7 @@ def _separate_peaks(contrast: Plane, apart: tuple[float, float]) -> list[tuple[i
 
 
 def _grid_proposals(observation: TargetObservation, lost: LostTarget, p: FusedParams) -> list[Target]:
-    """The target at places of a grid over the whole frame, half a window apart, in turn from near to far."""
+    """The target at a few places of a grid over the frame, half a window apart, in turn from near to far."""
     target = lost.target
     half = p.context * target.side / 2
     height, width = observation.shape
@@ -141,6 +142,6 @@ def _grid_proposals(observation: TargetObservation, lost: LostTarget, p: FusedPa
 
 
 def _in_turn(items: list[T], count: int, frame: int) -> list[T]:
-    """The next few of a list that starts again at its end."""
+    """The next ``count`` items of a list, which starts again after its end."""
     first = frame * count
     return [items[(first + i) % len(items)] for i in range(min(count, len(items)))]

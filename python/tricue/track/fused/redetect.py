@@ -13,11 +13,11 @@ from tricue.track.fused.target_observation import TargetObservation
 def redetect(
     model: TargetModel, observation: TargetObservation, lost: LostTarget, local: Match, min_log_odds: float
 ) -> Match:
-    """Re-detect the target in the whole frame; local: the match where it should be.
+    """The best match in the whole frame; local: the match where the target should be.
 
-    The candidates with the most evidence are verified. A match elsewhere needs ``min_log_odds``, and more
-    than the local one has. Candidates that don't look enough like the target aren't measured, as distance can
-    only lower their log-odds.
+    The candidates with the most evidence are verified. A match elsewhere needs ``min_log_odds``, and higher
+    log-odds than the local match. Candidates below ``min_log_odds`` aren't measured, because the penalty for
+    distance can only lower their log-odds.
     """
     windows = propose_windows(model, observation, lost)
     candidates = sorted((localize(model, each) for each in windows), key=lambda each: -each.evidence)
@@ -39,8 +39,8 @@ def _log_odds(recognition: Recognition) -> float:
 def _match_elsewhere(model: TargetModel, lost: LostTarget, recognition: Recognition) -> Match:
     """A candidate measured away from where the target should be.
 
-    Its structure has to match by itself, too, as look-alikes have the same colors. Without a depth, which
-    gives its size, the distance lowers the log-odds of the structure as well.
+    Its structure must match, too, because look-alikes may have the same colors. If no depth was measured,
+    which would tell its size, distance lowers the log-odds of the structure as well.
     """
     match = measure(model, recognition)
     penalty = _distance_penalty(model, lost, match)
@@ -49,12 +49,12 @@ def _match_elsewhere(model: TargetModel, lost: LostTarget, recognition: Recognit
 
 
 def _distance_penalty(model: TargetModel, lost: LostTarget, match: Match) -> float:
-    """The log-odds that a match loses by its distance from where the target can be by now."""
+    """The log-odds that a match loses by its distance from the target's predicted place."""
     return 0.5 * _distance(model, lost, match) ** 2
 
 
 def _distance(model: TargetModel, lost: LostTarget, match: Match) -> float:
-    """The distance from where the target can be by now, in standard deviations; in 3D if depths are known."""
+    """The distance from the target's predicted place, in standard deviations; in 3D if depths are known."""
     if lost.position is not None and match.depth is not None:
         return lost.position.distance(*back_project(match.observation, match.target, match.depth))
     sigma = lost.target.side * model.params.lost_position_noise * (1 + lost.missed_frames)

@@ -15,9 +15,9 @@ NEIGHBORS = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]  # in hal
 def search_local(
     model: TargetModel, observation: TargetObservation, last: Target, mean_response: float
 ) -> Match:
-    """Search where a followed target should be, and if the filter responds weakly there, beside it, too.
+    """Search where a followed target should be, and also around that if the filter responds weakly there.
 
-    mean_response: of the filter on the target.
+    mean_response: running mean of the filter's response on the target.
     """
     p = model.params
     window = extract_window(observation, last, p.context)
@@ -31,13 +31,13 @@ def search_local(
 
 
 def search_last_place(model: TargetModel, observation: TargetObservation, last: Target) -> Match:
-    """Search for a missed target where it was; the search of the whole frame looks for it elsewhere."""
+    """Search for a missed target at its last place; :func:`redetect` searches the rest of the frame."""
     window = extract_window(observation, last, model.params.context)
     return _measured(model, localize(model, window), window, 0.0)
 
 
 def _measured(model: TargetModel, candidate: Candidate, last: Window, bonus: float) -> Match:
-    """A candidate measured, with a bonus of log-odds; last: the window in which the target was last."""
+    """A measured candidate, with a bonus added to its log-odds; last: the window around the last place."""
     match = measure_candidate(model, candidate)
     log_odds = match.log_odds + bonus
     if match.observation.kind == "color":
@@ -46,7 +46,7 @@ def _measured(model: TargetModel, candidate: Candidate, last: Window, bonus: flo
 
 
 def _localize_beside(model: TargetModel, window: Window, last: Target) -> Candidate:
-    """The best place in the neighboring windows, its evidence reduced for the window's distance."""
+    """The best place in a neighboring window, its evidence reduced by the window's distance."""
     half = model.params.context * last.side / 2
     squared = (window.target.x - last.x) ** 2 + (window.target.y - last.y) ** 2
     candidate = localize(model, window)
@@ -55,6 +55,6 @@ def _localize_beside(model: TargetModel, window: Window, last: Target) -> Candid
 
 
 def _neighboring_windows(observation: TargetObservation, target: Target, context: float) -> list[Window]:
-    """The eight windows around a target's own, half a window away."""
+    """The eight windows around a target's own, each half a window away."""
     half = context * target.side / 2
     return extract_windows(observation, [target.shift(i * half, j * half) for i, j in NEIGHBORS], context)

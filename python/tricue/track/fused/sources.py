@@ -1,4 +1,4 @@
 # SPDX-License-Identifier: MIT
-"""The source of default parameters that come from no paper."""
+"""The source given for default parameters that aren't from a paper."""
 
 OURS = "our prototype, or a choice not yet compared with others"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""All that the fused tracker keeps from frame to frame."""
+"""Everything that the fused tracker keeps from frame to frame."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -19,8 +19,8 @@ from tricue.track.fused.position_filter import PositionFilter
 from tricue.track.fused.target import Target
 
 FRESH_TRUST = DepthTrust()  # before the first frame
-NO_MOTION = Motion()  # after it
-MIN_LOST_FRAMES = 3  # missed in a row, until the target is LOST
+NO_MOTION = Motion()  # after the first frame
+MIN_LOST_FRAMES = 3  # missed in a row, before the target is LOST
 
 
 @dataclass(frozen=True)
@@ -29,34 +29,34 @@ class State:
 
     shape: tuple[int, int]  # of the first frame
     models: ModelsByKind
-    memory: Memory  # of the models as they were
+    memory: Memory  # older models
     target: Target
     first_side: float  # pixels, of the first box
     recognized_side: float  # pixels, when it was last recognized
     mean_response: float  # running mean of the filter's response on the target
-    sides: Sides  # what depth says about them
+    sides: Sides  # what depth tells about the target's sides
     features: IdentityFeatures | None = None
     score: float = 1.0
-    typical: IdentityFeatures | None = None  # running means of its features, None after the first frame
-    depth: DepthExpert | None = None  # None until depth was measured
+    typical: IdentityFeatures | None = None  # running means; None until recognized after the first frame
+    depth: DepthExpert | None = None  # None until depth is measured
     depth_object: DepthObject | None = None  # None unless the target is an object of the depth image
-    position: PositionFilter | None = None  # None until depth was measured
+    position: PositionFilter | None = None  # None until depth is measured
     is_metric: bool = True  # no frame since init was a stereo pair whose rig had to be guessed
     motion: Motion = NO_MOTION
     outline: Outline = BOX_OUTLINE
     depth_trust: DepthTrust = FRESH_TRUST
     occluded: bool = False  # by something nearer
-    clutter: Clutter = NO_CLUTTER  # seen since it was missed
-    missed_frames: int = 0  # in a row, in which it was not recognized
+    clutter: Clutter = NO_CLUTTER  # since the target was last recognized
+    missed_frames: int = 0  # in a row, in which the target was not recognized
     missed_seconds: float = 0.0  # of these frames
     unlearned_seconds: float = 0.0  # since appearance was learned
     learnings: int = 0  # of appearance, after the first frame
-    seconds: float = 0.0  # since the frame before
+    seconds: float = 0.0  # since the previous frame
     frames: int = 0  # since init
     timestamp: float | None = None
 
     def replace(self, **changes: Any) -> "State":
-        """The state with some attributes changed; a named tuple this large would take four times as long."""
+        """The state with some attributes changed; a named tuple of this size takes four times as long."""
         assert changes.keys() <= vars(self).keys(), f"expected fields of a State, got {', '.join(changes)}"
         changed = object.__new__(State)
         vars(changed).update(vars(self))
@@ -64,9 +64,9 @@ class State:
         return changed
 
     def is_lost(self, p: FusedParams) -> bool:
-        """Whether the target was missed for long enough to be LOST."""
+        """Whether the target has been missed for long enough to be LOST."""
         return self.missed_frames >= MIN_LOST_FRAMES and self.missed_seconds >= p.lost_after
 
     def is_followed(self, p: FusedParams) -> bool:
-        """Whether the target is where it should be, or was missed so briefly that it may still be there."""
+        """Whether the target is recognized, or has been missed so briefly that it may still be near."""
         return self.missed_frames == 0 or self.missed_seconds <= p.max_missed_seconds + ADDED_TIME_ERROR

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The plane that a target stands on, lies on or leans against: it is at its depth, but not the target."""
+"""The support: a plane that the target stands on, lies on or leans against.
+
+It is at the target's depth, so depth alone would take it for the target.
+"""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,19 +12,18 @@ from tricue.kernels import Kernels
 from tricue.track.fused.arrays import Floats, Plane
 from tricue.track.fused.depth_sources import Grid
 
-SUPPORT_TOLERANCE = 0.015  # of the target's depth, of a point on the plane
-TRIALS = 64  # planes tried
+SUPPORT_TOLERANCE = 0.015  # largest distance of a point from the plane, as a share of the target's depth
+TRIALS = 64  # planes that RANSAC tries
 DRAWS: Floats = np.random.default_rng(0).integers(2**32, size=(TRIALS, 3)) / 2**32  # the same for each frame
 
 
 def find_support(
     k: Kernels, depth: Plane, grid: Grid, side: int, size: tuple[float, float], z: float, camera: Intrinsics
 ) -> NDArray[np.bool_]:
-    """The pixels (side, side) of a target's surround, and of its box, that lie on one plane.
+    """The squares of a grid around a target that lie on the plane that supports it, (side, side).
 
-    depth: (H, W) meters, of which the target at depth z has a grid of squares around it. size: the target's
-    width and height in squares.
-    None of them if no plane holds enough of the target's surround, or if it holds the target itself.
+    depth: (H, W) meters. size: the target's width and height in squares. z: the target's depth, meters.
+    No square is on the plane if no plane has enough of the target's surround, or if it has the target, too.
     """
     on_plane = k.support_pixels(depth, *grid, side, *size, z, camera.vector, DRAWS, SUPPORT_TOLERANCE * z)
     return on_plane.view(np.bool_)

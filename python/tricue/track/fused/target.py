@@ -12,8 +12,8 @@ TURN_STEPS = 1024  # of a full turn
 class Target(NamedTuple):
     """Center, width and height in pixels of the image.
 
-    turn: of the axes that its width and height are along, clockwise, in steps of 1/1024 of a full turn, from
-    -512 to 511.
+    turn: clockwise rotation of the axes along which width and height are measured, in steps of 1/1024 of a
+    full turn, from -512 to 511.
     """
 
     x: float
@@ -24,12 +24,12 @@ class Target(NamedTuple):
 
     @classmethod
     def of(cls, box: Box) -> "Target":
-        """The center and size of a box."""
+        """The target in a box."""
         return cls(*box.center, box.width, box.height)
 
     @property
     def box(self) -> Box:
-        """The same as a box, if it isn't turned."""
+        """The target's box before it is turned around its center."""
         return Box(self.x - self.width / 2, self.y - self.height / 2, self.width, self.height)
 
     @property
@@ -39,7 +39,7 @@ class Target(NamedTuple):
 
     @property
     def upright(self) -> "Target":
-        """The smallest target that isn't turned and holds this one's ellipse."""
+        """The smallest target without a turn that contains this one's ellipse."""
         if not self.turn:
             return self
         across, down = axes(self.turn)
@@ -56,7 +56,7 @@ class Target(NamedTuple):
         return self.at(self.x + right, self.y + down)
 
     def along(self, right: float, down: float) -> tuple[float, float]:
-        """The shift to the right and down in the image of so many pixels along its own axes."""
+        """The shift in the image, right and down, for a shift in pixels along the target's own axes."""
         cosine, sine = axes(self.turn)
         return cosine * right - sine * down, sine * right + cosine * down
 

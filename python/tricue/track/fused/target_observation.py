@@ -24,15 +24,15 @@ from tricue.track.fused.target import Target
 PictureKind = Literal["color", "depth"]
 
 PICTURE_DEPTH_RANGE = 0.5  # meters from the expected depth to black or white in a picture of depth
-SAMPLE_REACH = 2  # pixels beyond a window that its samples may read
+SAMPLE_REACH = 2  # pixels: how far beyond a window its samples may read
 
 
 class TargetObservation(NamedTuple):
     """A picture of the frame, and a source of depth for its pixels.
 
-    picture: (H, W, 3) BGR of color, None where it is drawn of the depth image that is the source of depth.
-    camera: the picture's. depth_source: None where there is no depth. expected_depth: None where the target's
-    depth isn't known.
+    picture: (H, W, 3) BGR color image; None without color, where the picture is drawn from the depth image.
+    camera: of the picture. depth_source: None without depth. expected_depth: None if the target's depth isn't
+    known.
     """
 
     k: Kernels
@@ -43,12 +43,12 @@ class TargetObservation(NamedTuple):
 
     @property
     def kind(self) -> PictureKind:
-        """What the picture is of."""
+        """What the picture shows."""
         return "depth" if self.picture is None else "color"
 
     @property
     def depth_image(self) -> Plane:
-        """(H, W) meters: what a picture of depth is drawn of."""
+        """(H, W) meters: what a picture of depth is drawn from."""
         assert isinstance(self.depth_source, DepthImageSource), "without color it is read from one"
         return self.depth_source.depth
 
@@ -59,7 +59,7 @@ class TargetObservation(NamedTuple):
         return image.shape[0], image.shape[1]
 
     def expect(self, expected: ExpectedDepth) -> "TargetObservation":
-        """The same frame, given another expected depth."""
+        """The same frame with another expected depth."""
         return self._replace(expected_depth=expected)
 
     def sample(self, windows: Floats, side: int) -> Image:
@@ -81,9 +81,9 @@ class TargetObservation(NamedTuple):
         return _bgr(samples.reshape(-1, side)).reshape(-1, side, side, 3)
 
     def sample_squares(self, targets: Sequence[Target], sides: Sequence[float], side: int) -> Image:
-        """(N, side, side, 3) samples of the picture in squares around targets, turned as these are.
+        """(N, side, side, 3) samples of the picture in squares around targets, turned like the targets.
 
-        sides: of the squares, image pixels. Targets are turned only in a picture of color.
+        sides: of the squares, image pixels. Turns are ignored in a picture of depth.
         """
         each = list(zip(targets, sides, strict=True))
         if self.picture is None or not any(target.turn for target in targets):
@@ -92,9 +92,10 @@ class TargetObservation(NamedTuple):
         return self.k.sample_turned_windows(self.picture, squares, side, side)
 
     def depth_posterior(self, x: float, y: float, pixel_size: float, side: int) -> DepthPosterior | None:
-        """What depth tells of a grid of so many squares on a side; None without, or if none is expected.
+        """What depth tells about a grid of squares; None without depth, or if no depth is expected.
 
-        x, y, pixel_size: top left corner of the grid and the squares' side, in image pixels.
+        x, y, pixel_size: top left corner of the grid and the squares' side, image pixels. side: squares on a
+        side of the grid.
         """
         if self.depth_source is None or self.expected_depth is None:
             return None
@@ -111,7 +112,7 @@ def _bgr(gray: Image) -> Image:
 
 
 def _span(starts: list[float], lengths: list[float], size: int) -> tuple[int, int]:
-    """The start and the end of the pixels that windows read along an axis, at least one."""
+    """The start and the end of the pixels that windows read along an axis; at least one pixel."""
     first = max(min(starts) - SAMPLE_REACH, 0.0)
     end = min(max(map(operator.add, starts, lengths)) + SAMPLE_REACH, size)
     return int(min(first, size - 1)), max(math.ceil(end), 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The fused tracker: color, depth and motion in one."""
+"""The fused tracker: it combines color, depth and motion."""
 
 from typing import Any, ClassVar
 
@@ -35,25 +35,26 @@ from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.verify import verify
 
-# Standard deviations, as shares of guessed meters:
-GUESSED_CAMERA_ERROR = 0.4  # to the right and down; cameras 40 and 90 degrees wide are off by 0.4 and 0.7
-GUESSED_RIG_ERROR = 0.7  # of all; pairs 5 and 25 cm apart are off by 0.6 and 1.1
-UNTIMED_FACTOR = 2.0  # how much farther apart than ``rate`` says frames without timestamps may be
+# Standard deviations of the errors of guessed cameras, as shares of X, Y, Z:
+GUESSED_CAMERA_ERROR = 0.4  # of X and Y; for fields of view of 40 and 90 degrees they are off by 0.4 and 0.7
+GUESSED_RIG_ERROR = 0.7  # of X, Y and Z; for baselines of 5 and 25 cm they are off by 0.6 and 1.1
+UNTIMED_FACTOR = 2.0  # the time between frames without timestamps may be so many times that given by ``rate``
 
 
 class FusedTracker(TrackerBase[FusedParams, State]):
-    """Follows any target by experts whose evidence adds up, with whatever channels a frame has.
+    """Follows any target by adding up the evidence of several experts, with whatever channels a frame has.
 
     A correlation filter, the target's colors and its depth localize it. A second filter, in log-polar
-    coordinates, and its distance give its size. Features of the first frame verify that it is the target: if
-    it isn't, nothing is learned, and the search widens to the whole frame.
+    coordinates, and the measured depth give its size. Features that compare a match with the first frame
+    verify that it is the target. If they reject it for a third of a second, learning stops and the whole
+    frame is searched.
 
     Frames have ``color`` (BGR or gray), alone or with registered ``depth`` or with ``right``, or ``depth``
-    alone; channels may come and go. ``position``, ``covariance`` and ``depth`` are given once depth was
-    measured, in the frame of the camera that ``intrinsics=``, or ``rig=`` for a stereo pair, describes.
-    Without these a default camera is assumed, so meters to the right and down are a guess; without ``rig``,
-    so are all meters of a stereo pair, and tracks then have no ``depth``. ``covariance`` includes the error
-    of such a guess. Nothing is random: ``seed`` is accepted, as by every tracker, but not used.
+    alone; channels may come and go. Tracks have ``position``, ``covariance`` and ``depth`` once depth was
+    measured, in the frame of the camera that ``intrinsics=``, or ``rig=`` for a stereo pair, describes. If
+    neither is given, a default camera is assumed, so X and Y are a guess. If a stereo pair's ``rig`` isn't
+    given, X, Y and Z are a guess, and tracks have no ``depth``. ``covariance`` includes the error of such a
+    guess. Nothing is random: ``seed`` is accepted, as by every tracker, but not used.
 
         tracker = tricue.FusedTracker()
         track = tracker.init(frame, box=(x, y, width, height))
@@ -90,9 +91,9 @@ class FusedTracker(TrackerBase[FusedParams, State]):
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
         """Start, or start again, on ``box``, at least 2 pixels wide and high and partly in the image.
 
-        UserWarning if left and right seem to be swapped, or not rectified, if depth seems not to be
-        registered to color, and if it is in another unit than meters: then it is left out. ValueError for
-        depth in another unit without color.
+        UserWarning if left and right seem to be swapped or not rectified, or if depth seems not to be
+        registered to color or not to be in meters. Depth that isn't in meters is left out; without color,
+        it raises ValueError.
         """
         observed = self._observe(frame, None)
         target = Target.of(validation.initial_box(box, observed.shape))
@@ -107,10 +108,10 @@ class FusedTracker(TrackerBase[FusedParams, State]):
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
 
-        Timestamps give the position filter the time since the last frame; without them ``rate`` does. Depth
-        in another unit than meters, or that stays the same for half a second while color changes, is left
-        out, with a UserWarning the first time; ValueError for depth in another unit without color.
-        RuntimeError before ``init``. An error leaves the tracker as it was.
+        Timestamps give the time since the last frame; without them ``rate`` does. Depth that isn't in meters,
+        or stays the same for half a second while color changes, is left out, with a UserWarning the first
+        time. ValueError if depth isn't in meters and there is no color. RuntimeError before ``init``. An
+        error leaves the tracker as it was.
         """
         before = validation.require_initialized(self._state)
         observed = self._observe(frame, before.shape)
@@ -132,14 +133,14 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         return observe_frame(frame, shape, cameras, "depth" in self.params.cues)
 
     def _predict(self, state: State, observed: FrameObservation, trust: DepthTrust, seconds: float) -> State:
-        """The state when the frame was taken, so many seconds later."""
+        """The state predicted for the frame, so many seconds later."""
         position = state.position
         if position is not None:
             position = position.slow_down() if state.missed_frames else position
             rate = self.params.rate / UNTIMED_FACTOR
             passed = validation.elapsed(state.timestamp, observed.timestamp, rate)
             position = position.predict(self._k, passed, self.params)
-        # Depth is measured along the image's axes: with it the target is upright, and has an outline.
+        # Depth is measured along the image's axes: with depth the target is upright and has an outline.
         upright = state.target if observed.depth_source is None else state.target._replace(turn=0)
         return state.replace(
             target=upright,
@@ -153,11 +154,11 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         )
 
     def _is_metric(self, observed: FrameObservation) -> bool:
-        """Whether depths of the frame are in meters: those of a stereo pair need its rig."""
+        """Whether the frame's depths are in meters: those of a stereo pair are only if its rig is known."""
         return self.rig is not None or not isinstance(observed.depth_source, StereoSource)
 
     def _localize(self, state: State, observation: TargetObservation) -> Match:
-        """The target near its last place; in the whole frame once it isn't followed any more."""
+        """The best match near the target's last place; in the whole frame if the target isn't followed."""
         p = self.params
         model = _target_model(state, state.models[observation.kind], p)
         if state.is_followed(p):
@@ -168,12 +169,12 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         return redetect(model, observation, lost, local, state.clutter.min_log_odds(p))
 
     def _penalize_jump(self, state: State, match: Match) -> Match:
-        """The match with log-odds reduced for its jump."""
+        """The match with its log-odds reduced by the penalty for its jump."""
         penalty = state.motion.penalty(state.target, match.target, state.seconds, self.params.jump_weight)
         return match._replace(log_odds=match.log_odds - penalty)
 
     def _limit_log_odds(self, state: State, match: Match) -> Match:
-        """The match with log-odds limited to those by the older models; depth shows occluders by itself."""
+        """The match with log-odds limited by the older models; not with depth, which shows occluders."""
         models = state.memory.older.get(match.observation.kind)
         if match.observation.depth_source is not None or models is None:
             return match
@@ -192,7 +193,10 @@ class FusedTracker(TrackerBase[FusedParams, State]):
     def _estimate(
         self, state: State, box: Box
     ) -> tuple[Floats, Floats, float | None] | tuple[None, None, None]:
-        """The position, covariance and depth of a track with that box; None before depth was measured."""
+        """The position, covariance and depth of a track with that box; None until depth is measured.
+
+        Depth is None, too, if the stereo rig is a guess.
+        """
         if state.position is None or state.depth is None:
             return None, None, None
         position = state.position.position

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Verify: whether a match is the target, and the state that follows from it.
+"""Verify: whether a match is the target, and the state after that decision.
 
-A model of a missed target may have learned its occluder, so that the next frames look like the target. So a
-missed target needs more log-odds to be recognized than a followed one; if depth shows the occluder, only once
-it is LOST.
+The models may have learned an occluder, which then looks like the target in the next frames. So a missed
+target needs higher log-odds to be recognized than a followed one. With depth, which shows occluders, that is
+so only once the target is LOST.
 """
 
 import math
@@ -14,16 +14,16 @@ from tricue.track.fused.measure import Match
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.state import State
 
-VERIFIED_TIME_CONSTANT = 0.65  # seconds, of the running means over frames in which the target is recognized
+VERIFIED_TIME_CONSTANT = 0.65  # seconds; of running means over frames in which the target is recognized
 
 
 def verify(state: State, match: Match, p: FusedParams) -> State:
-    """Move the target to the match if it may be the target; the frame is missed unless it is recognized."""
+    """Move the target to the match if that may be the target; count the frame as missed if it isn't."""
     occluded = match.covered > p.max_covered
     needed = _min_log_odds(state, match, p)
     recognized = not occluded and match.log_odds >= needed
-    # A LOST target may be anywhere: a match with just the log-odds that it needs is as likely the target as
-    # one with ``min_score`` is a followed target.
+    # A LOST target may be anywhere, so a match is less likely to be it. The score is shifted so that a match
+    # with just the needed log-odds gets ``min_score``, as for a followed target.
     score = score_of(match.log_odds - needed + log_odds_of(p.min_score)) if state.is_lost(p) else match.score
     if not recognized:
         score = min(score, p.min_score)
@@ -58,8 +58,9 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
 
 
 def running_mean_rate(frames: int, seconds: float) -> float:
-    """The weight of the latest of so many frames in a running mean, so many seconds after the previous one;
-    at first that of a mean of all.
+    """The weight of the latest frame in a running mean, which starts as the mean of all frames.
+
+    frames: their number. seconds: since the previous frame.
     """
     return max(1 / frames, 1 - math.exp(-seconds / VERIFIED_TIME_CONSTANT))
 

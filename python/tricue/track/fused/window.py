@@ -17,12 +17,12 @@ WINDOW_CELLS = 32  # on a side
 CELL_PIXELS = 2  # patch pixels on a side
 PATCH_PIXELS = CELL_PIXELS * WINDOW_CELLS  # on a side
 INNER_SHARE = 0.8  # of the box's sides: the part whose pixels are mostly the target's
-SUPPORT_POSTERIOR = np.float32(0.05)  # P(target | depth) at most, of what it stands on
+SUPPORT_POSTERIOR = np.float32(0.05)  # upper bound of P(target | depth) for what the target stands on
 
 
 @dataclass(frozen=True, kw_only=True)
 class WindowParams(Params):
-    """The part of the frame that is read."""
+    """The size of the part of the frame that the experts read."""
 
     context: float = parameter(3.0, unit="target", source=OURS, low=1.5, high=8, doc="side of the window")
 
@@ -32,9 +32,10 @@ class Window:
 
     patch: (64, 64, 3) BGR samples. pixel_size: image pixels per patch pixel. target: the one that the window
     is centered on. size: the target's width and height in patch pixels.
-    depth: of its (64, 64) patch pixels. With a picture of depth, what the target stands on is excluded, as it
-    looks like the target there; color tells them apart. None without depth or if none is expected.
-    has_occluder: whether anything in the window is nearer than expected.
+    depth: what depth tells about the (64, 64) patch pixels; None without depth, or if no depth is expected.
+    In a picture of depth, it excludes what the target stands on, which looks like the target there; in a
+    picture of color, color tells them apart.
+    has_occluder: whether an occluder covers any part of the window.
     """
 
     def __init__(
@@ -43,7 +44,7 @@ class Window:
         self.observation, self.target, self.patch, self.pixel_size = observation, target, patch, pixel_size
         self.size = target.width / pixel_size, target.height / pixel_size
         self.depth = self._measure_depth()
-        # In bytes it is found fastest.
+        # The fastest way to find a 1.
         self.has_occluder = self.depth is not None and 1 in self.depth.occluded.tobytes()
 
     @property
@@ -53,7 +54,7 @@ class Window:
 
     @property
     def posterior_without_support(self) -> Plane:
-        """The same without what the target stands on."""
+        """(64, 64) ``depth_posterior``, excluding what the target stands on."""
         if self.depth is None or self.observation.kind == "depth":
             return self.depth_posterior
         return self._without_support(self.depth.posterior)
@@ -89,12 +90,12 @@ class Window:
 
 
 def extract_window(observation: TargetObservation, target: Target, context: float) -> Window:
-    """The window around a target; context: as of :func:`extract_windows`."""
+    """The window around a target; context: as in :func:`extract_windows`."""
     return extract_windows(observation, [target], context)[0]
 
 
 def extract_windows(observation: TargetObservation, targets: list[Target], context: float) -> list[Window]:
-    """The windows around targets; context: a window's side in sides of its target."""
+    """The windows around targets; context: side of a window relative to that of its target."""
     sides = [context * each.side for each in targets]
     patches = observation.sample_squares(targets, sides, PATCH_PIXELS)
     pixel_sizes = [side / PATCH_PIXELS for side in sides]
@@ -107,7 +108,7 @@ def _span(center: float, length: float) -> slice:
 
 
 def _hann_window() -> Plane:
-    """The weights (32, 32) with which the cells fade out toward the window's edge."""
+    """The weights (32, 32) that taper the cells toward the window's edge."""
     profile: Floats = np.sin(np.pi * (np.arange(WINDOW_CELLS) + 0.5) / WINDOW_CELLS) ** 2
     return np.outer(profile, profile).astype(np.float32)
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The experts: each is one cue's model of the target.
+"""The experts: each is a model of the target by one cue.
 
-All are immutable: learning returns a new one. The kernel ``localize_target`` combines their posteriors of
-pixels by Bayes' rule, and adds up their evidence for places (:mod:`tricue.track.fused.localize`).
+Experts are immutable: learning returns a new one. The kernel ``localize_target`` combines their pixel
+posteriors by Bayes' rule, and adds up their evidence for places (:mod:`tricue.track.fused.localize`).
 """
 
 from dataclasses import dataclass

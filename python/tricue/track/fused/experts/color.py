@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which colors are the target's, and which its surround's."""
+"""The color expert: which colors are the target's, and which its surround's."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -12,15 +12,15 @@ from tricue.track.fused.sources import OURS
 from tricue.track.fused.window import Window
 
 HISTOGRAM_BINS = 16  # per color channel
-MIN_COLOR_SHARE = 1e-4  # of a histogram; rarer colors tell little about either side
-MIN_SURROUND_SIZE = 1.1  # of the box: colors outside of it are the surround's
+MIN_COLOR_SHARE = 1e-4  # of a histogram; a rarer color tells little about target or surround
+MIN_SURROUND_SIZE = 1.1  # of the box: pixels outside of that are learned as the surround's
 MIN_TARGET_POSTERIOR = 0.4  # P(target | depth) of pixels that are learned as the target's
 MAX_SURROUND_POSTERIOR = 0.1  # P(target | depth) of pixels that are learned as the surround's
 
 
 @dataclass(frozen=True, kw_only=True)
 class ColorParams(Params):
-    """Of the cue "color"."""
+    """The parameters of the cue "color"."""
 
     color_weight: float = parameter(
         0.3, unit="-", source=OURS, low=0, doc="weight of the posterior's contrast"
@@ -54,14 +54,14 @@ class ColorExpert(NamedTuple):
 
     @classmethod
     def from_window(cls, window: Window) -> "ColorExpert":
-        """Learned from the first frame."""
+        """The expert learned from the first frame."""
         empty = np.zeros((HISTOGRAM_BINS, HISTOGRAM_BINS, HISTOGRAM_BINS), np.float32)
         return cls(empty, empty, empty).learn(window, 1.0)
 
     def learn(self, window: Window, rate: float) -> "ColorExpert":
         """The expert with a window around the target blended in.
 
-        Pixels in the box that are farther or nearer than the target are learned as its surround.
+        Pixels in the box that are farther or nearer than the target are learned as the surround's.
         """
         width, height = (round(side, 1) for side in window.size)
         return ColorExpert(

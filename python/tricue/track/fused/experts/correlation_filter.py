@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The correlation filter: it responds where orientations and colors are arranged as in the target."""
+"""The correlation filter: it responds where edges and colors are arranged as in the target."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -49,14 +49,14 @@ class FilterParams(FirstFrameParams, WindowParams):
 
 
 class CorrelationFilterExpert(NamedTuple):
-    """A filter on orientations and colors, learned from one frame at a time (Li et al. 2018).
+    """A filter on edge orientations and colors, learned from one frame at a time (Li et al. 2018).
 
-    It stays near the previous filter, which remembers earlier frames, and is 0 outside the target, so that it
-    learns to tell the target from its surround.
+    It stays near the previous filter, which remembers earlier frames. It is nearly 0 outside the target, so
+    that it learns to tell the target from its surround.
 
-    learned, first: (19, 32, 17) the current filter, and that of the first frame. applied: two filters, the
-    learned one mixed with a share of the first frame's, against forgetting, and the first frame's alone.
-    label: spectrum of the desired response.
+    learned, first: (19, 32, 17) spectra of the current filter and of the first frame's.
+    applied: (2, 19, 32, 17) the current filter mixed with a share of the first frame's, so that the first
+    frame isn't forgotten, and the first frame's alone. label: spectrum of the desired response.
     """
 
     learned: Spectra
@@ -67,7 +67,7 @@ class CorrelationFilterExpert(NamedTuple):
 
     @classmethod
     def from_window(cls, window: Window, p: FilterParams) -> "CorrelationFilterExpert":
-        """Learned from the first frame."""
+        """The expert learned from the first frame."""
         label = label_spectrum(p.label_width * WINDOW_CELLS / p.context)
         nothing = np.zeros((CHANNELS, *label.shape), np.complex64)
         first = cls(nothing, nothing, nothing, label, p)._learn(window, 0.0, 0.0)[0]
@@ -82,7 +82,7 @@ class CorrelationFilterExpert(NamedTuple):
     def _learn(
         self, window: Window, temporal_weight: float, first_frame_weight: float
     ) -> tuple[Spectra, Spectra]:
-        """The learned filter, and the applied ones."""
+        """The learned filter, and the filters that are applied."""
         p, mask = self.params, target_mask(window.size, self.params.filter_mask_size)
         return window.observation.k.learn_place_filter(
             window.patch,
@@ -97,7 +97,7 @@ class CorrelationFilterExpert(NamedTuple):
         )
 
 
-# Patch pixels, of cells' centers from the middle of the window.
+# Patch pixels from the middle of the window to the cells' centers.
 CELL_OFFSETS = CELL_PIXELS * np.abs(np.arange(WINDOW_CELLS) + 0.5 - WINDOW_CELLS / 2)
 
 
@@ -109,8 +109,8 @@ def _mask_profile(length: float, outer: float) -> Floats:
 
 
 def target_mask(size: tuple[float, float], outer: float) -> Plane:
-    """The weights (32, 32) with which cells may add to the filter's response.
+    """The soft mask (32, 32) that keeps the filter on the target.
 
-    1 in the box of a target's size, in patch pixels, falling to 0 at ``outer`` times that size.
+    1 in a box of the target's ``size``, in patch pixels, falling to 0 at ``outer`` times that size.
     """
     return np.outer(_mask_profile(size[1], outer), _mask_profile(size[0], outer)).astype(np.float32)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The target's depth: it shows its pixels, its size, and its occluders."""
+"""The depth expert: depth tells which pixels are the target's, how large it is, and what covers it."""
 
 import math
 from collections.abc import Sequence
@@ -17,21 +17,21 @@ from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import INNER_SHARE, Window
 
-DEPTH_SAMPLES = 48  # on a side of the part in which the target's depth is measured
+DEPTH_SAMPLES = 48  # on a side of the square in which the target's depth is measured
 MIN_MEASURED_SHARE = 0.1  # of the samples
-INITIAL_DEPTH_SPREAD = 0.1  # meters, of a target that was never measured
+INITIAL_DEPTH_SPREAD = 0.1  # meters, before depth is measured
 MIN_DEPTH_SPREAD, MAX_DEPTH_SPREAD = 0.04, 0.4  # meters
-MAX_GROWTH_PER_FRAME = 1.25  # times
-SURROUND_SIZE = 2.0  # of the box: the surround with which depth_continuity compares it
-FULL_WEIGHT_SIGMA = 0.25  # meters; a less certain expected depth counts less in depth_continuity
-DEPTH_CENTER_SHARE = 0.5  # of the box's sides: the part that is the target's where no depth is expected
-MAX_CENTER_SIDE = 1.5  # of the box's shorter side: two thirds of that part are a thin target's
-MAX_DEPTH_OFFSET = 0.5  # meters from the median of that part
+MAX_GROWTH_PER_FRAME = 1.25  # ratio of sizes
+SURROUND_SIZE = 2.0  # of the box: outer size of the surround in depth_continuity
+FULL_WEIGHT_SIGMA = 0.25  # meters; a less certain expected depth has less weight in depth_continuity
+DEPTH_CENTER_SHARE = 0.5  # of the target's side: the central square that is measured if no depth is expected
+MAX_CENTER_SIDE = 1.5  # of the box's shorter side, so that a thin target fills two thirds of that square
+MAX_DEPTH_OFFSET = 0.5  # meters from the median of that square
 
 
 @dataclass(frozen=True, kw_only=True)
 class DepthParams(Params):
-    """Of the cue "depth"."""
+    """The parameters of the cue "depth"."""
 
     depth_learning_rate: float = parameter(
         0.02,
@@ -53,10 +53,10 @@ class DepthParams(Params):
 
 
 class DepthExpert(NamedTuple):
-    """The target's shape in meters, as far as it is known.
+    """The target's extent in depth, and its size.
 
-    depth_spread: standard deviation of its surface's depth. length: side of the square with its area, if it
-    is flat and faces the camera.
+    depth_spread: standard deviation of its surface's depth, meters. length: side of the square with the
+    target's area, times the focal length: pixels times meters, so that length / depth is its side in pixels.
     """
 
     depth_spread: float
@@ -64,16 +64,16 @@ class DepthExpert(NamedTuple):
 
     @classmethod
     def from_measurement(cls, depth: "DepthMeasurement", length: float) -> "DepthExpert":
-        """Learned from the first measurement."""
+        """The expert learned from the first measurement."""
         return cls(INITIAL_DEPTH_SPREAD, length).learn(depth, length, 1.0)
 
     def growth(self, depth: "DepthMeasurement", side: float) -> float:
-        """The ratio of the target's size at a measured depth to a side in pixels."""
+        """The ratio of the target's side at a measured depth to ``side``, in pixels; limited."""
         growth = self.length / (depth.z * side)
         return min(max(growth, 1 / MAX_GROWTH_PER_FRAME), MAX_GROWTH_PER_FRAME)
 
     def learn(self, depth: "DepthMeasurement", length: float, rate: float) -> "DepthExpert":
-        """The expert with a measurement blended in, the length by the geometric mean."""
+        """The expert with a measurement blended in; lengths are averaged geometrically."""
         spread = min(max(depth.spread, MIN_DEPTH_SPREAD), MAX_DEPTH_SPREAD)
         return DepthExpert(
             self.depth_spread + rate * (spread - self.depth_spread),
@@ -82,9 +82,10 @@ class DepthExpert(NamedTuple):
 
 
 class DepthMeasurement(NamedTuple):
-    """z: median depth of a target's pixels, spread: their standard deviation, in meters.
+    """The depth measured in a target's box; see ``median_depths``.
 
-    share: of the samples in its box, that are measured and near z.
+    z: median depth of the target's pixels, meters. spread: robust standard deviation of their depths, meters.
+    share: of the samples that are the target's.
     """
 
     z: float
@@ -95,9 +96,9 @@ class DepthMeasurement(NamedTuple):
 def measure_depth(
     observation: TargetObservation, target: Target, expected: ExpectedDepth | None
 ) -> DepthMeasurement | None:
-    """The depth in a target's box, near the expected depth.
+    """The depth in a target's box, from pixels near the expected depth.
 
-    If that is None or uncertain: the depth at the box's center. None if too little is measured.
+    If the expected depth is None or uncertain, the depth at the box's center. None if too little is measured.
     """
     if expected is None or expected.sigma > MAX_EXPECTED_SIGMA:
         return measure_center_depths(observation, [target])[0]
@@ -112,7 +113,7 @@ def measure_depth(
 def measure_center_depths(
     observation: TargetObservation, targets: Sequence[Target]
 ) -> list[DepthMeasurement | None]:
-    """The depths at the centers of boxes, if none is expected; None where too little is measured."""
+    """The depths at the centers of targets, without an expected depth; None where too little is measured."""
     if observation.depth_source is None:
         return [None] * len(targets)
     squares = np.array([_center_square(each, observation.shape) for each in targets])
@@ -123,7 +124,7 @@ def measure_center_depths(
 def _center_square(target: Target, shape: tuple[int, int]) -> tuple[float, float, float, float]:
     """Center and sides of the square in which a target's depth is measured if none is expected.
 
-    For a target whose center isn't in the image it is that of its visible part.
+    If the target's center isn't in the image, the square is in the middle of the target's visible part.
     """
     height, width = shape
     x, y, *sides = target[:4]
@@ -138,7 +139,10 @@ def _measurements(medians: Floats) -> list[DepthMeasurement | None]:
 
 
 def covered_share(window: Window, right: float = 0.0, down: float = 0.0) -> float:
-    """The share that an occluder covers of a target's box, so many patch pixels off the window's center."""
+    """The share of a target's box that an occluder covers.
+
+    right, down: patch pixels from the window's center to the target's.
+    """
     if not window.has_occluder:
         return 0.0
     assert window.depth is not None, "it has the occluder"
@@ -147,10 +151,10 @@ def covered_share(window: Window, right: float = 0.0, down: float = 0.0) -> floa
 
 
 def depth_continuity(window: Window, right: float, down: float) -> float:
-    """How much a target, so many patch pixels off the window's center, stands apart at the expected depth.
+    """How much a target stands apart at the expected depth, in [0, 1]; 0 without depth.
 
-    In [0, 1]: mean P(target | depth) in its box minus that around it, reduced if the expectation is
-    uncertain; 0 without depth.
+    This is the mean P(target | depth) in its box minus that around it, reduced if the expected depth is
+    uncertain. right, down: patch pixels from the window's center to the target's.
     """
     expected = window.observation.expected_depth
     if window.depth is None or expected is None:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Correlation filters in log-polar coordinates, in which a change of size or a turn is a shift.
 
-They respond to it as to a shift in the image (Reddy and Chatterji 1996; Li, Zhu, Hoi, Song, Wang and Liu
-2019). They are running means over frames (Danelljan et al. 2014): a filter learned from one frame at a time
-lets the size drift.
+The peak of their response gives that shift (Reddy and Chatterji 1996; Li, Zhu, Hoi, Song, Wang and Liu 2019).
+They are running means over frames (Danelljan et al. 2014), because the size drifts with a filter that is
+learned from one frame at a time.
 """
 
 import math
@@ -56,7 +56,7 @@ class LogPolarParams(FirstFrameParams):
 
 
 class Coordinates(NamedTuple):
-    """Log-polar coordinates of a patch: (64, 64) places of its pixels, and (32, 32) weights of the cells."""
+    """Log-polar coordinates of a patch: (64, 64) indices of its pixels, and (32, 32) weights of the cells."""
 
     places: Places
     taper: Plane
@@ -65,8 +65,9 @@ class Coordinates(NamedTuple):
 class LogPolarFilter(NamedTuple):
     """A correlation filter on a patch in log-polar coordinates.
 
-    learned, first: numerator (19, 32, 17) and denominator (32, 17), the learned ones and those of the first
-    frame. applied: (1, 19, 32, 17) the quotient of the learned ones with a share of the first frame's.
+    learned, first: numerator (19, 32, 17) and denominator (32, 17), as learned until now and from the first
+    frame. applied: (1, 19, 32, 17) the filter that is applied: the quotient after mixing in a share of the
+    first frame's.
     """
 
     learned: FilterParts
@@ -77,7 +78,7 @@ class LogPolarFilter(NamedTuple):
     def from_patch(
         cls, k: Kernels, patch: Image, coordinates: Coordinates, p: LogPolarParams
     ) -> "LogPolarFilter":
-        """Learned from the first frame."""
+        """The filter learned from the first frame."""
         empty = np.zeros((CHANNELS, *LABEL.shape), np.complex64), np.zeros(LABEL.shape, np.float32)
         begun = cls(empty, empty, empty[0])._learn(k, patch, coordinates, (1.0, 0.0, p.ridge))
         return begun._replace(first=begun.learned)
@@ -85,8 +86,9 @@ class LogPolarFilter(NamedTuple):
     def shift(
         self, k: Kernels, patch: Image, coordinates: Coordinates, farthest: tuple[int, int], penalty: float
     ) -> tuple[float, float]:
-        """Cells by which the patch has shifted to the right, and the response to it; farthest: to the right,
-        and down.
+        """Cells by which the patch has shifted to the right, and the response to that shift.
+
+        farthest: cells to the right, and down, within which the shift is searched for.
         """
         return k.log_polar_shift(patch, *coordinates, self.applied, *farthest, penalty)
 
@@ -107,11 +109,12 @@ class LogPolarFilter(NamedTuple):
 
 
 def log_polar_pixels(turn: int = 0, width: float = 1.0, height: float = 1.0) -> Places:
-    """(64, 64) places in a square patch: angles downwards from a target's axis, log radii to the right.
+    """(64, 64) indices of pixels in a square patch, by angle from a target's axis (downward) and log radius
+    (to the right).
 
-    The patch holds the target's surround: width and height are the target's, the longer one being 1.
-    At small radii several samples share a pixel, which favors the present size: a new one is approached over
-    a few frames. Bilinear samples, which find it at once, let the size drift on recorded video.
+    The patch shows the target and its surround. width, height: the target's, relative to the longer one.
+    At small radii, several samples share a pixel. This favors the present size, so that a new size is
+    approached over a few frames. Bilinear samples find it at once, but let the size drift on recorded video.
     """
     steps = (np.arange(PATCH_PIXELS) + 0.5) / PATCH_PIXELS
     radius = PATCH_PIXELS / 2 * (INNER_RADIUS / OUTER_RADIUS) ** (1 - steps)
@@ -122,12 +125,12 @@ def log_polar_pixels(turn: int = 0, width: float = 1.0, height: float = 1.0) -> 
 
 
 def _nearest(offset: Floats) -> Places:
-    """The pixels at some distances from the middle of a patch, along one axis."""
+    """The pixels at these distances from the middle of a patch, along one axis."""
     return np.clip(np.floor(PATCH_PIXELS / 2 + offset), 0, PATCH_PIXELS - 1).astype(np.int64)
 
 
 def _taper() -> Plane:
-    """The weights (32, 32) that fade out toward the smallest and the largest radius; angles have no ends."""
+    """The weights (32, 32) that taper toward the smallest and largest radius; angles wrap around."""
     profile = np.sin(np.pi * (np.arange(WINDOW_CELLS) + 0.5) / WINDOW_CELLS)
     return np.tile(profile, (WINDOW_CELLS, 1)).astype(np.float32)
 

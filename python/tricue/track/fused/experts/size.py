@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The target's size: in log-polar coordinates around its center a change of size is a shift."""
+"""The size expert: in log-polar coordinates around the target's center, a change of size is a shift."""
 
 import math
 from dataclasses import dataclass
@@ -25,12 +25,12 @@ from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import PATCH_PIXELS
 
-FARTHEST = 2, 1  # cells of radius and of angle, from one frame to the next
+FARTHEST = 2, 1  # cells of radius and of angle, between consecutive frames
 
 
 @dataclass(frozen=True, kw_only=True)
 class SizeParams(LogPolarParams):
-    """Of the cue "size"."""
+    """The parameters of the cue "size"."""
 
     size_range: tuple[float, float] = parameter(
         (0.2, 5.0), unit="of the first size", source=OURS, above=0, doc="limits of the size"
@@ -43,8 +43,9 @@ class SizeParams(LogPolarParams):
 
 
 class SizeExpert(NamedTuple):
-    """A filter on log-polar coordinates, whose radii are in halves of the target's width and height, so that
-    its surround has the same share on all sides.
+    """A filter in log-polar coordinates.
+
+    Radii are relative to the target's width and height, so that the surround has the same share on all sides.
     """
 
     filter: LogPolarFilter
@@ -52,11 +53,11 @@ class SizeExpert(NamedTuple):
 
     @classmethod
     def from_target(cls, observation: TargetObservation, target: Target, p: SizeParams) -> "SizeExpert":
-        """Learned from the first frame."""
+        """The expert learned from the first frame."""
         return cls(LogPolarFilter.from_patch(observation.k, *_read(observation, target), p), p)
 
     def growth(self, observation: TargetObservation, target: Target) -> float:
-        """The ratio of the size found at a target's place to the target's."""
+        """The ratio of the size that is measured at a target's place to the target's size."""
         patch, penalty = _read(observation, target), self.params.size_change_penalty
         shift, _ = self.filter.shift(observation.k, *patch, FARTHEST, penalty)
         return math.exp(LOG_PER_CELL * shift)
@@ -68,7 +69,7 @@ class SizeExpert(NamedTuple):
 
 
 def _read(observation: TargetObservation, target: Target) -> tuple[Image, Coordinates]:
-    """(64, 64, 3) samples around a target, and its coordinates in them, turned by whole cells of angle."""
+    """(64, 64, 3) samples around a target, and their coordinates; turns are rounded to whole cells."""
     width, height = OUTER_RADIUS * target.width, OUTER_RADIUS * target.height
     turn = STEPS_PER_CELL * round(target.turn / STEPS_PER_CELL)
     if not turn:
@@ -76,7 +77,7 @@ def _read(observation: TargetObservation, target: Target) -> tuple[Image, Coordi
         return observation.sample(window, PATCH_PIXELS)[0], UPRIGHT
     longer = max(width, height)
     window = np.array([[target.x - longer / 2, target.y - longer / 2, longer, longer]])
-    shape = round(width / longer, 3), round(height / longer, 3)  # few of them, as they are kept
+    shape = round(width / longer, 3), round(height / longer, 3)  # rounded, as coordinates are cached by shape
     return observation.sample(window, PATCH_PIXELS)[0], _turned(turn, *shape)
 
 

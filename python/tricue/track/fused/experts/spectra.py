@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the correlation filters of place and size have in common."""
+"""What all correlation filters have in common."""
 
 from dataclasses import dataclass
 
@@ -17,7 +17,7 @@ CHANNELS = 19  # of the cells: orientations, texture and colors
 
 @dataclass(frozen=True, kw_only=True)
 class FirstFrameParams(Params):
-    """How much of the first frame both filters keep."""
+    """How much of the first frame the filters keep."""
 
     first_frame_weight: float = parameter(
         0.2,
@@ -31,8 +31,8 @@ class FirstFrameParams(Params):
 
 
 def label_spectrum(width: float) -> Spectra:
-    """The spectrum of the desired response: a Gaussian at (0, 0) with that standard deviation in cells."""
+    """The spectrum of the desired response, a Gaussian at (0, 0); width: its standard deviation, cells."""
     offset = np.fft.fftfreq(WINDOW_CELLS, 1 / WINDOW_CELLS)
     profile = np.exp(-0.5 * (offset / width) ** 2)
     spectrum = np.fft.rfft2(np.outer(profile, profile))
-    return np.ascontiguousarray(spectrum, np.complex64)  # of NumPy 1 it is transposed
+    return np.ascontiguousarray(spectrum, np.complex64)  # NumPy 1 returns a transposed array

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The target's turn in the image plane: in log-polar coordinates around its center it is a shift.
+"""The turn expert: in log-polar coordinates around the target's center, an in-plane rotation is a shift.
 
-Turns add up, and so do their errors: a walker's legs turn a little in every frame. So a turn counts less if
-the filter's response to it is weaker, as in a Wiener filter; and as most targets are mostly upright, a little
-of it is undone in every frame.
+Turns are accumulated, and so are their errors: a walker's legs turn a little in every frame. So a turn is
+reduced if the filter's response to it is weak, as in a Wiener filter. And as most targets are upright most of
+the time, a small share of the turn is undone in every frame.
 """
 
 from dataclasses import dataclass
@@ -30,12 +30,12 @@ from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import PATCH_PIXELS
 
 STEPS_PER_PIXEL = TURN_STEPS // PATCH_PIXELS
-FARTHEST = 2, 1  # cells of angle and of radius, from one frame to the next
+FARTHEST = 2, 1  # cells of angle and of radius, between consecutive frames
 
 
 @dataclass(frozen=True, kw_only=True)
 class TurnParams(LogPolarParams):
-    """Of the cue "turn"."""
+    """The parameters of the cue "turn"."""
 
     turn_noise: float = parameter(
         0.1, unit="response", source=OURS, above=0, doc="response at which half of a turn counts"
@@ -51,20 +51,18 @@ class TurnParams(LogPolarParams):
 
 
 class TurnExpert(NamedTuple):
-    """A filter on log-polar coordinates of a square around the target, which a turn leaves a square."""
+    """A filter in log-polar coordinates of a square around the target, in which a turn is a pure shift."""
 
     filter: LogPolarFilter
     params: TurnParams
 
     @classmethod
     def from_target(cls, observation: TargetObservation, target: Target, p: TurnParams) -> "TurnExpert":
-        """Learned from the first frame."""
+        """The expert learned from the first frame."""
         return cls(LogPolarFilter.from_patch(observation.k, *_read(observation, target), p), p)
 
     def turn(self, observation: TargetObservation, target: Target) -> float:
-        """Steps by which the content of a target's place is turned clockwise from the target, minus the turn
-        back.
-        """
+        """Steps by which to turn a target clockwise: the measured turn, minus the share that is undone."""
         p, patch = self.params, _read(observation, target)
         shift, response = self.filter.shift(observation.k, *patch, FARTHEST, p.size_change_penalty)
         power, noise = max(response, 0.0) ** 2, p.turn_noise**2
@@ -78,7 +76,7 @@ class TurnExpert(NamedTuple):
 
 
 def _read(observation: TargetObservation, target: Target) -> tuple[Image, Coordinates]:
-    """(64, 64, 3) samples of a square around a target, and its coordinates in it."""
+    """(64, 64, 3) samples of a square around a target, and their coordinates."""
     side = OUTER_RADIUS * target.side
     square = np.array([[target.x - side / 2, target.y - side / 2, side, side]])
     return observation.sample(square, PATCH_PIXELS)[0], _angles_to_the_right(target.turn)
@@ -92,7 +90,7 @@ def _angles_to_the_right(turn: int) -> Coordinates:
 
 @lru_cache(maxsize=STEPS_PER_PIXEL)
 def _twice_round(step: int) -> Places:
-    """(64, 128) all angles and the same again: any turn by whole pixels more is a part of it."""
+    """(64, 128) all angles twice, so that a further turn by whole pixels is a slice of the array."""
     pixels = log_polar_pixels(step).T
     return np.concatenate([pixels, pixels], axis=1)
 
