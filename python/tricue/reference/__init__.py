@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""The kernels in NumPy: slow and obvious, they read like the papers and say what the native kernels must
-compute. Their help is how they compute, then the native kernel's contract.
+"""The kernels' twins in NumPy: slow but plain, they read like the papers and define what the native kernels
+must compute. A twin's help says how it computes; the native kernel's contract is appended.
 """
 
 from tricue import _core

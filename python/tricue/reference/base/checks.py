@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the twins refuse, in the words of the native kernels."""
+"""Checks of the twins' arguments, with the native kernels' messages."""
 
 from typing import Any, NoReturn
 
@@ -13,13 +13,13 @@ MAX_GRID_SIDE = 4096  # of a grid of depths
 
 
 def refuse(name: str, expected: str, got: object) -> NoReturn:
-    """Raise a ValueError that names the argument, what was expected and what came."""
+    """Raise a ValueError with the argument's name, what was expected and what was given."""
     text = f"{got:g}" if isinstance(got, float) else str(got)
     raise ValueError(f"{name}: expected {expected}, got {text}")
 
 
 def require_count(name: str, count: int, least: int, most: int) -> None:
-    """Refuse a number of rows, levels or passes out of range."""
+    """Refuse a count, such as of rows or levels, that is out of range."""
     if not least <= count <= most:
         refuse(name, f"{least} to {most}", count)
 
@@ -38,7 +38,7 @@ def require_finite(name: str, values: Floats) -> None:
 
 
 def require_covariance(name: str, values: Floats, size: int) -> None:
-    """Refuse what isn't square, finite and symmetric, and negative variances."""
+    """Refuse a matrix that isn't square, finite and symmetric, or has negative variances."""
     require_shape(name, values, (size, size))
     require_finite(name, values)
     variances = values.diagonal()
@@ -61,7 +61,7 @@ def require_weights(weights: Floats) -> None:
 
 
 def require_dynamics(drift: Floats, scale: Floats, dimensions: int) -> None:
-    """Refuse dynamics of another size, that aren't finite, or with a negative scale."""
+    """Refuse dynamics that have another size, aren't finite, or have a negative scale."""
     for name, values in (("drift", drift), ("scale", scale)):
         require_shape(name, values, (dimensions,))
         require_finite(name, values)
@@ -70,7 +70,7 @@ def require_dynamics(drift: Floats, scale: Floats, dimensions: int) -> None:
 
 
 def require_detection(mean: Floats, root: Floats, share: float, dimensions: int) -> None:
-    """Refuse a share outside [0, 1), and, where the share is above 0, a Gaussian that is none."""
+    """Refuse a share outside [0, 1), and, if the share is above 0, an invalid Gaussian."""
     if not 0 <= share < 1:
         refuse("share", "a number in [0, 1)", share)
     if not 1 <= mean.size <= dimensions:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the twins of the depth cue share: which pixels were measured, and where they are."""
+"""Shared by the twins of the depth cue: which pixels were measured, and where they are in space."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +15,9 @@ def has_depth(depth: Depth) -> NDArray[np.bool_]:
 
 
 def rays(camera: NDArray[np.float64], depth: Depth) -> tuple[Depth, Depth]:
-    """x (W,), y (H,): the pixel (u, v) at depth z is (x[u] z, y[v] z, z). Computed in float64, kept in
-    float32.
+    """x (W,), y (H,): the pixel (u, v) at depth z is the point (x[u] z, y[v] z, z).
+
+    Computed in float64, rounded to float32.
     """
     require_camera(camera)
     fx, fy, cx, cy = camera
@@ -27,7 +28,7 @@ def rays(camera: NDArray[np.float64], depth: Depth) -> tuple[Depth, Depth]:
 
 
 def require_camera(camera: NDArray[np.float64]) -> None:
-    """Refuse what isn't fx, fy above 0, cx, cy."""
+    """Refuse anything but finite fx, fy, cx, cy with focal lengths above 0."""
     require_shape("camera", camera, (4,))
     require_finite("camera", camera)
     for focal_length in camera[:2]:
@@ -36,7 +37,7 @@ def require_camera(camera: NDArray[np.float64]) -> None:
 
 
 def require_table(table: NDArray[np.float64]) -> None:
-    """Refuse what depth_components doesn't give of objects that were measured."""
+    """Refuse anything but a table of depth_components in which all objects have a size and a depth."""
     require_shape("table", table, (len(table), 7))
     require_finite("table", table)
     for _, _, width, height, _, depth, _ in table:

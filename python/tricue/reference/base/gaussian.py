@@ -10,19 +10,19 @@ from tricue.reference.base.checks import refuse
 
 Floats = NDArray[np.float64]
 
-REACH = 3.5  # sigmas on each side, up to the outer edge of the last pixel
+REACH = 3.5  # sigmas on each side, to the outer edge of the last pixel
 
 
 def reach(sigma: float) -> int:
-    """How many pixels on each side count."""
+    """The radius of the sampled Gaussian, pixels."""
     return math.ceil(REACH * sigma - 0.5)
 
 
 def gaussian_taps(sigma: float, order: int) -> Floats:
-    """(2 r + 1,) weights of the derivative of an order, 0 to 2, to be correlated with.
+    """(2 r + 1,) weights of the derivative of an order, 0 to 2, for correlation.
 
-    Scaled so that of what is sampled exactly they make no error: order 0 sums to 1, order 1 gives 1 on the
-    ramp x, order 2 gives 0 on a constant and 2 on the parabola x^2.
+    Scaled so that derivatives of polynomials are exact: order 0 sums to 1, order 1 gives 1 on the ramp x,
+    order 2 gives 0 on a constant and 2 on the parabola x^2.
     """
     radius = reach(sigma)
     x = np.arange(-radius, radius + 1, dtype=np.float64)
@@ -37,7 +37,7 @@ def gaussian_taps(sigma: float, order: int) -> Floats:
 
 
 def correlate(image: Floats, across: Floats, down: Floats) -> Floats:
-    """Give (H, W) correlated with taps along x and taps along y; beyond the edge its pixels go on."""
+    """The image (H, W) correlated with taps along x and taps along y; edge pixels are repeated."""
     for taps, axis in ((across, 1), (down, 0)):
         radius = len(taps) // 2
         padded = np.pad(image, [(radius, radius) if axis == a else (0, 0) for a in (0, 1)], mode="edge")
@@ -50,6 +50,6 @@ def correlate(image: Floats, across: Floats, down: Floats) -> Floats:
 
 
 def require_sigma(sigma: float) -> None:
-    """Refuse what samples don't show, and filters wider than any use of them."""
+    """Refuse Gaussians that are too narrow to sample, or wider than useful."""
     if not 0.5 <= sigma <= 16:
         refuse("sigma", "0.5 to 16 pixels", float(sigma))

@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 def back_project(
     measurements: Floats, variances: Floats, camera: Floats, baseline: float
 ) -> tuple[Floats, Floats]:
-    """Back-projects one measurement at a time, and multiplies J S J^T out."""
+    """Back-projects one measurement at a time, and computes J S J^T."""
     count = len(measurements)
     require_shape("measurements", measurements, (count, 3))
     if variances.ndim == 1:

@@ -9,7 +9,7 @@ from tricue.reference.base.checks import refuse
 Image = NDArray[np.uint8]
 Floats = NDArray[np.float64]
 
-UNIT = 2048  # parts of a pixel that places are rounded to
+UNIT = 2048  # places are rounded to this fraction of a pixel
 
 
 def rectify_verged(
@@ -20,7 +20,7 @@ def rectify_verged(
     shift: float = 0.0,
     rows_only: bool = False,
 ) -> Image:
-    """Maps the pixels of the parallel camera into the turned one, and reads them bilinearly."""
+    """Maps the pixels of the parallel camera into the turned one, and interpolates bilinearly."""
     rows, columns = right.shape[:2]
     cx, cy = ((columns - 1) / 2, (rows - 1) / 2) if center is None else center
     _require(right, angle, focal, (cx, cy), shift)
@@ -34,7 +34,7 @@ def rectify_verged(
 
 
 def turned(x: Floats, angle: float, focal: float) -> tuple[Floats, Floats]:
-    """Where column x of the parallel camera lies in the turned one, and y_R / y_L there; NaN behind it.
+    """The column of the turned camera for column x of the parallel one, and y_R / y_L there; NaN behind it.
 
     A ray (x, y, f) of the parallel camera is (x cos a + f sin a, y, f cos a - x sin a) in the turned one.
     """
@@ -45,7 +45,7 @@ def turned(x: Floats, angle: float, focal: float) -> tuple[Floats, Floats]:
 
 
 def bilinear(image: Image, x: Floats, y: Floats) -> Image:
-    """The image at columns x (W,) and rows y (H, W), rounded half up; black where they aren't in it."""
+    """The image at columns x (W,) and rows y (H, W), rounded half up; black outside the image."""
     rows, columns = image.shape[:2]
     x, y = np.floor(np.broadcast_to(x, y.shape) * UNIT + 0.5), np.floor(y * UNIT + 0.5)
     inside = (x >= 0) & (x <= (columns - 1) * UNIT) & (y >= 0) & (y <= (rows - 1) * UNIT)

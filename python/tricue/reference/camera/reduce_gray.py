@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The gray levels of an image in cells."""
+"""The mean gray level of each cell of an image."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,7 @@ WEIGHTS = 3735, 19235, 9798  # of blue, green and red, in parts of 2^15
 
 
 def reduce_gray(image: Image, step: int, region: tuple[int, int, int, int] | None = None) -> Image:
-    """Turns the image gray in whole numbers, sums its cells, and leaves out those that aren't wanted."""
+    """Converts the image to gray in integers, averages cells, and sets those outside the region to 0."""
     height, width = image.shape[:2]
     if not 1 <= step <= min(height, width):
         refuse("step", "1 to the image's smaller side", step)

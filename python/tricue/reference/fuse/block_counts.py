@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What is seen in the blocks of the target window (Okada, Shirai, Miura 1996, section 4.4)."""
+"""Pixel counts in the blocks of the target window (Okada, Shirai, Miura 1996, section 4.4)."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,7 @@ from tricue.reference.fuse.detail.rectangle_pixels import rectangle_pixels
 Counts = NDArray[np.int64]
 Floats = NDArray[np.float64]
 
-MIN_MEASURED_SHARE = 0.2  # of a block's pixels: with fewer disparities their mean says nothing
+MIN_MEASURED_SHARE = 0.2  # of a block's pixels; the mean of fewer disparities isn't used
 
 
 def block_counts(

@@ -32,7 +32,7 @@ def block_votes(
     min_share: float,
     frames: tuple[int, int, int, int],
 ) -> tuple[Counts, Counts, Counts, Flags, Counts, Counts]:
-    """All blocks at once, one rule after the other."""
+    """Applies one rule after the other to all blocks at once."""
     arguments = dict(locals())
     for name in tuple(arguments)[1:11]:
         if len(arguments[name]) != len(states):

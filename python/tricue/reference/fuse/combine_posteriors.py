@@ -7,11 +7,11 @@ from numpy.typing import NDArray
 from tricue.reference.base.checks import refuse
 
 Plane = NDArray[np.float32]
-LEAST_SUM = np.float32(1e-9)  # so that a contradiction, of 0 and 1, is finite
+LEAST_SUM = np.float32(1e-9)  # so that contradictory posteriors, 0 and 1, give a finite result
 
 
 def combine_posteriors(first: Plane, second: Plane) -> Plane:
-    """Multiplies the probabilities of both classes, whole planes at once."""
+    """Multiplies the probabilities of both classes for all pixels at once."""
     if second.shape != first.shape:
         refuse("second", f"shape {first.shape}", second.shape)
     target, rest = first * second, (1 - first) * (1 - second)

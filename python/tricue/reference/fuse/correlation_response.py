@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The answers of correlation filters with many channels."""
+"""The responses of multi-channel correlation filters."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,7 @@ Complexes = NDArray[np.complex64]
 
 
 def correlation_response(cells: Floats, filters: Complexes) -> Floats:
-    """Takes the transforms of numpy.fft, channel by channel: F⁻¹{sum_k A_k Z_k}."""
+    """Computes F⁻¹{sum_k A_k Z_k} with numpy.fft."""
     require_filters(cells, filters)
     spectrum = np.fft.rfft2(cells.astype(np.float64))
     answers = [np.fft.irfft2((each * spectrum).sum(axis=0), cells.shape[1:]) for each in filters]
@@ -19,7 +19,7 @@ def correlation_response(cells: Floats, filters: Complexes) -> Floats:
 
 
 def require_filters(cells: Floats, filters: Complexes) -> None:
-    """Refuse no cells, no filters, and filters that aren't for them."""
+    """Refuse empty cells, missing filters, and filters of another size than the cells."""
     require_cells(cells)
     channels, rows, columns = cells.shape
     expected = (len(filters), channels, rows, columns // 2 + 1)
@@ -30,13 +30,13 @@ def require_filters(cells: Floats, filters: Complexes) -> None:
 
 
 def require_cells(cells: Floats) -> None:
-    """Refuse no cells."""
+    """Refuse empty cells."""
     if cells.size < 1:
         refuse("cells", "at least one channel and cell", cells.shape)
 
 
 def require_filter(cells: Floats, numerator: Complexes, denominator: Floats) -> None:
-    """Refuse no cells, and a filter that isn't for them."""
+    """Refuse empty cells, and a filter of another size than the cells."""
     require_cells(cells)
     count, rows, columns = cells.shape
     half = (rows, columns // 2 + 1)

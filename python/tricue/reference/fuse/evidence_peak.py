@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The place with most evidence."""
+"""The place with the most evidence."""
 
 import math
 
@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 from tricue.reference.base.checks import refuse
 
 Plane = NDArray[np.float32]
-MAX_OFFSET = 0.5  # cells; a peak farther off would be in the next one
+MAX_OFFSET = 0.5  # cells; a peak farther off would be in the next cell
 
 
 def evidence_peak(
     responses: Plane, contrast: Plane, filter_weight: float, contrast_weight: float
 ) -> NDArray[np.float64]:
-    """Weighs whole planes, and looks around the greatest number."""
+    """Adds up the weighted planes, and interpolates around the maximum."""
     if not responses.size:
         refuse("responses", "at least one filter and cell", "none")
     if contrast.size and contrast.shape != responses.shape[1:]:
@@ -44,7 +44,7 @@ def evidence_peak(
 
 
 def peak_offset(values: Plane, index: int) -> float:
-    """Offset of a peak from the greatest value, by a parabola through it and its neighbors."""
+    """Offset of a peak from the maximum, by a parabola through the maximum and its neighbors."""
     if not 0 < index < len(values) - 1:
         return 0.0
     before, top, after = values[index - 1 : index + 2].tolist()

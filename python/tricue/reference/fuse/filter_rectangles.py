@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A step of the particle filter on rectangles before a depth camera (Sabeti, Parvizi, Wu 2008)."""
+"""A step of the particle filter over rectangles in front of a depth camera (Sabeti, Parvizi, Wu 2008)."""
 
 from typing import NamedTuple
 
@@ -18,7 +18,7 @@ from tricue.reference.fuse.summarize import summarize
 
 Floats = NDArray[np.float64]
 
-NUMBERS = 5  # of a state
+NUMBERS = 5  # in a state
 MIN_LIKELIHOOD = 1e-12
 
 
@@ -43,7 +43,7 @@ def filter_rectangles(
     mean_size: tuple[Floats, Floats],
     measured: tuple[Floats, Floats, float],
 ) -> tuple[Floats, Floats, Floats, Floats, Floats, Floats]:
-    """Calls one twin after the other, for each sampling."""
+    """Calls one twin after the other, for one or two rounds of sampling."""
     _require(particles, weights, noise, refinement, levels, likelihood)
     view = _View(depth, camera, model, levels, grid, ring, reach, nearer)
 
@@ -65,7 +65,7 @@ def filter_rectangles(
 
 
 class _View(NamedTuple):
-    """A depth image, and how rectangles are read in it; as the arguments of these names."""
+    """A depth image and how rectangles are measured in it; the fields are the arguments with these names."""
 
     depth: NDArray[np.float32]
     camera: Floats
@@ -77,7 +77,7 @@ class _View(NamedTuple):
     nearer: float
 
     def measure(self, states: Floats) -> Floats:
-        """(N, 4) as by depth_contrast; the distance is that to the model, whatever its levels are."""
+        """(N, 4) as by depth_contrast, but with the distance to the model in the model's own levels."""
         span, nearer = self.levels[1], self.nearer
         is_one_range = self.levels == (0, self.reach)
         model = self.model if is_one_range else np.zeros(1)
@@ -89,7 +89,7 @@ class _View(NamedTuple):
         return seen
 
     def log_likelihood(self, states: Floats, linear: bool, sharpness: float, contrast: float) -> Floats:
-        """(N,) nats, of the depths in and around the rectangles."""
+        """(N,) log-likelihoods of the depths in and around the rectangles."""
         distance, inside, _, around = self.measure(states).T
         likeness = -sharpness * distance * distance
         if linear:
@@ -98,12 +98,12 @@ class _View(NamedTuple):
         return logs
 
     def histogram(self, state: Floats) -> Floats:
-        """(L,) of the depths inside one rectangle."""
+        """(L,) histogram of the depths inside one rectangle."""
         rectangle, levels = self._in_pixels(state[None])[0], len(self.model)
         return rectangle_histogram(self.depth, rectangle, levels, _grid(*self.grid), self.levels[1])
 
     def _in_pixels(self, states: Floats) -> Floats:
-        """(N, 5): center x, y, width, height, pixels, and the depth to which the model's are relative."""
+        """(N, 5): center x, y, width, height, pixels, and the depth to which the model is relative."""
         (fx, fy, cx, cy), (x, y, z, width, height) = self.camera, states.T
         per_x, per_y, middle = fx / z, fy / z, self.levels[0]
         near = z if middle == 0 else np.full_like(z, middle)
@@ -120,7 +120,7 @@ def _draw_around(mean: Floats, scale: Floats, least: float, nearest: float, nois
 
 
 def _normalized(log_weights: Floats) -> Floats:
-    """By reweight without a detection, whose weights are the likelihoods."""
+    """Normalized weights: reweight without a detection leaves the likelihoods unchanged."""
     states = np.zeros((len(log_weights), 1))
     one = np.ones(1)
     return reweight(log_weights, states, states, one, one, one, np.eye(1), 0.0)[0]

@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 def kalman_predict(
     mean: Floats, covariance: Floats, transition: Floats, noise: Floats
 ) -> tuple[Floats, Floats]:
-    """Multiplies the matrices out."""
+    """Multiplies the matrices."""
     require_belief(mean, covariance)
     require_shape("transition", transition, (mean.size, mean.size))
     require_finite("transition", transition)

@@ -18,7 +18,7 @@ def kalman_update(
     noise: Floats,
     max_distance: float = np.inf,
 ) -> tuple[Floats, Floats, Floats, Floats]:
-    """Inverts S for the gain, and takes the covariance in Joseph's form."""
+    """Inverts S for the gain, and computes the covariance in Joseph's form."""
     require_belief(mean, covariance)
     if measurement.size < 1:
         refuse("measurement", "at least one number", "none")
@@ -48,7 +48,7 @@ def _innovation_covariance(covariance: Floats, observation: Floats, noise: Float
 
 
 def positive_definite(s: Floats) -> bool:
-    """Whether Cholesky's pivots are more than rounding, measured by the variances."""
+    """Whether Cholesky's pivots are larger than rounding errors, relative to the variances."""
     if not np.isfinite(s).all():
         return False
     try:

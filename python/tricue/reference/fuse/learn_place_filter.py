@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Learning of the filter of a target's place."""
+"""Learning of the filter that localizes a target."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,7 @@ def learn_place_filter(
     penalty: float,
     first_weight: float,
 ) -> tuple[Complexes, Complexes]:
-    """Calls the twins of its parts, and blends."""
+    """Calls the twins of its parts, and mixes in the first frame's filter."""
     cells = hog_color_cells(patch, taper)
     expected = (*cells.shape[:2], cells.shape[2] // 2 + 1)
     if first.shape != expected:
@@ -34,6 +34,6 @@ def learn_place_filter(
 
 
 def require_share(share: float) -> None:
-    """Refuse what isn't a share of the first frame's filter."""
+    """Refuse a share of the first frame's filter outside [0, 1]."""
     if not 0 <= share <= 1:
         refuse("first_weight", "a number in [0, 1]", float(share))

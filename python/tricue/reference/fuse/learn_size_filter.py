@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Learning of the filter of a target's size."""
+"""Learning of the filter that measures a target's size or turn."""
 
 import math
 
@@ -14,7 +14,7 @@ from tricue.reference.fuse.learn_place_filter import require_share
 
 Plane = NDArray[np.float32]
 Complexes = NDArray[np.complex64]
-MIN_MEAN = 1e-12  # of a denominator
+MIN_MEAN = 1e-12  # lower bound of a denominator's mean
 
 
 def learn_size_filter(

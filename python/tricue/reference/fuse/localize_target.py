@@ -64,7 +64,7 @@ def _sharpness(response: Floats, peak: Any) -> float:
 
 
 def _span(size: int, offset: float, length: float) -> slice:
-    """The pixels of an axis under a length whose middle is so far off the patch's."""
+    """The pixels of an axis under a length; offset: of its middle from the patch's, pixels."""
     center = size / 2 + offset
     first = min(max(round(center - length / 2), 0), size - 1)
     return slice(first, max(min(round(center + length / 2), size), first + 1))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A shift in log-polar coordinates: a change of size, or a turn."""
+"""A shift in log-polar coordinates, which is a change of size or a turn."""
 
 import math
 
@@ -12,8 +12,8 @@ from tricue.reference.cues.color.pick_pixels import pick_pixels
 from tricue.reference.fuse.correlation_response import correlation_response
 
 Plane = NDArray[np.float32]
-MAX_OFFSET = 0.5  # cells; a peak farther off would be at the next one
-MIN_SHARE = 0.05  # of the peak, of a neighbor in its logarithm
+MAX_OFFSET = 0.5  # cells; a peak farther off would be in the next cell
+MIN_SHARE = 0.05  # of the maximum: lower bound of a neighbor before its logarithm is taken
 
 
 def log_polar_shift(
@@ -25,7 +25,7 @@ def log_polar_shift(
     most_down: int,
     penalty: float,
 ) -> tuple[float, float]:
-    """Calls the twins of its parts, and looks around the middle."""
+    """Calls the twins of its parts, and finds the peak around the middle."""
     require_count("most_right", most_right, 0, (taper.shape[1] - 1) // 2)
     require_count("most_down", most_down, 0, (len(taper) - 1) // 2)
     if not math.isfinite(penalty):
@@ -42,7 +42,7 @@ def log_polar_shift(
 
 
 def gaussian_peak_offset(values: Plane, index: int) -> float:
-    """Offset of a peak from the largest value, by a Gaussian: a parabola through the logarithms."""
+    """Offset of a peak from the maximum, by a Gaussian: a parabola through the logarithms."""
     if not 0 < index < len(values) - 1 or values[index] <= 0:
         return 0.0
     before, top, after = values[index - 1 : index + 2].tolist()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a frame shows of the target, by its model (Okada, Shirai, Miura 1996, sections 4.1 to 4.4)."""
+"""What a frame shows of the target, according to its model (Okada, Shirai, Miura 1996, sections 4.1-4.4)."""
 
 from collections.abc import Sequence
 
@@ -35,7 +35,7 @@ def observe_target(
 ) -> tuple[
     tuple[int, int, int, int], int, NDArray[np.uint8], tuple[Counts, Counts, Counts, Floats, Counts], float
 ]:
-    """Calls the kernels of each step."""
+    """Calls the twins of each step."""
     require_shape("densities", densities, (len(planes), densities.shape[1]))
     require_shape("alternatives", alternatives, densities.shape)
     if len(ranges) != len(planes):

@@ -18,7 +18,7 @@ def propose(
     lower: NDArray[np.float64],
     upper: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Moves all particles, then puts those where floor(share i) steps up at the detection."""
+    """Moves all particles, then redraws those at which floor(share i) increases from the detection."""
     _check(particles, noise, lower, upper)
     checks.require_dynamics(drift, scale, particles.shape[1])
     checks.require_detection(mean, root, share, particles.shape[1])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""One step of the color tracker's particle filter (Sabeti, Parvizi, Wu 2008, section III)."""
+"""A step of the color particle tracker's filter (Sabeti, Parvizi, Wu 2008, section III)."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 Four = tuple[float, float, float, float]
 
-MIN_WEIGHT = 1e-300  # of a particle, in the logarithm
+MIN_WEIGHT = 1e-300  # lower bound of a weight before its logarithm is taken
 
 
 def rank_filter(
@@ -43,7 +43,7 @@ def rank_filter(
     contrast_weight: float,
     flat: float,
 ) -> tuple[Floats, Floats, float, Floats, float, Singles, Floats]:
-    """Calls the twins of the kernels that it joins, one after the other."""
+    """Calls the twins of its parts, one after the other."""
     _check(particles, weights)
     log_weights = np.zeros(len(weights))
     if offset is None:

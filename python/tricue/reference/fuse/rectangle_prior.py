@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What is known of rectangles before they are looked at: their mean size, and a measured state."""
+"""The prior of rectangles: by the target's mean size and a measured state."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Learning of a correlation filter that is 0 outside of a mask, and near the one before."""
+"""Learning of a correlation filter that is 0 outside a mask, and near the previous filter."""
 
 import numpy as np
 
@@ -15,7 +15,7 @@ def regularized_filter(
     temporal_weight: float,
     penalty: float,
 ) -> Complexes:
-    """Takes the transforms of numpy.fft and the papers' inverse of each frequency's matrix."""
+    """Uses numpy.fft, and the papers' closed-form inverse of each frequency's matrix."""
     _require_arguments(cells, mask, label, previous, temporal_weight, penalty)
     spectrum = np.fft.rfft2(cells.astype(np.float64))
     energy = (abs(spectrum) ** 2).sum(axis=0)
@@ -30,7 +30,7 @@ def regularized_filter(
         cropped = np.fft.rfft2(np.fft.irfft2(free + dual, mask.shape) * mirrored)
         dual = dual + free - cropped
         step *= 10
-    return np.ascontiguousarray(cropped, np.complex64)  # NumPy 1 transforms into transposed arrays
+    return np.ascontiguousarray(cropped, np.complex64)  # NumPy 1 returns transposed arrays
 
 
 def _require_arguments(

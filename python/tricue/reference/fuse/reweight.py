@@ -17,7 +17,7 @@ def reweight(
     root: NDArray[np.float64],
     share: float,
 ) -> tuple[NDArray[np.float64], float]:
-    """Takes the densities in the log domain, and subtracts the greatest weight before the exponential."""
+    """Computes densities in the log domain, and subtracts the largest log-weight before the exponential."""
     _check(log_likelihood, proposed, previous)
     checks.require_dynamics(drift, scale, proposed.shape[1])
     checks.require_detection(mean, root, share, proposed.shape[1])
@@ -35,7 +35,7 @@ def reweight(
 
 
 def _log_gaussian(offsets: NDArray[np.float64], root: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Log density of N(0, root root^T) but for the constant -K/2 log 2 pi, by forward substitution."""
+    """Log density of N(0, root root^T) without the constant -K/2 log 2 pi, by forward substitution."""
     z = np.empty_like(offsets)
     with np.errstate(over="ignore"):
         for d in range(offsets.shape[1]):
@@ -47,7 +47,7 @@ def _log_gaussian(offsets: NDArray[np.float64], root: NDArray[np.float64]) -> ND
 
 
 def _bounded(z: NDArray[np.float64]) -> NDArray[np.float64]:
-    """At 1e150 deviations a density is zero all the same, and the square is still finite."""
+    """Deviations limited to ±1e150, where the density is 0 anyway and squares are still finite."""
     return np.clip(z, -1e150, 1e150)
 
 

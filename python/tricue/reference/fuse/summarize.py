@@ -10,7 +10,7 @@ from tricue.reference.base.checks import require_finite, require_shape, require_
 def summarize(
     particles: NDArray[np.float64], weights: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
-    """Takes the weighted sums as they are defined."""
+    """Computes the weighted sums by their definitions."""
     require_shape("weights", weights, (len(particles),))
     require_finite("particles", particles)
     require_weights(weights)

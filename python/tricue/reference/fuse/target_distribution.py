@@ -8,13 +8,13 @@ from tricue.reference.base.checks import refuse
 
 Floats = NDArray[np.float64]
 
-EQUAL = 1e-9  # of the peak: what differs less is the same height
+EQUAL = 1e-9  # of the peak; heights that differ by less are equal
 
 
 def target_distribution(
     histogram: Floats, smoothing: float, ripple: float = 0.05, expected: float = np.nan, spread: float = 1.0
 ) -> tuple[Floats, float]:
-    """Smooths, finds the peak, then cuts either side at its minimum."""
+    """Smooths, finds the peak, then cuts off each side at its minimum."""
     _require(histogram, smoothing, ripple, expected, spread)
     if not histogram.any():
         return np.zeros(len(histogram)), np.nan
@@ -34,8 +34,10 @@ def target_distribution(
 
 
 def _smoothed(histogram: Floats, smoothing: float) -> Floats:
-    """The mean by the Gaussian's weights of what there is: at the ends that is less. Either side is added to
-    the other first, so that a mirrored histogram is smoothed to a mirrored one, to the last bit.
+    """The mean with Gaussian weights over the bins that exist, fewer at the ends.
+
+    Bins at the same distance on both sides are added first, so that smoothing a mirrored histogram gives the
+    mirrored result, bit for bit.
     """
     total, weights = histogram.copy(), np.ones(len(histogram))
     for j in range(1, int(np.ceil(4 * smoothing)) + 1):
@@ -48,14 +50,16 @@ def _smoothed(histogram: Floats, smoothing: float) -> Floats:
 
 
 def _beside(values: Floats, j: int) -> Floats:
-    """values[i - j] + values[i + j] at i, of those that there are."""
+    """values[i - j] + values[i + j] for each i; values outside the array are 0."""
     padded = np.pad(values, j)
     return np.asarray(padded[: len(values)] + padded[2 * j :])
 
 
 def _closeness(smooth: Floats, expected: float, spread: float) -> Floats:
-    """exp(-((center - expected) / spread)² / 2) over its value in the nearest bin that isn't empty, at most
-    1: so however far the expected peak is, some product with the histogram doesn't underflow to 0.
+    """exp(-((center - expected) / spread)² / 2) divided by its value in the nearest bin that isn't empty; at
+    most 1.
+
+    So some product with the histogram is above 0, however far away the expected peak is.
     """
     center = np.arange(len(smooth)) + 0.5
     if np.isnan(expected) or np.isinf(spread):
@@ -69,8 +73,10 @@ def _closeness(smooth: Floats, expected: float, spread: float) -> Floats:
 
 
 def _peak(values: Floats) -> tuple[float, int]:
-    """Where the first highest stretch is: its middle, or, of one bin, the top of the parabola through it; and
-    the bin that this lies in. 0 is the middle of the first.
+    """The place of the peak, in bins from the middle of the first, and the bin that the peak is in.
+
+    Of the first stretch of highest bins, it is the middle; if the stretch is one bin, the top of the parabola
+    through it and its neighbors.
     """
     top = values.max()
     high = values >= top - EQUAL * top
@@ -84,7 +90,7 @@ def _peak(values: Floats) -> tuple[float, int]:
 
 
 def _minimum(side: Floats, height: float, rise: float) -> int | None:
-    """Of values from the peak outwards, the first of the least before they rise; None if they don't."""
+    """The index of the minimum before the values, from the peak outward, rise; None if they don't rise."""
     least = 0
     for i in range(len(side)):
         if side[i] < side[least] - EQUAL * height:

@@ -23,7 +23,7 @@ Peak = tuple[float, float, float]
 Blocks = tuple[Floats, Place, Counts, Counts]
 Former = tuple[Floats, Sequence[float], Sequence[float]]
 
-MAX_READING = 1e6  # pixels: none is beyond
+MAX_READING = 1e6  # pixels: above any disparity or flow
 MIN_DENSITY_SUM = 1e-300  # keeps a density of zeros from a division by 0
 
 
@@ -36,7 +36,7 @@ def target_model(
     before: Former | None,
     rules: tuple[int, float, float, float, float],
 ) -> tuple[Floats, Floats, Floats]:
-    """Takes the histograms of one observation at a time."""
+    """Computes the histograms and densities of one map at a time."""
     bins, smoothing, ripple, memory, surround = rules
     _require(maps, expected, blocks, before, rules, window)
     last = maps[-1][0]
@@ -72,7 +72,7 @@ def _target_mask(blocks: Blocks | None, shape: tuple[int, ...]) -> Mask:
 
 
 def _blend(density: Floats, before: Floats, shift: float, memory: float) -> Floats:
-    """The density mixed with the one before, moved down by ``shift`` bins; of sum 1."""
+    """The density mixed with the previous one, which is moved down by ``shift`` bins; its sum is 1."""
     bins = np.arange(len(density))
     moved = np.interp(bins + shift, bins, before, left=0, right=0)
     both = memory * moved + (1 - memory) * density
@@ -86,7 +86,7 @@ def _alternative(
     surround: Mask,
     rules: tuple[int, float, float],
 ) -> Floats:
-    """Partly the density of the surround, partly uniform."""
+    """A mixture of the surround's density and a uniform one."""
     bins, smoothing, share = rules
     height, width = surround.shape
     whole = 0.0, 0.0, float(width), float(height)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The rectangle around what is the target's in its blocks; ours."""
+"""The rectangle around the target's pixels in its blocks; ours."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,7 @@ def target_outline(
     target: float,
     tolerance: float,
 ) -> tuple[tuple[int, int, int, int], int]:
-    """Combines masks, and boxes what is left."""
+    """Combines masks, and calls temporal_window for the rectangle."""
     require_shape("mask", mask, disparity.shape)
     require_numbers(corners, states, "states")
     mine = block_mask(placed(corners, place)[states == 1], *mask.shape)

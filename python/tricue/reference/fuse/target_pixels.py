@@ -13,7 +13,7 @@ from tricue.reference.fuse.detail.value_bins import require_range, value_bins
 Plane = NDArray[np.float32]
 Floats = NDArray[np.float64]
 
-MAX_RATIO = 1e12  # three of them, multiplied, are a float32
+MAX_RATIO = 1e12  # the product of three fits in a float32
 
 
 def target_pixels(
@@ -25,7 +25,7 @@ def target_pixels(
     threshold: float = 0.5,
     alternatives: Sequence[Floats] | None = None,
 ) -> tuple[NDArray[np.uint8], Plane]:
-    """Looks each cue's ratio up, and multiplies them with the prior's odds."""
+    """Looks up each cue's likelihood ratio, and multiplies the ratios by the prior's odds."""
     _require(planes, densities, ranges, threshold)
     if alternatives is not None:
         _require_alternatives(alternatives, densities)
@@ -41,7 +41,7 @@ def target_pixels(
 
 
 def _ratios(density: Floats, alternative: Floats | None) -> Plane:
-    """(bins + 1,): how much likelier than by the alternative; the last is for where there is no reading."""
+    """(bins + 1,): the likelihood ratio of target and alternative; the last, 0, is for no reading."""
     if alternative is None:
         return np.append(density * len(density), 0).astype(np.float32)
     with np.errstate(over="ignore"):
@@ -50,7 +50,7 @@ def _ratios(density: Floats, alternative: Floats | None) -> Plane:
 
 
 def _prior(window: Rectangle, candidate: Rectangle, shape: tuple[int, ...]) -> Plane:
-    """(H, W): the lesser of a column's and a row's, so that pixels of one prior lie on a rectangle."""
+    """(H, W): the smaller one of a column's and a row's: pixels with equal priors form a rectangle."""
     require_finite_corners(window, "window")
     rows, columns = rectangle_pixels(candidate, shape, "candidate")
     x = _ramp(window[0], window[2], candidate[0], candidate[2], shape[1])
@@ -61,12 +61,13 @@ def _prior(window: Rectangle, candidate: Rectangle, shape: tuple[int, ...]) -> P
 
 
 def _ramp(inner: float, inner_end: float, outer: float, outer_end: float, size: int) -> Plane:
-    """(size,): from 0 at outer to 1 at inner, down to 0 again at outer_end. No slope on a side where the
-    window reaches the candidate region's edge.
+    """(size,): rises from 0 at outer to 1 at inner, falls from 1 at inner_end to 0 at outer_end.
+
+    There is no slope on a side where the window reaches the candidate region's edge.
     """
     center = np.arange(size) + 0.5
     ramp = np.ones(size)
-    with np.errstate(over="ignore"):  # of a slope that is nearly a step
+    with np.errstate(over="ignore"):  # for a slope that is nearly a step
         if inner > outer:
             ramp = np.minimum(ramp, (center - outer) / (inner - outer))
         if inner_end < outer_end:

@@ -26,7 +26,7 @@ def temporal_window(
 
 
 def _cleaned(pixels: Pixels, neighbors: int) -> Pixels:
-    """The set pixels with enough neighbors; beyond the edge none is set."""
+    """The set pixels with enough set neighbors; none is set outside the image."""
     height, width = pixels.shape
     padded = np.pad(pixels, 1).astype(int)
     square = sum(padded[i : i + height, j : j + width] for i in range(3) for j in range(3))
@@ -34,7 +34,7 @@ def _cleaned(pixels: Pixels, neighbors: int) -> Pixels:
 
 
 def _large_regions(pixels: Pixels, share: float) -> Pixels:
-    """Without the regions that are smaller than this share of the largest."""
+    """The pixels without those of regions smaller than a share of the largest."""
     regions = _regions(pixels)
     largest = max(map(len, regions), default=0)
     left = np.zeros_like(pixels)
@@ -45,12 +45,12 @@ def _large_regions(pixels: Pixels, share: float) -> Pixels:
 
 
 def _regions(pixels: Pixels) -> list[list[tuple[int, int]]]:
-    """(row, column) of the pixels of every 8-connected region."""
+    """The pixels (row, column) of every 8-connected region."""
     waiting = {(int(y), int(x)) for y, x in np.argwhere(pixels)}
     regions = []
     while waiting:
         region = [waiting.pop()]
-        for y, x in region:  # grows meanwhile
+        for y, x in region:  # the list grows while it is read
             around = {(y + i, x + j) for i in (-1, 0, 1) for j in (-1, 0, 1)} & waiting
             waiting -= around
             region += around

@@ -20,7 +20,7 @@ def best_ellipse(
     weights: tuple[float, float, float],
     min_marked: int,
 ) -> tuple[int, int, float, float, float, Floats]:
-    """Searches all places, scores them, and counts the colors of the best."""
+    """Calls ellipse_search, scores all places, and counts the colors in the best one."""
     for weight in weights:
         if not np.isfinite(weight):
             refuse("weights", "finite numbers", float(weight))

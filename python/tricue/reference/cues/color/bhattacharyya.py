@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 def bhattacharyya(
     histograms: NDArray[np.float32], model: NDArray[np.float32], groups: int
 ) -> NDArray[np.float64]:
-    """Sums sqrt(p q) over each row."""
+    """Sums sqrt(p q) in each row."""
     bins = histograms.shape[1]
     if model.shape != (bins,):
         raise ValueError(f"model: expected {bins} bins, as in histograms, got {model.size}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How much more of a map lies in a box than around it, for every place of the box."""
+"""Center-surround contrast: how much higher a map is in a box than around it, for every place of the box."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,7 @@ Floats = NDArray[np.float64]
 
 
 def box_contrast(plane: Plane, width: float, height: float, outer: float, around: float) -> Plane:
-    """Multiplies the map by the parts of its rows and columns that each box covers."""
+    """Multiplies the map by the fractions of its rows and columns that each box covers."""
     _require_arguments(plane, width, height, outer, around)
     rows, columns = plane.shape[0] // 2, plane.shape[1] // 2
     y, x = (count + 2.0 * (np.arange(count) - count // 2) for count in (rows, columns))
@@ -24,7 +24,7 @@ def box_contrast(plane: Plane, width: float, height: float, outer: float, around
 
 
 def _covered(size: int, centers: Floats, length: float) -> Floats:
-    """(N, size): how much of each pixel a length around each of N centers covers."""
+    """(N, size): the fraction of each pixel that an interval around each of N centers covers."""
     low, high, pixel = centers - length / 2, centers + length / 2, np.arange(size)
     overlap: Floats = np.minimum(high[:, None], pixel + 1) - np.maximum(low[:, None], pixel)
     return np.clip(overlap, 0, 1)

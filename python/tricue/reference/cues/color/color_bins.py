@@ -18,7 +18,7 @@ def color_bins(
     step: int,
     gains: NDArray[np.float64] | None = None,
 ) -> NDArray[np.uint16]:
-    """Reads every step-th pixel inside the image, and bins each axis in whole numbers."""
+    """Reads every step-th pixel inside the image, and computes the bin on each axis in integers."""
     require_space(bins, chroma)
     if not 1 <= step <= 1024:
         refuse("step", "1 to 1024", step)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Color histograms of samples (the model that figure 2 of Sabeti, Parvizi, Wu 2008 compares with)."""
+"""Color histograms of samples (the model with which figure 2 of Sabeti, Parvizi, Wu 2008 compares)."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A table over colors (Vezhnevets, Sazonov, Andreeva 2003, section 3.1)."""
+"""Look-up of samples in a table over colors (Vezhnevets, Sazonov, Andreeva 2003, section 3.1)."""
 
 import numpy as np
 from numpy.typing import NDArray

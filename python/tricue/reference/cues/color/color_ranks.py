@@ -8,7 +8,7 @@ from tricue.reference.base.checks import refuse
 
 
 def color_ranks(samples: NDArray[np.uint8]) -> NDArray[np.float32]:
-    """Averages the cumulative histogram below and up to each level, channel by channel."""
+    """Averages the cumulative histograms below and up to each level, channel by channel."""
     n = samples.shape[2]
     if n < 1:
         refuse("samples", "at least one an ellipse", "none")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The search of a head by the intersection of histograms (Moreno et al. 2002, equation (1))."""
+"""The search for a head by histogram intersection (Moreno et al. 2002, equation (1))."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +25,7 @@ def ellipse_search(
     margin: float,
     mask: NDArray[np.uint8] | None,
 ) -> Floats:
-    """Counts every place from scratch, and intersects the counts with the model."""
+    """Counts the colors at every place from scratch, and intersects the histograms with the model."""
     require_ellipse(ellipse, margin)
     require_grid(grid)
     _require_model(model)

@@ -10,6 +10,6 @@ from tricue.reference.cues.color.detail.color_space import mean_color, require_h
 def histogram_mean(
     histogram: NDArray[np.float64], bins: tuple[int, int, int], chroma: int
 ) -> NDArray[np.float64]:
-    """Averages the middles of all bins by their masses."""
+    """Averages the centers of all bins, weighted by the histogram."""
     require_histogram(histogram, bins, chroma)
     return mean_color(histogram, bins, chroma)

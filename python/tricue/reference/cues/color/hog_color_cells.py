@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Oriented gradients, texture and colors of a patch in cells of 2x2, as a correlation filter reads them."""
+"""Features of a correlation filter: oriented gradients, texture and colors of a patch, in 2x2-pixel cells."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,13 +8,13 @@ from tricue.reference.base.checks import refuse
 
 Planes = NDArray[np.float32]
 
-FAINT = np.float32(102)  # levels: blocks of less contrast are noise, and aren't blown up to the full one
-MAX_SHARE = np.float32(0.2)  # of a block's contrast in one orientation of one cell
+FAINT = np.float32(102)  # levels: blocks with less contrast are noise, which normalization mustn't amplify
+MAX_SHARE = np.float32(0.2)  # of a block's contrast, for one orientation in one cell
 TEXTURE = np.float32(0.2357)
 
 
 def hog_color_cells(patch: NDArray[np.uint8], taper: Planes) -> Planes:
-    """Spreads the gradients over the bins and the cells, and normalizes the sums by four blocks each."""
+    """Distributes the gradients over bins and cells, and normalizes each cell by four blocks."""
     rows, columns = taper.shape
     if taper.size < 1:
         refuse("taper", "at least one cell", "none")
@@ -29,13 +29,13 @@ def hog_color_cells(patch: NDArray[np.uint8], taper: Planes) -> Planes:
 
 
 def _orientations(levels: Planes) -> Planes:
-    """(8, 2R, 2C): bin k stands for gradients towards 45 k degrees, x right and y down."""
+    """(8, 2R, 2C): bin k holds gradients toward 45 k degrees, x right and y down."""
     wide = np.pad(levels, ((1, 1), (1, 1), (0, 0)), mode="edge")
     down, right = wide[2:, 1:-1] - wide[:-2, 1:-1], wide[1:-1, 2:] - wide[1:-1, :-2]
     strongest = np.argmax(down * down + right * right, axis=2)[..., None]
     gy, gx = (np.take_along_axis(each, strongest, 2)[..., 0] for each in (down, right))
     ay, ax, length = abs(gy), abs(gx), np.sqrt(gy * gy + gx * gx)
-    # Within an octant the ratio of the sides stands for the angle: no arctangent.
+    # Within an octant, the ratio of the components replaces the angle: this saves the arctangent.
     diagonal = np.minimum(ax, ay) / np.maximum(np.maximum(ax, ay), 1) * length
     straight = length - diagonal
     flat = ax >= ay
@@ -55,7 +55,7 @@ def _orientations(levels: Planes) -> Planes:
 
 
 def _bilinear(planes: Planes) -> Planes:
-    """(8, 2R, 2C) summed over cells, each pixel in the four cells around it: (8, R, C)."""
+    """(8, R, C): planes (8, 2R, 2C) summed over cells; each pixel contributes to the four cells around it."""
     wide = np.pad(planes, ((0, 0), (1, 1), (1, 1)))
     rows = (wide[:, :-2:2] + wide[:, 3::2]) + 3 * (wide[:, 1:-1:2] + wide[:, 2::2])
     sums = (rows[:, :, :-2:2] + rows[:, :, 3::2]) + 3 * (rows[:, :, 1:-1:2] + rows[:, :, 2::2])
@@ -64,7 +64,7 @@ def _bilinear(planes: Planes) -> Planes:
 
 
 def _normalized(signed: Planes) -> Planes:
-    """(16, R, C): the bins (8, R, C), those of either sign, and texture, cut off."""
+    """(16, R, C): 8 signed and 4 unsigned orientations, normalized and clipped, and 4 channels of texture."""
     unsigned = signed[:4] + signed[4:]
     energy = np.pad(_sum(unsigned * unsigned), 1, mode="edge")
     columns = energy[:-1] + energy[1:]
@@ -76,7 +76,7 @@ def _normalized(signed: Planes) -> Planes:
 
 
 def _sum(planes: Planes) -> Planes:
-    """Over the first axis, one after the other."""
+    """The sum over the first axis, in the native kernel's order."""
     total: Planes = planes[0]
     for plane in planes[1:]:
         total = total + plane

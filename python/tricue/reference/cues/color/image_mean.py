@@ -8,7 +8,7 @@ from tricue.reference.base.checks import refuse
 
 
 def image_mean(image: NDArray[np.uint8], step: int) -> NDArray[np.float64]:
-    """A slice."""
+    """Averages a slice of the image."""
     if not 1 <= step <= 1024:
         refuse("step", "1 to 1024", step)
     colors = image[step // 2 :: step, step // 2 :: step]

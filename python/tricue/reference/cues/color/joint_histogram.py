@@ -8,7 +8,7 @@ from tricue.reference.base.checks import refuse
 
 
 def joint_histogram(samples: NDArray[np.uint8], bins: int) -> NDArray[np.float32]:
-    """Counts the index of each sample's cell with bincount."""
+    """Counts the indices of the samples' bins with bincount."""
     if bins not in (1, 2, 4, 8, 16, 32, 64):
         refuse("bins", "a power of two from 1 to 64", bins)
     histograms = np.zeros((len(samples), bins**3), np.float32)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The colors of a target and of its surround, sampled and learned."""
+"""The colors of a target and of its surround, learned from samples in and around an ellipse."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,7 @@ from tricue.reference.cues.color.sample_ellipses import sample_ellipses
 
 Floats = NDArray[np.float64]
 
-UNSEEN = 0.0  # P(target) of a color that neither side has
+UNSEEN = 0.0  # P(target) of a color that neither target nor surround has
 
 
 def learn_contrast(
@@ -23,7 +23,7 @@ def learn_contrast(
     rate: float,
     rare: float,
 ) -> tuple[Cube, Cube, Cube]:
-    """Learns the samples of both patterns."""
+    """Samples both patterns, and calls learn_histograms."""
     require_shape("ellipse", ellipse, (4,))
     require_finite("ellipse", ellipse)
     for name, pattern in (("inside", inside), ("around", around)):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A histogram that learns, and its mean color (Moreno et al. 2002, equations (2) and (7))."""
+"""Learning of a color histogram, and its mean color (Moreno et al. 2002, equations (2) and (7))."""
 
 from tricue.reference.base.checks import Floats, refuse, require_shape
 from tricue.reference.cues.color.detail.color_space import Bins, require_space
@@ -15,7 +15,7 @@ def learn_histogram(
     bins: Bins,
     chroma: int,
 ) -> tuple[Floats, Floats, Floats]:
-    """Moves the histogram towards the measured one by a share of what is between, then mixes."""
+    """Moves the histogram toward the measured one by a share of the difference, then mixes in the first."""
     require_space(bins, chroma)
     size = (bins[0] * bins[1] * bins[2],)
     require_shape("histogram", histogram, size)

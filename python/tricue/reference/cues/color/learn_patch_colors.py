@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The colors of a target in the middle of a patch, and of its surround."""
+"""The colors of a target in the middle of a patch, and of its surround, learned."""
 
 import math
 
@@ -11,7 +11,7 @@ from tricue.reference.cues.color.detail.learn_histograms import Cube, learn_hist
 
 Mask = NDArray[np.bool_]
 
-UNSEEN = 0.5  # P(target) of a color that neither side has: it tells nothing
+UNSEEN = 0.5  # P(target) of a color that neither target nor surround has
 
 
 def learn_patch_colors(
@@ -27,7 +27,7 @@ def learn_patch_colors(
     rate: float,
     rare: float,
 ) -> tuple[Cube, Cube, Cube]:
-    """Takes the pixels by masks."""
+    """Selects the pixels by masks, and calls learn_histograms."""
     if len(other) and other.shape != patch.shape[:2]:
         refuse("other", "the patch's rows and columns", f"{other.shape[0]}, {other.shape[1]}")
     for name, number in (("width", width), ("height", height)):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A rank map that learns."""
+"""Learning of a rank map."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,7 @@ Singles = NDArray[np.float32]
 
 
 def learn_ranks(models: Singles, ranks: Singles, rate: float) -> Singles:
-    """Blends a copy of the first map."""
+    """Blends the ranks into a copy of the first map."""
     if len(models) < 1:
         refuse("models", "at least one rank map", "none")
     if ranks.shape != models.shape[1:]:

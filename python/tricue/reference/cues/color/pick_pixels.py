@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""An image in other coordinates."""
+"""The pixels of an image at given places: the image in other coordinates."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +8,7 @@ from tricue.reference.base.checks import refuse
 
 
 def pick_pixels(image: NDArray[np.uint8], places: NDArray[np.int64]) -> NDArray[np.uint8]:
-    """Indexes the pixels, row after row."""
+    """Indexes the flattened image."""
     height, width, _ = image.shape
     if image.size and height > 1 and image.strides[0] != 3 * width:
         refuse("image", "rows without padding", f"{image.strides[0]} bytes a row")

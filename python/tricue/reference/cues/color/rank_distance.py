@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The distance between orders of corresponding pixels."""
+"""The distance between the ranks of corresponding pixels."""
 
 import numpy as np
 from numpy.typing import NDArray

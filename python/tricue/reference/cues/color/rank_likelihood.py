@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The default likelihood of the color tracker: the order of the pixels, and colors against the surround."""
+"""The color particle tracker's default likelihood: by the pixels' ranks, and by color contrast."""
 
 import math
 
@@ -26,7 +26,7 @@ def rank_likelihood(
     sharpness: float,
     contrast_weight: float,
 ) -> Floats:
-    """Joins sample_ellipses, rank_distance and color_lookup."""
+    """Calls sample_ellipses, rank_distance and color_lookup."""
     for name, pattern in (("inside", inside), ("around", around)):
         if len(pattern) < 1:
             refuse(name, "at least one place", "none")

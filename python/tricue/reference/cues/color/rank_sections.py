@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 
 def rank_sections(samples: NDArray[np.uint8], sections: int) -> NDArray[np.float32]:
-    """Keeps ranks as whole counts, n times r(l), so that ties and borders are exact."""
+    """Keeps ranks as integer counts, n times r(l), so that ties and borders are exact."""
     if not 1 <= sections <= 256:
         raise ValueError(f"sections: expected 1 to 256, got {sections}")
     ellipses, channels, n = samples.shape

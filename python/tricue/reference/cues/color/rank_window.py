@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The order of the pixels in one ellipse, and Spearman's correlation with others."""
+"""The ranks of the pixels in one ellipse, and Spearman's correlation with rank maps."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ Singles = NDArray[np.float32]
 def rank_window(
     image: NDArray[np.uint8], ellipse: Floats, pattern: Floats, models: Singles, flat: float
 ) -> tuple[Singles, Floats]:
-    """Joins sample_ellipses and color_ranks, and takes the sums of the correlation in float64."""
+    """Calls sample_ellipses and color_ranks, and computes the correlations in float64."""
     _check(ellipse, pattern, models, flat)
     ranks = color_ranks(sample_ellipses(image, ellipse[None], pattern))[0]
     own = ranks.astype(np.float64)

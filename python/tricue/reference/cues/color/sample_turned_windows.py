@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Turned windows of an image on one grid, smoothed where they have more detail than the grid can hold."""
+"""Turned windows of an image, resampled on a grid; averaged where the grid is coarser than the pixels."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,8 +12,8 @@ from tricue.reference.base.checks import (
     require_shape,
 )
 
-UNIT = 16  # parts of a pixel that places are rounded to: sums of integers have the same bits in any order
-MAX_SIDE = 4  # pixels, of the square that a sample is the mean of
+UNIT = 16  # places are rounded to this fraction of a pixel, so that integer sums are exact in any order
+MAX_SIDE = 4  # pixels: side of the square that a sample is the mean of
 
 Floats = NDArray[np.float64]
 Whole = NDArray[np.intp]
@@ -22,7 +22,7 @@ Whole = NDArray[np.intp]
 def sample_turned_windows(
     image: NDArray[np.uint8], windows: Floats, rows: int, columns: int
 ) -> NDArray[np.uint8]:
-    """Adds up the pixels of all squares of a window, one place in the squares after the other."""
+    """Adds up the pixels of all squares of a window at once, for one place in the squares at a time."""
     _require_arguments(image, windows, rows, columns)
     height, width = image.shape[:2]
     repeated = ((0, int(height == 1)), (0, int(width == 1)), (0, 0))
@@ -44,13 +44,13 @@ def sample_turned_windows(
 
 
 def _step(x: float, y: float, count: int) -> float:
-    """Pixels from a sample to the next of so many along a vector."""
+    """The distance between consecutive samples, pixels, for so many along a vector."""
     with np.errstate(over="ignore"):
         return float(np.sqrt(np.float64(x) * x + np.float64(y) * y) / count)
 
 
 def _corners(middle: float, right: float, columns: int, down: float, rows: int, side: int) -> Floats:
-    """(rows, columns) one coordinate of the squares' left upper corners, pixels."""
+    """(rows, columns) one coordinate of the squares' top left corners, pixels."""
     with np.errstate(over="ignore", invalid="ignore"):
         starts = middle - 0.5 * side + (np.arange(rows) + 0.5 - 0.5 * rows) * down
         corners: Floats = starts[:, None] + (np.arange(columns) + 0.5 - 0.5 * columns) * right
@@ -58,13 +58,13 @@ def _corners(middle: float, right: float, columns: int, down: float, rows: int, 
 
 
 def _fixed(corners: Floats, most: int) -> Whole:
-    """Corners between 0 and ``most``, in parts of UNIT. What overflowed both ways is at 0."""
+    """Corners limited to [0, ``most``], in units of 1 / UNIT pixel; NaN, from an overflow, becomes 0."""
     inside = np.minimum(np.where(corners > 0, corners, 0.0), most)
     return np.floor(inside * UNIT + 0.5).astype(np.intp)
 
 
 def _covered(fixed: Whole, side: int, size: int) -> list[tuple[Whole, Whole]]:
-    """The pixels along an axis that squares cover, one after the other, and how much of them, of UNIT."""
+    """The pixels along an axis that squares cover, one after the other, and their covered parts of UNIT."""
     first, fraction = fixed // UNIT, fixed % UNIT
     shares = [UNIT - fraction, *[np.full_like(fixed, UNIT)] * (side - 1), fraction]
     return [(np.minimum(first + k, size - 1), share) for k, share in enumerate(shares)]

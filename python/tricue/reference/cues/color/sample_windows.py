@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Windows of an image on one grid, smoothed where they have more detail than the grid can hold."""
+"""Windows of an image, resampled on a grid; averaged where the grid is coarser than the pixels."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,14 +12,14 @@ from tricue.reference.base.checks import (
     require_shape,
 )
 
-UNIT = 64  # parts of a pixel that places are rounded to: sums of integers have the same bits in any order
-MAX_READINGS = 4  # of a sample along each axis; beyond that it skips pixels, so that its cost is bounded
+UNIT = 64  # places are rounded to this fraction of a pixel, so that integer sums are exact in any order
+MAX_READINGS = 4  # per sample along each axis; a coarser grid skips pixels, which bounds the cost
 
 
 def sample_windows(
     image: NDArray[np.uint8], windows: NDArray[np.float64], rows: int, columns: int
 ) -> NDArray[np.uint8]:
-    """Multiplies each window by the weights of its bilinear readings, rows first."""
+    """Multiplies each window by the weights of its bilinear readings, first along y, then along x."""
     _require_arguments(image, windows, rows, columns)
     height, width = image.shape[:2]
     samples = np.empty((len(windows), rows, columns, *image.shape[2:]), np.uint8)
@@ -35,8 +35,8 @@ def sample_windows(
 
 
 def _weights(start: float, length: float, count: int, size: int) -> tuple[int, NDArray[np.float64]]:
-    """The first pixel of an axis that is read, and (count, pixels) how much each sample has of the
-    pixels from there on, in parts of UNIT.
+    """The first pixel of an axis that is read, and (count, pixels) the weight, in parts of UNIT, that each
+    sample gives to the pixels from there on.
     """
     step = length / count
     readings = int(min(max(np.ceil(step), 1), MAX_READINGS))

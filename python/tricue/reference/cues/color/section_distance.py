@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 
 def section_distance(sections: NDArray[np.float32], model: NDArray[np.float32]) -> NDArray[np.float64]:
-    """Takes (29) as it is printed, divided by its maximum."""
+    """Computes (29) as printed, divided by its maximum."""
     if sections.shape[2] != model.shape[1]:
         raise ValueError(
             f"model: expected {sections.shape[2]} sections, as in sections, got {model.shape[1]}"

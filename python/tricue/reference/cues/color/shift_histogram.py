@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A histogram moved to a given mean (Moreno et al. 2002, section 4)."""
+"""A color histogram shifted to a given mean (Moreno et al. 2002, section 4)."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,7 @@ Floats = NDArray[np.float64]
 
 
 def shift_histogram(histogram: Floats, bins: tuple[int, int, int], chroma: int, mean: Floats) -> Floats:
-    """Splits the mass of one bin at a time between the eight that it comes to lie between."""
+    """Distributes the mass of one bin at a time over the eight bins that it is shifted between."""
     require_histogram(histogram, bins, chroma)
     require_shape("mean", mean, (3,))
     require_finite("mean", mean)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Connected regions of skin: where to look for a face that was lost."""
+"""Connected regions of skin: where to search for a lost face."""
 
 from collections.abc import Iterator
 
@@ -31,7 +31,7 @@ def _components(skin: NDArray[np.bool_]) -> Iterator[list[tuple[int, int]]]:
             continue
         left.remove(start)
         pixels = [start]
-        for row, column in pixels:  # grows while it is read
+        for row, column in pixels:  # the list grows while it is read
             for y in (row - 1, row, row + 1):
                 for x in (column - 1, column, column + 1):
                     if (y, x) in left:

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 
 def skin_boundary(image: NDArray[np.uint8], reference: NDArray[np.uint8]) -> NDArray[np.int16]:
-    """Takes both maxima over the channels in whole numbers."""
+    """Computes both maxima over the channels in integers."""
     colors = image.astype(np.int16)
     delta = np.abs(colors - reference.astype(np.int16)).max(axis=2)  # (5)-(8)
     eta = colors.max(axis=2)  # (9)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 def skin_gaussian(
     samples: NDArray[np.uint8], mean: NDArray[np.float64], precision: NDArray[np.float64]
 ) -> NDArray[np.float32]:
-    """Converts the samples to (Cb, Cr), and takes the Gaussian of their Mahalanobis distance."""
+    """Converts the samples to (Cb, Cr), and computes the Gaussian of their Mahalanobis distance."""
     if mean.shape != (2,) or not np.all(np.isfinite(mean)):
         raise ValueError("mean: expected two finite numbers (2,), got others")
     if precision.shape != (2, 2) or not np.all(np.isfinite(precision)):

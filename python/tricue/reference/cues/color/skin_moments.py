@@ -13,7 +13,7 @@ def skin_moments(
     threshold: float,
     region: tuple[int, int, int, int],
 ) -> NDArray[np.float64]:
-    """Takes mean and covariance of the coordinates of the skin pixels."""
+    """Computes mean and covariance of the skin pixels' coordinates."""
     if not -1.0 <= threshold <= 1.0:
         raise ValueError(f"threshold: expected a number in [-1, 1], got {threshold:g}")
     x0, y0 = max(region[0], 0), max(region[1], 0)

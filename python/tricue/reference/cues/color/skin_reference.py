@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""The reference color of a skin patch, the one that appears most (Sabeti, Parvizi, Wu 2008, equation (3))."""
+"""The reference color of a skin patch, its most frequent one (Sabeti, Parvizi, Wu 2008, equation (3))."""
 
 import numpy as np
 from numpy.typing import NDArray
 
 
 def skin_reference(patch: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """Averages the pixels in the fullest cell of the joint histogram."""
+    """Averages the pixels in the largest bin of the joint histogram."""
     if patch.size == 0:
         raise ValueError("patch: expected at least one pixel, got none")
     pixels = patch.reshape(-1, 3).astype(np.int64)

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 
 def skin_rule(samples: NDArray[np.uint8]) -> NDArray[np.float32]:
-    """Joins the seven conditions."""
+    """Combines the rule's seven conditions."""
     b, g, r = samples.astype(np.int16).transpose(1, 0, 2)
     spread = np.maximum(np.maximum(b, g), r) - np.minimum(np.minimum(b, g), r)
     skin: NDArray[np.bool_] = (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where a depth image differs from one before."""
+"""Where a depth image differs from an earlier one."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,7 @@ Depth = NDArray[np.float32]
 
 
 def changed_depth(depth: Depth, before: Depth, noise: float, slope: float) -> NDArray[np.uint8]:
-    """Compares all pixels at once; no comparison with NaN holds."""
+    """Compares all pixels at once; NaN differs from everything."""
     require_shape("before", before, depth.shape)
     for name, value in (("noise", noise), ("slope", slope)):
         if not 0 <= value < np.inf:

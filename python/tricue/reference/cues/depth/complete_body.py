@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A body from segmented objects: its pieces are joined, and it is completed where it is cut."""
+"""A body from segmented objects: its pieces are joined, and it is completed beyond the sides that are cut."""
 
 import math
 from typing import NamedTuple
@@ -29,7 +29,7 @@ def complete_body(
     mean_size: tuple[Floats, Flags],
     pieces: tuple[float, float, float, float],
 ) -> tuple[Floats, Flags, Floats, Floats]:
-    """Joins one piece after the other, then completes what is joined."""
+    """Joins one piece after the other, then completes the joined body."""
     require_objects(measured, cut, columns, rows)
     if not 0 <= index < len(measured):
         refuse("index", f"a number in [0, {len(measured)})", index)
@@ -56,7 +56,7 @@ def complete_body(
 
 
 class _Joined(NamedTuple):
-    """State (5,), sides (4,) that are cut, and centroid (2,) less the center, of one or several objects."""
+    """State (5,), cut sides (4,), and centroid minus center (2,), of one or several objects."""
 
     state: Floats
     cut: Flags
@@ -64,7 +64,7 @@ class _Joined(NamedTuple):
 
 
 def _combine(measured: Floats, cut: Flags, pieces: list[int], z: float) -> _Joined:
-    """The box around all of them as the camera sees them, at the depth z."""
+    """The box around all pieces as the camera sees them, at depth z."""
     each = measured[pieces]
     if len(pieces) == 1:
         return _Joined(each[0, :5], cut[pieces[0]], each[0, 5:7])
@@ -86,5 +86,5 @@ def _share_inside(piece: Floats, expected: Floats, region: float) -> float:
 
 
 def _misfit(body: _Joined, size: Floats) -> float:
-    """How far a body is from the mean size."""
+    """How far a body's size is from the mean size."""
     return float(np.square(np.log(body.state[3:] / size)).sum())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""At which sides of its box a segmented object may go on."""
+"""The sides of its box beyond which a segmented object may extend."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,7 +9,7 @@ from tricue.reference.base.depth_pixels import has_depth, require_camera, requir
 
 Floats = NDArray[np.float64]
 
-PLACES = 12  # beside a side
+PLACES = 12  # read beside each side
 ALONG = (2 * np.arange(PLACES) + 1) / PLACES - 1
 
 

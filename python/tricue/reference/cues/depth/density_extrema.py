@@ -11,7 +11,7 @@ Levels = NDArray[np.int64]
 
 
 def density_extrema(density: Floats, prominence: float) -> tuple[Levels, Levels]:
-    """Walks over plateaus, and measures the prominence of each from the levels around it."""
+    """Finds peaks and plateaus, and measures the prominence of each from the levels around it."""
     strange = density[~(np.isfinite(density) & (density >= 0))]
     if strange.size:
         refuse("density", "finite numbers, none negative", float(strange[0]))
@@ -25,7 +25,7 @@ def density_extrema(density: Floats, prominence: float) -> tuple[Levels, Levels]
 
 
 def _peaks(padded: Floats) -> list[int]:
-    """The middles of the stretches of equal density that fall on both sides."""
+    """The middles of the stretches of equal density on both sides of which the density falls."""
     change = np.diff(padded)
     edges = np.flatnonzero(change) + 1
     rises = change[edges - 1] > 0
@@ -34,12 +34,12 @@ def _peaks(padded: Floats) -> list[int]:
 
 
 def _prominence(padded: Floats, peak: int) -> float:
-    """How far the density falls towards anything higher, or the end, on the side where it falls less."""
+    """How far the density falls before a higher level, or the end; on the side where it falls less."""
     left, right = padded[: peak + 1][::-1], padded[peak:]
     return float(padded[peak] - max(_least(left), _least(right)))
 
 
 def _least(side: Floats) -> float:
-    """The least density from the side's first level to the first that is higher."""
+    """The lowest density from the side's first level to the first that is higher."""
     higher = np.flatnonzero(side > side[0])
     return float(side[: higher[0] if higher.size else None].min())

@@ -73,7 +73,7 @@ def _regions(labels: Labels) -> Iterator[Pixels]:
             continue
         label = left.pop(start)
         pixels = [start]
-        for row, column in pixels:  # grows while it is read
+        for row, column in pixels:  # the list grows while it is read
             for y in (row - 1, row, row + 1):
                 for x in (column - 1, column, column + 1):
                     if left.get((y, x)) == label:
@@ -83,5 +83,5 @@ def _regions(labels: Labels) -> Iterator[Pixels]:
 
 
 def _shares(parts: Pixels, count: int) -> Shares:
-    """How the pixels are shared out among the parts; zeros where there are none."""
+    """The share of the pixels in each part; zeros without pixels."""
     return (np.bincount(parts, minlength=count) / max(parts.size, 1)).astype(np.float32)

@@ -24,7 +24,7 @@ def depth_contrast(
     reach: float,
     nearer: float,
 ) -> Floats:
-    """Joins depth_distance in the projected rectangles, and in the rings around them."""
+    """Calls depth_distance for the projected rectangles, and for the rings around them."""
     _require(camera, states, grid, ring)
     with np.errstate(over="ignore", invalid="ignore"):
         rectangles = _seen_by(camera, states)
@@ -34,7 +34,7 @@ def depth_contrast(
 
 
 def _seen_by(camera: Floats, states: Floats) -> Floats:
-    """(N, 5): center x, y, width, height, pixels, and Z."""
+    """(N, 5): the projected rectangles: center x, y, width, height, pixels, and Z, meters."""
     fx, fy, cx, cy = camera
     x, y, z, width, height = states.T
     per_x, per_y = fx / z, fy / z
@@ -44,7 +44,7 @@ def _seen_by(camera: Floats, states: Floats) -> Floats:
 
 
 def _middles(n: int) -> Floats:
-    """Of n equal parts of [-1, 1]."""
+    """The middles of n equal parts of [-1, 1]."""
     return (2 * np.arange(n) + 1) / n - 1
 
 

@@ -10,7 +10,7 @@ Floats = NDArray[np.float64]
 
 
 def depth_density(histogram: Floats, bandwidth: float) -> Floats:
-    """Convolves the histogram, mirrored at both ends, with the Gaussian."""
+    """Convolves the histogram, mirrored at both ends, with a Gaussian."""
     total = _require_histogram(histogram)
     levels = len(histogram)
     if not 0 < bandwidth <= levels:

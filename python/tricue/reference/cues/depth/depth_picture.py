@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A gray picture of a depth image, in which a target at one depth looks the same at any distance."""
+"""A gray picture of depth relative to the target's, in which a target looks the same at any distance."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,7 @@ MIDDLE, CONTRAST = 128, 127  # gray level of the target's depth, and levels from
 
 
 def depth_picture(depth: NDArray[np.float32], z: float, reach: float) -> NDArray[np.uint8]:
-    """Clips and scales whole planes."""
+    """Clips and scales the whole image at once."""
     if not np.isfinite(z):
         refuse("z", "a finite number", float(z))
     if not 0 < reach < np.inf:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""P(target | depth) on a grid of places, and what is before the target."""
+"""P(target | depth) on a grid of squares, and which squares are in front of the target."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from tricue.reference.base.checks import MAX_GRID_SIDE, refuse, require_count
 
 Depth = NDArray[np.float32]
-CLUTTER = 0.1  # the likelihood of any depth where the target isn't; the target's is 1 at the expected one
+CLUTTER = 0.1  # likelihood of any depth of the background, relative to the target's at the expected depth
 
 
 def depth_posterior(

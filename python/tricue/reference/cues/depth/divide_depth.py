@@ -11,7 +11,7 @@ from tricue.reference.base.depth_pixels import has_depth
 def divide_depth(
     depth: NDArray[np.float32], mask: NDArray[np.uint8], dividers: NDArray[np.float64]
 ) -> NDArray[np.uint8]:
-    """Masks one division at a time."""
+    """Labels one division at a time."""
     require_shape("mask", mask, depth.shape)
     if not 2 <= dividers.size <= 256:
         refuse("dividers", "2 to 256 numbers", dividers.size)

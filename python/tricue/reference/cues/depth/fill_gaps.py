@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Filling the gaps of a depth image that is riddled with them."""
+"""Filling of a depth image with many small gaps."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,14 +9,14 @@ from tricue.reference.base.depth_pixels import has_depth
 
 NEIGHBORS = [(y, x) for y in (0, 1, 2) for x in (0, 1, 2) if (y, x) != (1, 1)]
 MAX_PASSES = 1000
-SMALL = 3  # pixels
-VOTES = 2  # neighbors on the nearest surface, at least
+SMALL = 3  # pixels: largest width of a small gap
+VOTES = 2  # smallest number of neighbors on the nearest surface
 
 
 def fill_gaps(
     depth: NDArray[np.float32], gap: float, slope: float, ragged: float, passes: int
 ) -> NDArray[np.float32]:
-    """Repeats the pass over the 8 shifted images while the image is ragged."""
+    """Fills from the 8 shifted images, again as long as the image is ragged."""
     for name, value in (("gap", gap), ("slope", slope)):
         if not 0 <= value < np.inf:
             refuse(name, "a finite number, not negative", float(value))
@@ -34,7 +34,7 @@ def fill_gaps(
 
 
 def _small_gaps(measured: NDArray[np.bool_]) -> int:
-    """How often 1 to SMALL unmeasured pixels of a row lie between two measured ones."""
+    """The number of gaps of 1 to SMALL unmeasured pixels in a row between two measured ones."""
     width = measured.shape[1]
     padded = np.pad(measured, ((0, 0), (0, SMALL + 1)))
     goes_on = np.any([padded[:, 1 + gap : 1 + gap + width] for gap in range(1, SMALL + 1)], axis=0)
@@ -42,7 +42,7 @@ def _small_gaps(measured: NDArray[np.bool_]) -> int:
 
 
 def _surfaces(image: NDArray[np.float32], gap: float, slope: float) -> NDArray[np.float32]:
-    """(H, W) the mean of the neighbors on the nearest surface around each pixel; NaN where they are few."""
+    """(H, W) the mean of each pixel's neighbors on the nearest surface; NaN where these are too few."""
     height, width = image.shape
     padded = np.pad(image, 1, constant_values=np.nan)
     around = [padded[y : y + height, x : x + width] for y, x in NEIGHBORS]

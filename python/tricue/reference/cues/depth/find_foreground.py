@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The part of a depth image in which a target can be."""
+"""The part of a depth image in which a target can be, the support of the floor, and the measured region."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,7 +38,9 @@ def find_foreground(
 
 
 def _measured_span(known: NDArray[np.bool_], share: float) -> tuple[int, int]:
-    """The first and the end of what is known along a side, or the side's own end where that is far."""
+    """The start and end of the measured part along a side; the side's own end if that is farther than a share
+    of its length.
+    """
     length, where = len(known), np.flatnonzero(known)
     if where.size == 0:
         return 0, length

@@ -12,8 +12,8 @@ Floats = NDArray[np.float64]
 Plane = tuple[Floats, float]
 
 ROUNDS = 3
-LINE_SQUARED = 1e-4  # square of the least sine between two edges of a triple
-EDGE_ON = 1e-3
+LINE_SQUARED = 1e-4  # square of the smallest sine between two edges of a triple
+EDGE_ON = 1e-3  # smallest sine between a plane and the line of sight to its point
 
 
 def floor_plane(
@@ -66,7 +66,10 @@ def _check(
 
 
 def _relations(points: Points, plane: Plane, tolerance: float) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Which points are within tolerance of the plane, and which are below it; in float32."""
+    """Which points are within ``tolerance`` of the plane, and which are more than 3 times that below it.
+
+    In float32.
+    """
     (nx, ny, nz), d = plane[0].astype(np.float32), np.float32(plane[1])
     x, y, z = points.T
     height = ((nx * x + ny * y) + nz * z) + d
@@ -75,7 +78,7 @@ def _relations(points: Points, plane: Plane, tolerance: float) -> tuple[NDArray[
 
 
 def _plane_through(p: Floats, q: Floats, r: Floats, up: Floats, min_cosine: float) -> Plane | None:
-    """The plane through three points, unless they are on a line or weren't measured."""
+    """The plane through three points; None if they are nearly on a line or weren't measured."""
     a, b = q - p, r - p
     normal = np.cross(a, b)
     square = _dot(normal, normal)
@@ -85,7 +88,7 @@ def _plane_through(p: Floats, q: Floats, r: Floats, up: Floats, min_cosine: floa
 
 
 def _fit(points: Points, up: Floats, min_cosine: float) -> Plane | None:
-    """Least squares: the plane through the mean, across the direction in which the points spread least."""
+    """The least-squares plane: through the mean, normal to the direction in which the points spread least."""
     if len(points) < 3:
         return None
     mean = points.mean(axis=0, dtype=np.float64)
@@ -95,8 +98,8 @@ def _fit(points: Points, up: Floats, min_cosine: float) -> Plane | None:
 
 
 def _level_plane(normal: Floats, point: Floats, up: Floats, min_cosine: float) -> Plane | None:
-    """The plane through a point, turned so that the camera is above it; nothing where that isn't level, or
-    seen edge-on.
+    """The plane through a point, with its normal toward the camera; None if it isn't level enough, or is seen
+    edge-on.
     """
     d = -_dot(normal, point)
     if d < 0:
@@ -106,5 +109,5 @@ def _level_plane(normal: Floats, point: Floats, up: Floats, min_cosine: float) -
 
 
 def _dot(a: Floats, b: Floats) -> float:
-    """In the native kernel's order."""
+    """The dot product, added up in the native kernel's order."""
     return float((a[0] * b[0] + a[1] * b[1]) + a[2] * b[2])

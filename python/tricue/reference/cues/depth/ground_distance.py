@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Distances along the ground of what a tilted camera sees."""
+"""Distances along the ground, measured by a tilted depth camera."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,11 +9,11 @@ from tricue.reference.base.depth_pixels import require_camera
 
 Depth = NDArray[np.float32]
 Floats = NDArray[np.float64]
-MIN_LEVEL = 1e-6  # of the view's direction: the part along the ground
+MIN_LEVEL = 1e-6  # length of the optical axis's component along the ground
 
 
 def ground_distance(depth: Depth, camera: Floats, up: Floats, near: float, far: float) -> Depth:
-    """Multiplies the depths by a plane of factors, then clips."""
+    """Multiplies the depths by a factor per pixel, then clips."""
     require_camera(camera)
     require_shape("up", up, (3,))
     require_finite("up", up)
@@ -25,7 +25,7 @@ def ground_distance(depth: Depth, camera: Floats, up: Floats, near: float, far: 
     if not (np.isfinite(far) and far > near):
         refuse("far", "a finite number above near", float(far))
     x, y, z = up
-    ahead = np.array([-z * x, -z * y, x * x + y * y])  # not 1 - z²: up is only nearly of length 1
+    ahead = np.array([-z * x, -z * y, x * x + y * y])  # not 1 - z²: up's length is only nearly 1
     level = _norm(ahead)
     if not level > MIN_LEVEL:
         refuse("up", "a direction across the view", "one along it")
@@ -41,5 +41,5 @@ def ground_distance(depth: Depth, camera: Floats, up: Floats, near: float, far: 
 
 
 def _norm(v: Floats) -> float:
-    """In the native kernel's order."""
+    """The length, added up in the native kernel's order."""
     return float(np.sqrt((v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]))

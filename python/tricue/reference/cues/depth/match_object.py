@@ -32,7 +32,7 @@ def match_object(
     gate: tuple[float, float],
     complete: bool,
 ) -> int:
-    """Computes the cost of every object, and takes the least."""
+    """Computes the cost of every object, and returns the index of the lowest."""
     require_objects(measured, cut, columns, rows)
     _require(columns, others, len(measured), signature, deviation, (*unknown, signature_cost))
     (size, known), (max_cost, min_area) = mean_size, gate

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Segmented objects in meters, standing on the floor."""
+"""Segmented objects in meters, extended down to the floor that they stand on."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,7 @@ def measure_objects(
     feet: float,
     legs: float,
 ) -> Floats:
-    """Back-projects the boxes, and lengthens those that stand on the floor."""
+    """Back-projects the boxes, and extends those that stand on the floor."""
     _require(table, columns, rows, cut, camera, plane, feet, legs)
     fx, fy, cx, cy = camera
     x, y, w, h, pixels, z, _ = table.T
@@ -40,7 +40,10 @@ def measure_objects(
 
 
 def _strips_to_floor(centers: Floats, height: Floats, plane: Floats, feet: float) -> Floats:
-    """From the lower edges down to the floor, at the depths of the centers (C, 3); 0 where nothing stands."""
+    """The lengths from the lower edges down to the floor, at the depths of the centers (C, 3).
+
+    0 for an object that doesn't stand on the floor.
+    """
     strips, up = np.zeros(len(centers)), plane[:3]
     if not plane.any():
         return strips
@@ -58,7 +61,7 @@ def _strips_to_floor(centers: Floats, height: Floats, plane: Floats, feet: float
 
 
 def _mean_place(shares: Shares) -> Floats:
-    """Means over the middles of equal parts of [-1/2, 1/2]."""
+    """The mean places of distributions over equal parts of [-1/2, 1/2]."""
     bins = shares.shape[1]
     mean: Floats = shares.astype(np.float64) @ ((np.arange(bins) + 0.5) / bins - 0.5)
     return mean

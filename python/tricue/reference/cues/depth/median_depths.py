@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The depths of targets in boxes: medians of what is near the expected depth."""
+"""The depths of targets in boxes: medians of the depths near the expected one."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,15 +8,15 @@ from tricue.reference.base.checks import refuse, require_finite, require_shape
 
 Depth = NDArray[np.float32]
 Floats = NDArray[np.float64]
-NEAR, FAR = 0.001, 1000.0  # meters; what is beyond isn't measured
-MAD_TO_SIGMA = 1.4826  # from the median absolute deviation to normal noise's standard deviation
+NEAR, FAR = 0.001, 1000.0  # meters; depths outside of these count as not measured
+MAD_TO_SIGMA = 1.4826  # from the median absolute deviation to the standard deviation of normal noise
 MAX_SAMPLES = 1024
 
 
 def median_depths(
     depth: Depth, boxes: Floats, samples: int, expected: float, max_offset: float, min_share: float
 ) -> Floats:
-    """Samples one box after the other, and masks what isn't its target's."""
+    """Samples one box after the other, and takes the medians of its target's depths."""
     _require_arguments(boxes, samples, expected, max_offset, min_share)
     measured = np.full((len(boxes), 3), np.nan)
     for i, (x, y, width, height) in enumerate(boxes.tolist()):
@@ -39,7 +39,7 @@ def median_depths(
 
 
 def _sample(depth: Depth, left: float, top: float, step: float, samples: int) -> Depth:
-    """(samples, samples) depths of the pixels under a grid's centers, NaN outside the image."""
+    """(samples, samples) depths of the pixels under the grid's centers; NaN outside the image."""
     centers = (np.arange(samples) + 0.5) * step
     sampled = np.full((samples, samples), np.nan, np.float32)
     rows, columns = np.floor(top + centers), np.floor(left + centers)
@@ -51,9 +51,9 @@ def _sample(depth: Depth, left: float, top: float, step: float, samples: int) ->
 
 
 def _ellipse(width: float, height: float, samples: int) -> NDArray[np.bool_]:
-    """(samples, samples) whether the centers of a square's grid are in the box's ellipse."""
+    """(samples, samples) whether the centers of the grid's squares are in the box's ellipse."""
     offset = np.abs((np.arange(samples) + 0.5) / samples - 0.5) * 2 * max(width, height)
-    with np.errstate(over="ignore"):  # of a line, whose squares are infinite
+    with np.errstate(over="ignore"):  # for a box that is nearly a line
         return np.add.outer((offset / height) ** 2, (offset / width) ** 2) <= 1
 
 

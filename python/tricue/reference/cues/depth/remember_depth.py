@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What was last seen in each pixel beside a target."""
+"""The last depth of each pixel that wasn't the target's."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ Depth = NDArray[np.float32]
 def remember_depth(
     depth: Depth, before: Depth, region: tuple[int, int, int, int], z: float, reach: float
 ) -> Depth:
-    """Copies the image, and puts back what the target hides."""
+    """Copies the image, and restores the earlier depth where the target is."""
     if before.shape == (0, 0):
         before = np.full(depth.shape, np.nan, np.float32)
     require_shape("before", before, depth.shape)

@@ -18,7 +18,7 @@ from tricue.reference.cues.depth.measure_objects import measure_objects
 Depth = NDArray[np.float32]
 Floats = NDArray[np.float64]
 
-BINS = 16  # of an object's distributions
+BINS = 16  # of an object's distributions over columns and rows
 MAX_MINIMA = 254  # labels have 8 bits
 
 
@@ -42,7 +42,7 @@ def segment_depth(
     distance = ground_distance(depth, camera, plane[:3], near, far) if plane[:3].any() else depth
     mask = 1 - depth_edges(distance, *edges)
     if before.shape == (0, 0):
-        before = np.full_like(depth, np.nan)  # from which all differs
+        before = np.full_like(depth, np.nan)  # everything differs from NaN
     mask &= changed_depth(depth, before, *noise)
     mask[~_inside(region, depth)] = 0
     dividers = _dividers(depth_histogram(distance, mask, near, far, count), near, far, *density)

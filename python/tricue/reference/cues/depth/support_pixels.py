@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The pixels around a target, and in its box, that lie on one plane."""
+"""The pixels around a target, and in its box, that lie on the plane that supports it."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,13 +12,13 @@ Depth = NDArray[np.float32]
 Floats = NDArray[np.float64]
 Mask = NDArray[np.uint8]
 
-MAX_DEPTH = 2.0  # of the target's depth; what is farther away isn't looked at
-TARGET_SHARE = 1.05  # of the box's sides: pixels of the target, which don't vote for a plane
-INNER_SHARE = 0.8  # of the box's sides: the part that mustn't be the plane itself
-MAX_PLANE_SHARE = 0.5  # of that part; a target with more is as flat as the plane
-MIN_SUPPORT_SHARE = 0.15  # of the votes, that a plane has to hold
-MIN_VOTES = 60
-THINNING = 2  # every so many-th pixel votes
+MAX_DEPTH = 2.0  # of the target's depth; farther pixels are ignored
+TARGET_SHARE = 1.05  # of the box's sides: the part whose pixels may be the target's, so they don't vote
+INNER_SHARE = 0.8  # of the box's sides: the part that mustn't be on the plane
+MAX_PLANE_SHARE = 0.5  # of that part's pixels; a target with more on the plane is as flat as the plane
+MIN_SUPPORT_SHARE = 0.15  # of the votes, that a plane needs
+MIN_VOTES = 60  # pixels
+THINNING = 2  # every second row and column votes
 UP, ANY_DIRECTION = np.array([0.0, -1.0, 0.0]), -1.0
 
 
@@ -35,7 +35,7 @@ def support_pixels(
     draws: Floats,
     tolerance: float,
 ) -> Mask:
-    """Asks floor_plane for the plane of the surround, and compares all depths with it."""
+    """Finds the plane of the surround by floor_plane, and compares all depths with it."""
     _require_arguments(x0, y0, step, side, width, height, z, camera, draws, tolerance)
     nowhere = np.zeros((side, side), np.uint8)
     depths = _read_grid(depth, x0, y0, step, side)
@@ -65,7 +65,7 @@ def support_pixels(
 
 
 def _read_grid(depth: Depth, x0: float, y0: float, step: float, side: int) -> Depth:
-    """The depth under the center of one square at a time, NaN beyond the image."""
+    """The depths under the squares' centers, one at a time; NaN outside the image."""
     depths = np.full((side, side), np.nan, np.float32)
     for i, j in np.ndindex(side, side):
         x, y = x0 + (j + 0.5) * step, y0 + (i + 0.5) * step
@@ -75,7 +75,10 @@ def _read_grid(depth: Depth, x0: float, y0: float, step: float, side: int) -> De
 
 
 def _middle(side: int, width: float, height: float, share: float) -> tuple[slice, slice]:
-    """The rows and columns of a part of a box of that size around the middle, at least two of each."""
+    """The rows and columns of a box around the middle; share: of its sides.
+
+    Half a side is at least one square, so that there is at least one of each.
+    """
     offsets = np.abs(np.arange(side) + 0.5 - side / 2)
     rows, columns = (np.flatnonzero(offsets < max(share * length / 2, 1.0)) for length in (height, width))
     return slice(rows[0], rows[-1] + 1), slice(columns[0], columns[-1] + 1)

@@ -12,8 +12,8 @@ Plane = NDArray[np.float32]
 Floats = NDArray[np.float64]
 Rectangle = tuple[int, int, int, int]
 
-LONGEST = np.pi / np.sqrt(2)  # sigmas: half of the wave that a Gaussian's second derivatives pass best
-ROUNDING = 1e-6  # a contrast that 32-bit sums of gray levels leave where there is none
+LONGEST = np.pi / np.sqrt(2)  # sigmas: half of the wavelength that a Gaussian's second derivatives pass best
+ROUNDING = 1e-6  # the contrast that rounding of 32-bit sums leaves where there is none
 
 
 def gradient_flow(
@@ -24,7 +24,7 @@ def gradient_flow(
     min_contrast: float,
     region: Rectangle | None = None,
 ) -> tuple[Plane, Plane, Plane, Plane]:
-    """Filters both frames, and solves the two constraints in each pixel."""
+    """Filters both frames, and solves the two constraints at each pixel."""
     require_frames(previous, current, region)
     require_sigma(sigma)
     require_reliabilities(min_angle, min_contrast)
@@ -53,7 +53,7 @@ def solve(
     min_contrast: float,
     longest: float,
 ) -> tuple[Floats, Floats, Floats, Floats]:
-    """Cramer's rule on (4), its right side with the minus of (3); NaN where (5) or (6) is too small."""
+    """Solves (4), its right side negated as in (3), by Cramer's rule; NaN where (5) or (6) is too small."""
     h_x = g_y
     cross = g_x * h_y - g_y * h_x  # G x H
     g, h = g_x**2 + g_y**2, h_x**2 + h_y**2  # |G|^2, |H|^2
@@ -69,7 +69,7 @@ def solve(
 
 
 def require_frames(previous: Image, current: Image, region: Rectangle | None) -> None:
-    """Refuse frames without pixels or of unlike sizes, and regions that aren't in them."""
+    """Refuse frames without pixels or of different sizes, and regions that aren't in them."""
     if previous.size == 0:
         refuse("previous", "at least one pixel", "none")
     if current.shape != previous.shape:
@@ -83,7 +83,7 @@ def require_frames(previous: Image, current: Image, region: Rectangle | None) ->
 
 
 def require_reliabilities(min_angle: float, min_contrast: float) -> None:
-    """Refuse minima that no pixel has, or that aren't numbers."""
+    """Refuse minima out of range."""
     if not 0 <= min_angle <= 1:
         refuse("min_angle", "0 to 1", float(min_angle))
     if not 0 <= min_contrast < np.inf:

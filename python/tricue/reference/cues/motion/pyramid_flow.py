@@ -20,7 +20,7 @@ from tricue.reference.cues.motion.gradient_flow import (
 Ints = NDArray[np.int64]
 
 BINOMIAL = np.array([1, 4, 6, 4, 1]) / 16
-LONGEST_STEP = 2.0  # px along x and y, at a level that isn't the last
+LONGEST_STEP = 2.0  # px along x and y, at all levels but the finest
 
 
 def pyramid_flow(
@@ -34,7 +34,7 @@ def pyramid_flow(
     pool: int = 3,
     max_step: float = 0.4,
 ) -> tuple[Plane, Plane, Plane, Plane]:
-    """Warps, pools the constraints over a window and solves them, level by level."""
+    """Warps, pools the constraints over windows and solves them, level by level."""
     require_frames(previous, current, region)
     require_sigma(sigma)
     _require(levels, pool, max_step)
@@ -66,10 +66,10 @@ def pyramid_flow(
 def measure(
     before: Floats, now: Floats, area: Rectangle, flow: Floats, sigma: float, pool: int
 ) -> tuple[Floats, Floats, Floats]:
-    """Give the step (2, h, w) from a flow to a better one, and both reliabilities, of an area.
+    """The step (2, h, w) from a flow to a better one, and both reliabilities, in an area.
 
-    Least squares on the two constraints (4) of each pixel of a window, `before` warped towards `now`. Beyond
-    the area the flow of its edge goes on, beyond a frame its pixels.
+    Least squares on the two constraints (4) of all pixels in a window, with `before` warped toward `now`. The
+    flow at the area's edge, and the pixels at a frame's edge, are repeated beyond it.
     """
     x0, y0, x1, y1 = area
     margin = reach(sigma) + pool
@@ -80,7 +80,7 @@ def measure(
     g_x, g_y, h_y, g_t, h_t = constraints(warped, inner, sigma)
     h_x = g_y
 
-    # The normal equations of (4): A^T A w = -A^T b, damped by what rounding to gray levels adds to A^T A.
+    # The normal equations of (4), A^T A w = -A^T b, damped by what rounding of gray levels adds to A^T A.
     box = np.full(2 * pool + 1, 1 / (2 * pool + 1))
     crop = np.s_[margin : margin + y1 - y0, margin : margin + x1 - x0]
     products = (
@@ -95,7 +95,7 @@ def measure(
     determinant = np.maximum(xx * yy - xy**2, 0)
     step = np.stack([xy * yt - (yy + damping) * xt, xy * xt - (xx + damping) * yt])
     step /= determinant + damping * (xx + yy + damping)
-    # |G x H| / (|G| |H|) of one pixel is |sin| where |G| = |H|, which 2 sqrt(det) / trace is too.
+    # For one pixel, (5) is |G x H| / (|G| |H|) = |sin|. Where |G| = |H|, 2 sqrt(det) / trace is the same.
     contrast = xx + yy
     root = np.sqrt(determinant)
     angle = np.divide(2 * root, contrast, out=np.zeros_like(root), where=contrast > 0)
@@ -103,31 +103,32 @@ def measure(
 
 
 def rounding_noise(sigma: float) -> float:
-    """Give the contrast (6) of the mean of two frames of nothing but rounding, variance 1/12 each: by the
-    integral of the filters squared.
+    """The contrast (6) of the mean of two frames that have only rounding noise, of variance 1/12 each.
+
+    It follows from the integral of the squared filters.
     """
     return 1 / (48 * np.pi * sigma**6)
 
 
 def halved(image: Floats) -> Floats:
-    """Every second pixel, from the first on, of the image smoothed by 1, 4, 6, 4, 1 and rounded."""
+    """Every second pixel, from the first, of the image smoothed by 1, 4, 6, 4, 1 and rounded."""
     return np.asarray(np.floor(correlate(image, BINOMIAL, BINOMIAL)[::2, ::2] + 0.5))
 
 
 def halved_area(area: Rectangle, image: Floats) -> Rectangle:
-    """What of a level an area of the finer one lies between."""
+    """The pixels of a level between which an area of the next finer level lies."""
     x0, y0, x1, y1 = area
     return x0 // 2, y0 // 2, min(x1 // 2 + 1, image.shape[1]), min(y1 // 2 + 1, image.shape[0])
 
 
 def doubled(flow: Floats, area: Rectangle, finer: Rectangle) -> Floats:
-    """The flow at the next finer level: between its pixels linear, in finer pixels twice as long."""
+    """The flow at the next finer level, interpolated linearly; in finer pixels it is twice as long."""
     x, y = np.arange(finer[0], finer[2]) / 2 - area[0], np.arange(finer[1], finer[3])[:, None] / 2 - area[1]
     return np.stack([2 * bilinear(plane, x + 0 * y, y + 0 * x) for plane in flow])
 
 
 def bilinear(image: Floats, x: Floats, y: Floats) -> Floats:
-    """The image between its pixels; beyond the edge its pixels go on."""
+    """The image interpolated bilinearly at x, y; edge pixels are repeated."""
     x, y = x.clip(0, image.shape[1] - 1), y.clip(0, image.shape[0] - 1)
     left, top = x.astype(np.int64), y.astype(np.int64)
     right, bottom = (left + 1).clip(max=image.shape[1] - 1), (top + 1).clip(max=image.shape[0] - 1)
@@ -138,7 +139,7 @@ def bilinear(image: Floats, x: Floats, y: Floats) -> Floats:
 
 
 def median(plane: Floats) -> Floats:
-    """Of 3x3 pixels; beyond the edge its pixels go on."""
+    """The median of 3x3 pixels; edge pixels are repeated."""
     padded = np.pad(plane, 1, mode="edge")
     windows = np.lib.stride_tricks.sliding_window_view(padded, (3, 3))
     return np.asarray(np.median(windows, axis=(2, 3)))

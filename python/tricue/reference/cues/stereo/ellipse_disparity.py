@@ -22,7 +22,7 @@ def ellipse_disparity(
     median: bool,
     tolerance: float,
 ) -> tuple[float, int, int]:
-    """Takes the median or the mean of all disparities found, and counts those near it."""
+    """Computes the median or the mean of all disparities found, and counts those near it."""
     if not tolerance >= 0:
         refuse("tolerance", "0 or more", float(tolerance))
     found = cell_disparities(left, right, 1, region, True, first, last, window, uniqueness, prefilter)

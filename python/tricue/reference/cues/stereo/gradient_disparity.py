@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Disparity by the gradient method around a predicted one (Okada, Shirai, Miura 1996, section 3)."""
+"""Disparity near a predicted one, by the gradient method (Okada, Shirai, Miura 1996, section 3)."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,8 +13,8 @@ Mask = NDArray[np.bool_]
 Rectangle = tuple[int, int, int, int]
 
 STEP = 1.5  # the most that a coarse level adds, in its own pixels
-RIDGE = 0.01  # (gray levels / px^2)^2 a pixel: less contrast than this leaves the prediction as it is
-TINY = 1e-6  # gray levels^2 / px^2: no power at all is no residual
+RIDGE = 0.01  # (gray levels / px^2)^2 per pixel: with less contrast the prediction hardly changes
+TINY = 1e-6  # gray levels^2 / px^2: makes the residual 0 where images have no power
 
 
 def gradient_disparity(
@@ -29,7 +29,7 @@ def gradient_disparity(
     max_step: float = 1.0,
     region: Rectangle | None = None,
 ) -> tuple[Singles, Singles]:
-    """Solves (7) over the windows, level by level."""
+    """Solves (7) in windows by least squares, level by level."""
     rows, columns = left.shape
     x0, y0, x1, y1 = (0, 0, columns, rows) if region is None else region
     _require(left, right, levels, radius, (x0, y0, x1, y1))
@@ -53,7 +53,7 @@ def gradient_disparity(
     step, reliability, residual, seen = measure(one, other, known, radius)
 
     kept = seen & (reliability >= min_reliability) & (abs(step) <= max_step)
-    if radius > 0:  # one equation leaves nothing
+    if radius > 0:  # a single equation has no residual
         kept &= residual <= max_residual
     d = np.where(kept, known + step, np.nan)
     return cut(d, (x0, y0, x1, y1), np.nan), cut(reliability, (x0, y0, x1, y1), 0)
@@ -65,12 +65,12 @@ def derivative(image: Floats, sigma: float) -> Floats:
     offsets = np.arange(-reach, reach + 1)
     bell = np.exp(-(offsets**2) / (2 * sigma**2))
     smooth = bell / bell.sum()
-    slope = offsets * bell / (offsets**2 * bell).sum()  # 1 on a ramp of 1 a pixel
+    slope = offsets * bell / (offsets**2 * bell).sum()  # 1 on a ramp of slope 1
     return correlate(correlate(image, smooth, 0), slope, 1)
 
 
 def correlate(image: Floats, weights: Floats, axis: int) -> Floats:
-    """Sums of an odd number of neighbors along an axis; beyond the edge its pixels go on."""
+    """Correlation with an odd number of weights along an axis; edge pixels are repeated."""
     reach = len(weights) // 2
     padded = np.pad(image, [(reach, reach) if k == axis else (0, 0) for k in range(2)], mode="edge")
     size = image.shape[axis]
@@ -97,12 +97,12 @@ def doubled(disparity: Floats, shape: tuple[int, int]) -> Floats:
 
 
 def slope(image: Floats) -> Floats:
-    """Half the difference of both neighbors along x; at the edge they are the pixel itself and one."""
+    """Half the difference of the neighbors along x; edge pixels are repeated."""
     return correlate(image, np.array([-0.5, 0, 0.5]), 1)
 
 
 def warped(image: Floats, x: Floats) -> Floats:
-    """The image at columns x (H, W), between two pixels as they are far; beyond the edge its pixels go on."""
+    """The image at columns x (H, W), interpolated linearly; edge pixels are repeated."""
     x = np.clip(x, 0, image.shape[1] - 1)
     column = np.floor(x).astype(np.int64)
     after = np.minimum(column + 1, image.shape[1] - 1)
@@ -111,7 +111,7 @@ def warped(image: Floats, x: Floats) -> Floats:
 
 
 def pooled(values: Floats, radius: int) -> Floats:
-    """The mean of the square window around each pixel; beyond the picture stands 0."""
+    """The mean of the square window around each pixel, with zeros outside the image."""
     side = 2 * radius + 1
     padded, (rows, columns) = np.pad(values, radius), values.shape
     shifts = [padded[k : k + rows, i : i + columns] for k in range(side) for i in range(side)]
@@ -119,13 +119,13 @@ def pooled(values: Floats, radius: int) -> Floats:
 
 
 def measure(left: Floats, right: Floats, known: Floats, radius: int) -> tuple[Floats, Floats, Floats, Mask]:
-    """Equation (7) with the right image shifted by the known disparities, over a window by least squares: the
-    step that it asks for, px; the reliability (9); what the step leaves of the difference, as a share of both
-    images' power; and whether x - known lies in the right image.
+    """Solves (7) in windows by least squares, with the right image shifted by the known disparities.
 
-    Each pixel asks for slope (d - known) = right - left, the slope being the mean of both images'; the d of
-    a window is the one that leaves the least squares. So a window whose pixels were shifted differently still
-    gives one disparity.
+    Returns the step from the known disparity, px; the reliability (9); the residual after the step, as a
+    share of both images' power; and whether x - known is in the right image.
+
+    Each pixel gives the equation slope (d - known) = right - left, where slope is the mean of both images'. A
+    window has one d for all its pixels, even if their known disparities differ.
     """
     x = np.arange(left.shape[1]) - known
     seen = (x >= 0) & (x <= left.shape[1] - 1)
@@ -146,7 +146,7 @@ def measure(left: Floats, right: Floats, known: Floats, radius: int) -> tuple[Fl
 
 
 def cut(values: Floats, region: Rectangle, outside: float) -> Singles:
-    """The region's values, and ``outside`` where it reaches over the picture."""
+    """The values in a region; ``outside`` where it reaches beyond the image."""
     x0, y0, x1, y1 = region
     rows, columns = values.shape
     part = np.full((y1 - y0, x1 - x0), outside, np.float32)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The cells of a head's search: their colors and their depth (Moreno et al. 2002, sections 3.1 and 3.2)."""
+"""The cells of the search for a head: their colors and depths (Moreno et al. 2002, sections 3.1 and 3.2)."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +29,7 @@ def head_cells(
     uniqueness: int,
     prefilter: bool,
 ) -> tuple[NDArray[np.uint16], NDArray[np.uint8]]:
-    """Bins the cells' middle pixels, matches cells, and clears those outside the image."""
+    """Bins the colors of the cells' middle pixels, matches cells, and clears those outside the image."""
     found = cell_disparities(left, right, step, region, False, first, last, window, uniqueness, prefilter)
     x0, y0, x1, y1 = region
     farthest = max(map(abs, region)) * step

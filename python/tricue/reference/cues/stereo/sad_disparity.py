@@ -11,7 +11,7 @@ Ints = NDArray[np.int64]
 Disparity = NDArray[np.float32]
 Rectangle = tuple[int, int, int, int]
 
-NONE = 65535  # the cost of a candidate that isn't there
+NONE = 65535  # the cost of a candidate outside the right image or the range
 CLIP = 31
 
 
@@ -27,7 +27,7 @@ def sad_disparity(
     prefilter: bool = True,
     tolerance: int = -1,
 ) -> Disparity:
-    """Sums the cost of every candidate over the windows, then picks and checks the best."""
+    """Sums the costs of every candidate over the windows, then selects and checks the best."""
     _require(left, right, region, first, last, window, uniqueness, prefilter)
     if prefilter:
         left_gray, right_gray = x_sobel(left), x_sobel(right)
@@ -46,7 +46,7 @@ def sad_disparity(
     most = CLIP if prefilter else 255
     costs = np.stack([window_cost(left_gray, right_gray, u, v, d, window, most) for d in candidates])
 
-    found = costs.argmin(axis=0)  # the first of equal ones
+    found = costs.argmin(axis=0)  # the first of equal costs
     best = costs.min(axis=0)
     fine = (candidates[found] + fraction(costs, found)).astype(np.float32)
     rejected = (best == NONE) | ambiguous(costs, found, best, uniqueness)
@@ -59,15 +59,18 @@ def sad_disparity(
 
 
 def x_sobel(image: Image) -> Ints:
-    """The slope along x, smoothed along y by 1, 2, 1 and clipped at 31; beyond the edge its pixels go on."""
+    """The slope along x, smoothed along y by 1, 2, 1, clipped at ±31 and increased by 31; edge pixels are
+    repeated.
+    """
     padded = np.pad(image.astype(np.int64), 1, mode="edge")
     smooth = padded[:-2] + 2 * padded[1:-1] + padded[2:]
     return np.clip(smooth[:, 2:] - smooth[:, :-2], -CLIP, CLIP) + CLIP
 
 
 def window_cost(left: Ints, right: Ints, u: Ints, v: Ints, d: int, window: int, most: int) -> Ints:
-    """The sum in equation (3) for each pixel (u, v), each difference counted up to `most`; NONE where u - d
-    is outside the right image.
+    """The sum in equation (3) for each pixel (u, v), with differences limited to `most`.
+
+    NONE where u - d is outside the right image.
     """
     rows, columns = left.shape
     cost = np.zeros(u.shape, np.int64)
@@ -81,7 +84,7 @@ def window_cost(left: Ints, right: Ints, u: Ints, v: Ints, d: int, window: int, 
 
 
 def fraction(costs: Ints, found: Ints) -> Disparity:
-    """Where two lines of opposite slope through three costs meet, -0.5 to 0.5; 0 at the end of the range."""
+    """Where two lines of opposite slope through three costs meet, -0.5 to 0.5; 0 at the ends of the range."""
     padded = np.pad(costs, ((1, 1), (0, 0), (0, 0)), constant_values=NONE)
     below, best, above = (np.take_along_axis(padded, found[None] + k, 0)[0] for k in (0, 1, 2))
     rise = np.maximum(2 * (np.maximum(below, above) - best), 1)
@@ -91,7 +94,7 @@ def fraction(costs: Ints, found: Ints) -> Disparity:
 
 
 def ambiguous(costs: Ints, found: Ints, best: Ints, uniqueness: int) -> NDArray[np.bool_]:
-    """Whether a candidate that isn't next to the best costs at most so many percent more."""
+    """Whether a candidate not next to the best costs at most ``uniqueness`` percent more."""
     if uniqueness == 0:
         return np.zeros(best.shape, np.bool_)
     apart = abs(np.arange(len(costs))[:, None, None] - found) > 1
@@ -100,20 +103,20 @@ def ambiguous(costs: Ints, found: Ints, best: Ints, uniqueness: int) -> NDArray[
 
 
 def inscribed(width: int, height: int) -> NDArray[np.bool_]:
-    """(height, width): the pixels whose centers lie in the ellipse."""
+    """(height, width): the pixels whose centers are in the inscribed ellipse."""
     across, down = 2 * np.arange(width) + 1 - width, 2 * np.arange(height)[:, None] + 1 - height
     inside: NDArray[np.bool_] = (across * height) ** 2 + (down * width) ** 2 <= (width * height) ** 2
     return inside
 
 
 def consistent(u: Ints, disparity: Ints, cost: Ints, tolerance: int) -> NDArray[np.bool_]:
-    """Whether the pixel that claims the same column of the right image at the least cost agrees."""
+    """The left-right check: whether the pixel matched to the same right column at the lowest cost agrees."""
     agrees = np.ones(u.shape, np.bool_)
     for row in range(len(u)):
         claimed = u[row] - disparity[row]
         for column in np.unique(claimed):
             same = np.flatnonzero(claimed == column)
-            winner = same[cost[row, same].argmin()]  # the leftmost of equal ones
+            winner = same[cost[row, same].argmin()]  # the leftmost of equal costs
             agrees[row, same] = abs(disparity[row, same] - disparity[row, winner]) <= tolerance
     return agrees
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The target's grid of blocks, where it is in the image."""
+"""The target's grid of blocks, placed in the image."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,6 @@ def placed(corners: Floats, place: Place) -> Floats:
 
 
 def require_numbers(corners: Floats, numbers: NDArray[np.int64], name: str) -> None:
-    """ValueError unless there is a number for each block."""
+    """Refuse numbers unless there is one for each block."""
     if len(numbers) != len(corners):
         refuse(name, f"{len(corners)} numbers", len(numbers))

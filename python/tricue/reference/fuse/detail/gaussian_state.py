@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the Kalman filter's steps have in common."""
+"""Shared by the Kalman filter's steps."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,7 @@ Floats = NDArray[np.float64]
 
 
 def require_belief(mean: Floats, covariance: Floats) -> None:
-    """Refuse a state without numbers, that isn't finite, or whose covariance is none."""
+    """Refuse a state that is empty, isn't finite, or has an invalid covariance."""
     require_shape("mean", mean, (mean.size,))
     if mean.size < 1:
         refuse("mean", "at least one number", "none")
@@ -19,5 +19,5 @@ def require_belief(mean: Floats, covariance: Floats) -> None:
 
 
 def symmetric(product: Floats) -> Floats:
-    """Mean of a matrix and its transpose, which rounding has left slightly unlike."""
+    """The mean of a matrix and its transpose, which differ slightly by rounding."""
     return np.asarray((product + product.T) / 2)

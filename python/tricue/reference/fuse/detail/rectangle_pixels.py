@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which pixels a rectangle with corners between pixels has."""
+"""The pixels of a rectangle whose corners may lie between pixels."""
 
 import numpy as np
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The color space (B - G, G - R, B + G + R) of Birchfield 1998, cut into bins: what its twins share."""
+"""The color space (B - G, G - R, B + G + R) of Birchfield 1998, divided into bins."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,7 @@ Bins = tuple[int, int, int]
 
 
 def require_space(bins: Bins, chroma: int) -> None:
-    """Refuse other than 1 to 256 bins an axis, at most 65535 in all, and chroma outside [1, 255]."""
+    """Refuse anything but 1 to 256 bins per axis, at most 65535 in all, and chroma in [1, 255]."""
     if min(bins) < 1 or max(bins) > 256 or np.prod(bins) > 65535:
         refuse("bins", "1 to 256 on each axis and at most 65535 in all", bins)
     if not 1 <= chroma <= 255:
@@ -18,7 +18,7 @@ def require_space(bins: Bins, chroma: int) -> None:
 
 
 def require_histogram(histogram: Floats, bins: Bins, chroma: int) -> None:
-    """Refuse what is no histogram over the space."""
+    """Refuse anything but a histogram over the color space."""
     require_space(bins, chroma)
     require_shape("histogram", histogram, (int(np.prod(bins)),))
     require_finite("histogram", histogram)
@@ -36,12 +36,12 @@ def axes(bins: Bins, chroma: int) -> list[tuple[int, int, int]]:
 
 
 def centers(bins: Bins, chroma: int) -> list[Floats]:
-    """For each axis the mean of the whole levels in each of its bins, color units."""
+    """For each axis, the mean of the integer levels in each of its bins."""
     return [lowest + (np.arange(n) + 0.5) * levels / n - 0.5 for n, lowest, levels in axes(bins, chroma)]
 
 
 def mean_color(histogram: Floats, bins: Bins, chroma: int) -> Floats:
-    """(3,): every bin counted at the mean of its levels."""
+    """(3,): the mean of the bins' centers, weighted by the histogram."""
     weights = histogram.reshape(bins)
     grids = np.meshgrid(*centers(bins, chroma), indexing="ij")
     sums = np.array([np.sum(weights * grid) for grid in grids], np.float64)
@@ -49,10 +49,10 @@ def mean_color(histogram: Floats, bins: Bins, chroma: int) -> Floats:
 
 
 def indices(pixels: NDArray[np.uint8], bins: Bins, chroma: int) -> NDArray[np.int64]:
-    """The bin of each of (n, 3) BGR pixels."""
+    """The bins of BGR pixels (n, 3)."""
     b, g, r = pixels.astype(np.int64).T
     index = np.zeros(len(pixels), np.int64)
     for value, (n, lowest, levels) in zip((b - g, g - r, b + g + r), axes(bins, chroma), strict=True):
-        level = np.clip(value - lowest, 0, levels - 1)  # what lies beyond an axis is in its end bins
+        level = np.clip(value - lowest, 0, levels - 1)  # values beyond an axis are in its end bins
         index = index * n + level * n // levels
     return index

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which pixels are inside an axis-aligned ellipse: what the twins of the head's color search share."""
+"""The pixels inside an axis-aligned ellipse: shared by the twins of the search for heads."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ Mask = NDArray[np.bool_]
 
 
 def require_ellipse(ellipse: Floats, margin: float) -> None:
-    """Refuse other than a finite ellipse, semi-axes in (0, 4096 / margin], and a margin outside [1, 16]."""
+    """Refuse anything but a finite ellipse with semi-axes in (0, 4096 / margin], and a margin in [1, 16]."""
     require_shape("ellipse", ellipse, (4,))
     require_finite("ellipse", ellipse)
     if not 1 <= margin <= 16:
@@ -34,15 +34,15 @@ def require_bins(bins: Bins, size: int) -> None:
 
 
 def mask_of(ellipse: Floats, shape: tuple[int, ...]) -> Mask:
-    """(H, W): the pixels whose centers are inside (x, y, minor, major).
+    """(H, W): the pixels whose centers are inside the ellipse (x, y, minor, major).
 
-    Measured from the pixel that the center lies in, as an ellipse moved by whole pixels keeps its shape.
+    Computed relative to the pixel of the ellipse's center, so that shifts by whole pixels keep its shape.
     """
     x, y, minor, major = ellipse
     columns = np.arange(shape[1]) - np.floor(x)
     rows = np.arange(shape[0]) - np.floor(y)
     x, y = x - np.floor(x), y - np.floor(y)
-    with np.errstate(over="ignore"):  # far from a very flat ellipse
+    with np.errstate(over="ignore"):  # rows far from a very flat ellipse
         v = (rows + 0.5 - y) / major
         reach = minor * np.sqrt(np.maximum(1 - v * v, 0))
     first, last = np.ceil(x - reach - 0.5), np.floor(x + reach - 0.5)
@@ -51,13 +51,13 @@ def mask_of(ellipse: Floats, shape: tuple[int, ...]) -> Mask:
 
 
 def masks_of(ellipse: Floats, margin: float, shape: tuple[int, ...]) -> tuple[Mask, Mask]:
-    """Which pixels are inside an ellipse, and which in the ring around it."""
+    """The pixels inside an ellipse, and those in the ring around it."""
     inside = mask_of(ellipse, shape)
     larger = ellipse * np.array([1, 1, margin, margin])
     return inside, mask_of(larger, shape) & ~inside
 
 
 def count(bins: Bins, mask: Mask, size: int) -> NDArray[np.int64]:
-    """(size,): how many pixels under the mask each bin has."""
+    """(size,): the number of pixels under the mask in each bin."""
     found = bins[mask]
     return np.bincount(found[found != NO_BIN], minlength=size)

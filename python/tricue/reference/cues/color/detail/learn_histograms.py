@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The colors of a target and of its surround, and what follows of them by Bayes' rule with equal priors."""
+"""The colors of a target and of its surround, and P(target | color) by Bayes' rule with equal priors."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,9 +14,9 @@ Cube = NDArray[np.float32]
 def learn_histograms(
     inside: Samples, around: Samples, target: Cube, surround: Cube, rate: float, rare: float, unseen: float
 ) -> tuple[Cube, Cube, Cube]:
-    """Blends the joint histograms of samples (1, 3, n) into both cubes, and divides them.
+    """Blends the joint histograms of samples (1, 3, n) into both cubes, and computes the posterior's table.
 
-    unseen: P(target) of a color that neither has.
+    unseen: P(target) of a color that neither cube has.
     """
     for name, cube in (("target", target), ("surround", surround)):
         side = cube.shape[0]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The places at which an ellipse is searched: what the twins of the head's search share."""
+"""The places at which an ellipse is evaluated: shared by the twins of the search for heads."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ Grid = tuple[int, int, int]
 
 
 def require_grid(grid: Grid) -> None:
-    """Refuse a grid that isn't 1 to 1024 rows, cols and pixels from one to the next, or reaches too far."""
+    """Refuse a grid unless rows, columns and step are 1 to 1024 and it spans at most 16384 pixels."""
     if min(grid) < 1 or max(grid) > 1024 or max(grid[:2]) * grid[2] > 16384:
         refuse("grid", "rows, cols and a step of 1 to 1024, over at most 16384 pixels", grid)
 

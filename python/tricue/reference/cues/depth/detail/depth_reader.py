@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The depths that a rectangle shows, by level relative to its own depth: for the kernels of rectangles."""
+"""The depths in a rectangle, in levels relative to the rectangle's depth: shared by kernels of rectangles."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,8 +12,9 @@ Floats = NDArray[np.float64]
 
 
 def read(depth: Depth, rectangle: Floats, pattern: Floats) -> Floats:
-    """The depths at the places (u, v) of the pattern, in halves of width and height from the center, that are
-    seen: inside the image, and measured.
+    """The measured depths at the pattern's places, of those inside the image.
+
+    pattern: (N, 2) u, v from the rectangle's center, in halves of its width and height.
     """
     x, y, width, height, _ = rectangle
     columns, rows = np.floor(x + width / 2 * pattern[:, 0]), np.floor(y + height / 2 * pattern[:, 1])
@@ -24,14 +25,14 @@ def read(depth: Depth, rectangle: Floats, pattern: Floats) -> Floats:
 
 
 def count(seen: Floats, z: float, levels: int, reach: float) -> NDArray[np.intp]:
-    """(levels,) how many depths are in each level of [-reach, reach) around z."""
+    """(levels,) the number of depths in each level of [-reach, reach) around z."""
     level = np.floor(((seen - z) + reach) * (levels / (2 * reach)))
     level = level[(level >= 0) & (level < levels)]
     return np.bincount(level.astype(np.intp), minlength=levels)
 
 
 def require(pattern: Floats, reach: float) -> None:
-    """Refuse a pattern without places, or that isn't finite, and a reach that isn't above 0."""
+    """Refuse a pattern that is empty or isn't finite, and a reach that isn't above 0."""
     require_shape("pattern", pattern, (len(pattern), 2))
     if len(pattern) < 1:
         refuse("pattern", "at least one place", "none")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Segmented objects as rectangles in meters that something may cut."""
+"""Segmented objects as rectangles in meters, which the image's border or an occluder may cut."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +12,9 @@ Shares = NDArray[np.float32]
 
 
 def complete_rectangle(state: Floats, cut: Flags, expected: Floats, size: Floats) -> Floats:
-    """A state (5,) as if nothing cut it: extended to ``size`` (2,) beyond the sides (4,) that are cut.
+    """A state (5,) extended to ``size`` (2,) beyond the sides (4,) that are cut.
 
-    Cut at opposite sides, it is as near to the middle of the expected state as its visible part allows.
+    If opposite sides are cut, it is centered as near to the expected state as its visible part allows.
     """
     whole: Floats = state.copy()
     for axis in range(2):
@@ -32,7 +32,7 @@ def complete_rectangle(state: Floats, cut: Flags, expected: Floats, size: Floats
 
 
 def require_objects(measured: Floats, cut: Flags, columns: Shares, rows: Shares) -> None:
-    """Refuse objects of other shapes, or that aren't finite."""
+    """Refuse arrays of other shapes, or with numbers that aren't finite."""
     count = len(measured)
     require_shape("measured", measured, (count, 8))
     require_finite("measured", measured)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Height above a plane of every pixel of a depth image: for above_floor and plane_support."""
+"""The height of every pixel of a depth image above a plane: for above_floor and plane_support."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The disparities of a pair's cells: what the twins of the head's search share."""
+"""The disparities of a stereo pair's cells: shared by the twins of the search for heads."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,7 @@ def cell_disparities(
     uniqueness: int,
     prefilter: bool,
 ) -> NDArray[np.float32]:
-    """The disparities of a region, cells, by the whole images turned gray."""
+    """The disparities in a region, in cells, from both whole images reduced to gray cells."""
     if left.shape[0] < 1 or left.shape[1] < 1:
         refuse("left", "at least one pixel", "none")
     if left.shape[:2] != right.shape[:2]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The cells at an expected disparity: a part of the twin of head_cells."""
+"""The cells at an expected disparity: a part of head_cells's twin."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,11 @@ from tricue.reference.base.checks import refuse
 def coherent_cells(
     disparities: NDArray[np.float32], expected: float, tolerance: float, fill: int
 ) -> NDArray[np.uint8]:
-    """(H, W) 1 at the expected disparity: cells vote, those without a vote take the sum of a square's."""
+    """(H, W) 1 at the expected disparity, else 0.
+
+    Cells with a disparity vote. A cell without one gets the majority in the square around it, whose side is
+    ``fill`` cells.
+    """
     if not np.isfinite(expected):
         refuse("expected", "a finite number", float(expected))
     if not tolerance >= 0:
