@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Values: boxes, frames, camera models, calibration, rectification, registration."""
+"""Boxes, frames, camera models, calibration, rectification, registration."""

@@ -13,13 +13,13 @@ from tricue.camera.numbers import to_float
 from tricue.errors import BoxError
 
 BoxLike = Sequence[float] | NDArray[Any]
-MAX_COORDINATE = 1e6  # pixels; far beyond any image, and far below where a kernel's integers overflow
+MAX_COORDINATE = 1e6  # pixels: far larger than any image, and far too small to overflow a kernel's integers
 
 
 class Box(NamedTuple):
-    """A rectangle over [x, x + width) by [y, y + height), in pixels; it may reach beyond the image.
+    """A rectangle over [x, x + width) by [y, y + height), in pixels; it may extend beyond the image.
 
-    It unpacks and compares like the tuple ``(x, y, width, height)``. Pixel (row i, column j) covers
+    It unpacks and compares like the tuple ``(x, y, width, height)``. The pixel in row i and column j covers
     [j, j + 1) by [i, i + 1). The constructor checks nothing; :func:`as_box` checks what users pass.
     """
 
@@ -55,15 +55,15 @@ class Box(NamedTuple):
 
     @property
     def area(self) -> float:
-        """Square pixels."""
+        """The area in square pixels."""
         return self.width * self.height
 
     def as_int(self) -> tuple[int, int, int, int]:
-        """Rounded to whole pixels, as OpenCV wants boxes; at least one pixel wide and high."""
+        """(x, y, width, height) in whole pixels, as OpenCV needs; at least one pixel wide and high."""
         return round(self.x), round(self.y), max(1, round(self.width)), max(1, round(self.height))
 
     def contains(self, x: float, y: float) -> bool:
-        """Whether a point lies inside; the right and the bottom edge don't count as inside."""
+        """Whether a point is inside; the right and bottom edges aren't."""
         return self.x <= x < self.x + self.width and self.y <= y < self.y + self.height
 
     def clip(self, width: float, height: float) -> "Box":
@@ -79,7 +79,7 @@ class Box(NamedTuple):
         high = min(bottom, other.y + other.height) - max(top, other.y)
         if wide <= 0 or high <= 0:
             return 0.0
-        # Differences of large coordinates may round to slightly above the union.
+        # With large coordinates, rounding may make the intersection slightly larger than the union.
         return min(1.0, wide * high / (self.area + other.area - wide * high))
 
     def _repr_html_(self) -> str:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """One reader for each calibration format: OpenCV's (and ROS's), KITTI's, the Princeton Benchmark's, TOML.
 
-The readers return checked numbers; :class:`tricue.Intrinsics` and :class:`tricue.StereoRig` are made of them.
-Many files don't hold the image's size: then ``size=(width, height)`` gives it. ImageSizeError is raised if
+The readers return checked numbers, from which :class:`tricue.Intrinsics` and :class:`tricue.StereoRig` are
+made. Many files don't hold the image's size; ``size=(width, height)`` gives it. ImageSizeError is raised if
 the file holds another size. Errors name the file and the key: ValueError, or OSError for a missing file.
 """
 
@@ -21,7 +21,7 @@ from tricue.camera.pose import Pose
 from tricue.camera.types import Matrix, PathLike, Size
 
 T = TypeVar("T")
-# Names that OpenCV's samples and tutorials write. In the file of a rectified rig P1 is the left camera's.
+# Names in files of OpenCV's samples and tutorials. In the file of a rectified rig, P1 is the left camera's.
 _OPENCV_KEYS = ("camera_matrix", "cameraMatrix", "K", "P1", "M1", "K1")
 NUMBERED_DISTORTION_KEYS = ("D{}", "distCoeffs{}", "dist_coeffs_{}", "distortion_{}")
 """For the left camera (1) and the right one (2): first the name in OpenCV's sample stereo_calib."""
@@ -29,11 +29,14 @@ _DISTORTION_KEYS = ("distortion_coefficients", "distCoeffs", "dist_coeffs", "dis
 
 POSE_KEYS = ("pose", "rotation", "translation")
 LIKELY_MISSPELLED = 0.85
-"""The similarity (difflib's ratio) from which an unknown key is taken for a misspelled one."""
+"""The similarity (difflib's ratio) above which an unknown key is taken for a misspelled one."""
 
 
 class ImageSizeError(ValueError):
-    """A calibration is for another image size than expected. own: the file's size."""
+    """A calibration is for another image size than expected.
+
+    own: width and height in the file, pixels.
+    """
 
     def __init__(self, message: str, own: Size = (0, 0)) -> None:
         super().__init__(message)
@@ -64,8 +67,9 @@ def read_opencv_camera(
 ) -> PinholeParameters:
     """The camera matrix in a file of ``cv2.FileStorage`` (YAML, XML, JSON) or a camera_info of ROS (YAML).
 
-    key: its name in the file; by default the first of camera_matrix, cameraMatrix, K, P1, M1, K1. Rectified
-        images have a projection matrix (3, 4): P1 or, in a camera_info, projection_matrix.
+    key: its name in the file; by default the first of camera_matrix, cameraMatrix, K, P1, M1, K1 that is
+        there. For rectified images it is a projection matrix (3, 4): P1 or, in a camera_info,
+        projection_matrix.
     Warns (UserWarning) if the file has distortion, unless the matrix is a projection matrix.
     """
     with OpenCVFile(path) as file:
@@ -83,7 +87,7 @@ def read_opencv_camera(
 def read_opencv_rig(path: PathLike, *, unit: float = 1.0, size: Size | None = None) -> RigParameters:
     """The rectified rig in a file of ``cv2.FileStorage`` or in the camera_info (ROS, YAML) of a right camera.
 
-    The file has P1 and P2 of ``cv2.stereoRectify``; the camera_info's projection_matrix has the baseline.
+    The file has P1 and P2 of ``cv2.stereoRectify``; a camera_info has the baseline in its projection_matrix.
     unit: meters per unit of the calibration board, 0.001 if its squares were given in millimeters.
     """
     with OpenCVFile(path) as file:
@@ -102,7 +106,7 @@ def read_opencv_rig(path: PathLike, *, unit: float = 1.0, size: Size | None = No
 def read_kitti_camera(path: PathLike, *, camera: int = 2, size: Size | None = None) -> PinholeParameters:
     """A rectified camera in KITTI's calib.txt (P2) or calib_cam_to_cam.txt (P_rect_02).
 
-    camera: KITTI's number; 2 is the left color camera.
+    camera: KITTI's number of the camera; 2 is the left color camera.
     """
     values = _kitti_values(path)
     projection = _kitti_projection(values, camera, path)
@@ -124,15 +128,15 @@ def read_kitti_offset(path: PathLike, *, camera: int = 2) -> Matrix:
     KITTI's labels are in the frame of camera 0. The camera's projection matrix is K [I | offset].
     """
     matrix = _kitti_projection(_kitti_values(path), camera, path)
-    k = _camera_of_matrix(matrix, (1, 1), path)  # refuses what can't be a camera; the size plays no part
+    k = _camera_of_matrix(matrix, (1, 1), path)  # checks the matrix; the size doesn't matter
     x, y, z = map(float, matrix[:, 3])
     return np.array([(x - k.cx * z) / k.fx, (y - k.cy * z) / k.fy, z])
 
 
 def read_princeton_camera(path: PathLike, *, size: Size | None = None) -> PinholeParameters:
-    """The camera matrix K in a frames.mat, which counts pixels from 1, as MATLAB does.
+    """The camera with matrix K in a frames.mat, which counts pixels from 1, as MATLAB does.
 
-    This needs SciPy; ValueError if it isn't installed.
+    Reading it needs SciPy; ValueError if SciPy isn't installed.
     """
     try:
         from scipy.io import loadmat
@@ -168,7 +172,7 @@ def read_toml_rig(path: PathLike, *, table: str | None = None, size: Size | None
 
 
 def image_size(own: Size | None, given: Size | None, path: PathLike) -> Size | None:
-    """The size that the file holds, else the given one; ImageSizeError if they differ."""
+    """The size in the file, or else the given one; ImageSizeError if they differ."""
     if own is not None and given is not None and tuple(given) != own:
         raise other_size(own, given, path)
     return given if own is None else own
@@ -188,8 +192,8 @@ def rig_of_projections(
 ) -> RigParameters:
     """The rig of two rectified cameras, from their projection matrices (3, 4).
 
-    unit: meters per unit of the matrices' last column. path: named in errors. ValueError unless both cameras
-    have the same camera matrix and are side by side, left first.
+    unit: meters per unit of the matrices' last column. path: the file that errors name. ValueError unless
+    both cameras have the same camera matrix and are side by side, left first.
     """
     camera = _camera_of_matrix(left, size, path)
     if left.shape != (3, 4) or right.shape != (3, 4):
@@ -218,7 +222,7 @@ def _camera_of_matrix(matrix: Matrix, size: Size | None, path: PathLike) -> Pinh
 
 
 def _ros_projections(right: Matrix | None, path: PathLike) -> tuple[Matrix, Matrix] | tuple[None, None]:
-    """Both cameras' projection matrices (3, 4), from ROS's of the right camera; None if it isn't there."""
+    """Both cameras' projection matrices (3, 4), from the right one's by ROS; None if that isn't there."""
     if right is None or right.shape != (3, 4):
         return None, None
     if not right[:, 3].any():

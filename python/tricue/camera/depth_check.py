@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Detects depth that isn't registered to color, by the edges of both.
 
-Edges of depth are compared with those of color after each of many shifts and scales. Unregistered depth fits
-best after some shift or scale. Edges match as far as their directions agree: each edge is a complex number at
-twice the angle of its direction, and the match is their correlation.
+Edges of depth are compared with those of color after many shifts and scales. Registered depth fits best
+without any; unregistered depth fits best after some shift or scale. Edges match if their directions agree:
+each edge is a complex number at twice the angle of its direction, and the match is their correlation.
 """
 
 from typing import NamedTuple
@@ -17,26 +17,26 @@ from tricue.camera.shared_frame import messages_of, warn_of_frame
 
 Plane = NDArray[np.float32]
 
-CELLS = 160  # to which the width of the images is thinned
+CELLS = 160  # across the thinned images, approximately
 MAX_SHIFT = 10  # cells along x and y
 SCALES = np.array([0.925, 0.95, 0.975, 1.0, 1.025, 1.05, 1.075])
-MAX_REGISTERED_ERROR = 1.5  # cells, root mean square over the image; registered depth has no more
-MIN_ERROR = 2.25  # cells; what lies between both is neither doubted nor taken for registered
-MIN_EDGE_CELLS = 150  # with fewer edges of depth, the check says nothing
-MIN_HEIGHT = 3 * MAX_SHIFT  # cells, of an image in which that many shifts can be told apart
-MIN_WIDTH = 120  # cells; in a smaller image a few edges are most of it
-MIN_DEPTH_STEP = 0.1  # of the logarithm of depth over two cells: an edge
-MAX_COLOR_SLOPE = 15.0  # levels a cell; a steeper one counts as much
+MAX_REGISTERED_ERROR = 1.5  # cells, root mean square over the image; that of registered depth isn't larger
+MIN_ERROR = 2.25  # cells, above which depth may count as unregistered
+MIN_EDGE_CELLS = 150  # with fewer edges of depth, the check finds nothing
+MIN_HEIGHT = 3 * MAX_SHIFT  # cells, so that all shifts can be told apart
+MIN_WIDTH = 120  # cells; in a smaller image, a few edges decide
+MIN_DEPTH_STEP = 0.1  # difference of log depth over two cells that makes an edge
+MAX_COLOR_SLOPE = 15.0  # gray levels per cell; a steeper slope has the same weight
 MIN_PEAK, MIN_ADVANTAGE = (4.2, 5.2), (1.3, 1.4)
-"""For shifts alone, and for shifts with scales: there are more of these, so one fits better by chance."""
+"""For shifts alone, and for shifts with scales, which are more, so that one fits by chance more easily."""
 
 
 class Fit(NamedTuple):
     """The shift and scale of depth after which its edges fit best to those of color.
 
-    right, down: pixels. error: by how many pixels it moves the image's pixels, root mean square. peak: how
-    far its match is above the median of all shifts and scales, in their standard deviations. advantage: the
-    match as a multiple of the best one with an error that registered depth may have.
+    right, down: pixels. error: how far shift and scale move the image's pixels, root mean square, pixels.
+    peak: how far the match is above the median match of all shifts and scales, in standard deviations of
+    these. advantage: ratio of the match to the best one among errors that registered depth may have.
     """
 
     right: int
@@ -50,9 +50,9 @@ class Fit(NamedTuple):
 class DepthCheck(NamedTuple):
     """The fits of a depth image to color.
 
-    edges: number of cells with an edge of depth, 0 if the image is too small to look for any. width: of the
-    image, pixels. fits: the best shift alone, and the best shift with a scale; none with fewer edges than
-    MIN_EDGE_CELLS, and in an image less than MIN_WIDTH cells wide or MIN_HEIGHT high.
+    edges: number of cells with an edge of depth; 0 if the image is too small to be checked. width: of the
+    image, pixels. fits: the best shift alone, and the best shift with a scale; empty with fewer edges than
+    MIN_EDGE_CELLS, or if the image is less than MIN_WIDTH cells wide or MIN_HEIGHT cells high.
     """
 
     edges: int
@@ -61,7 +61,7 @@ class DepthCheck(NamedTuple):
 
     @property
     def problem(self) -> str:
-        """A sentence that says what is wrong with the depth, "" if nothing was noticed."""
+        """What is wrong with the depth, to be read after "depth:"; "" if nothing was found."""
         min_error = MIN_ERROR * _step(self.width)
         for fit, min_peak, min_advantage in zip(self.fits, MIN_PEAK, MIN_ADVANTAGE, strict=False):
             if fit.error > min_error and fit.peak > min_peak and fit.advantage > min_advantage:
@@ -76,9 +76,9 @@ class DepthCheck(NamedTuple):
 
 
 def check_depth(color: NDArray[np.uint8], depth: Plane) -> DepthCheck:
-    """Compare the edges of color, BGR (H, W, 3) or gray (H, W), and of depth (H, W), meters with NaN.
+    """Compare the edges of color, BGR (H, W, 3) or gray (H, W), with those of depth (H, W), meters or NaN.
 
-    It is deterministic and takes a few milliseconds.
+    The check is deterministic and takes a few milliseconds.
     """
     width = depth.shape[1]
     step = _step(width)
@@ -117,8 +117,8 @@ def check_depth(color: NDArray[np.uint8], depth: Plane) -> DepthCheck:
 def warn_of_depth(frame: Frame) -> DepthCheck:
     """Check a frame's depth against its color, warn (UserWarning) of a problem, and return the check.
 
-    The warning names the line that calls the caller.
-    ValueError for a frame without color or depth.
+    The warning is attributed to the line that called the caller. ValueError for a frame without color or
+    depth.
     """
     frame.require("color", "depth")
     assert frame.color is not None
@@ -130,14 +130,14 @@ def warn_of_depth(frame: Frame) -> DepthCheck:
 
 
 def _step(width: int) -> int:
-    """Pixels a cell."""
+    """The side of a cell in pixels."""
     return max(1, round(width / CELLS))
 
 
 def _depth_edges(depth: Plane) -> Plane:
-    """The direction of each cell's edge (h, w, 2), 0 where there is none.
+    """(h, w, 2) unit vectors at twice the angle of each cell's edge; 0 where there is none.
 
-    Edges are steps of the logarithm of depth, so that near and far things are treated alike.
+    Edges are steps of log depth, so that near and far objects are treated alike.
     """
     filled = _fill_shadows(depth)
     known = np.isfinite(filled)
@@ -152,7 +152,7 @@ def _depth_edges(depth: Plane) -> Plane:
 
 
 def _color_edges(color: NDArray[np.uint8], size: tuple[int, ...]) -> Plane:
-    """The direction of each cell's slope (h, w, 2), as a vector whose length is the steepness."""
+    """(h, w, 2) vectors at twice the angle of each cell's slope; their length is the steepness, limited."""
     small = cv2.resize(color, size, interpolation=cv2.INTER_AREA)
     gray = (cv2.cvtColor(small, cv2.COLOR_BGR2GRAY) if small.ndim == 3 else small).astype(np.float32)
     along = [cv2.Sobel(gray, cv2.CV_32F, *axis, scale=1 / 8) for axis in ((1, 0), (0, 1))]
@@ -161,14 +161,14 @@ def _color_edges(color: NDArray[np.uint8], size: tuple[int, ...]) -> Plane:
 
 
 def _doubled(slopes: Plane, length: Plane) -> Plane:
-    """Vectors (h, w, 2) of that length at twice the angle of slopes (2, h, w): opposite slopes give one."""
+    """Vectors (h, w, 2) of given length at twice the angle of slopes (2, h, w): opposite slopes are equal."""
     x, y = slopes
     doubled = np.stack([x * x - y * y, 2 * x * y], axis=-1)
     return np.asarray(doubled * (length / (x * x + y * y + 1e-9))[..., None], np.float32)
 
 
 def _fill_shadows(depth: Plane) -> Plane:
-    """Depth with holes filled along rows by the farther neighbor, the surface on which shadows fall."""
+    """Depth with holes filled along rows by the farther neighbor, as the background is in the shadow."""
     known, columns = np.isfinite(depth), np.arange(depth.shape[1])
     before = np.maximum.accumulate(np.where(known, columns, 0), axis=1)
     after = np.minimum.accumulate(np.where(known, columns, len(columns) - 1)[:, ::-1], axis=1)[:, ::-1]
@@ -177,7 +177,7 @@ def _fill_shadows(depth: Plane) -> Plane:
 
 
 def _matches(edges: Plane, color_edges: Plane) -> Plane:
-    """How well edges fit after each scale and shift down and right (scales, shifts, shifts).
+    """How well edges fit after each scale and each shift down and right: (scales, shifts, shifts).
 
     Scaling keeps the image's center in place.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A frame: the images that the cameras took at one moment, by channel."""
+"""A frame: the images that cameras took at one moment, by channel."""
 
 import warnings
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from tricue.errors import MissingChannelError
 
 MAX_DEPTH = 1e6  # meters; some drivers write the largest number of their type where nothing was measured
 MAX_DEPTH_SCALE = 1e3  # meters per unit
-MIN_MEDIAN_DEPTH, MAX_MEDIAN_DEPTH = 0.05, 50.0  # meters; a median outside is most likely in another unit
+MIN_MEDIAN_DEPTH, MAX_MEDIAN_DEPTH = 0.05, 50.0  # meters; beyond, depth is most likely in another unit
 MAX_TIMESTAMP = 1e11  # seconds, 3,000 years
 SMALLER_UNITS = (("milliseconds", 1e3), ("microseconds", 1e6), ("nanoseconds", 1e9))
 _UINT8 = np.dtype(np.uint8)
@@ -25,22 +25,21 @@ _CHANNELS = ("color", "depth", "right")
 class Frame:
     """The images of one moment; color or depth, or both.
 
-    color: uint8, (H, W, 3) in BGR order or gray (H, W). Of a stereo pair it is the left image.
-    depth: (H, W), meters along the optical axis. float32 and float64 are meters; integers need
-        ``depth_scale``. It is kept as float32, with NaN where the input is 0, negative, NaN, beyond
-        a million meters or masked. Its size may differ from the color image's.
-    right: the right image of a rectified stereo pair, of the same shape as ``color``.
-    timestamp: seconds of any clock. Trackers treat longer gaps between two frames as one second.
-    pose: the camera's pose when the frame was taken, a :class:`tricue.Pose` or its (4, 4) matrix. The camera
-        is the one whose coordinates positions have. It replaces the pose of the tracker's camera; None
-        doesn't.
+    color: uint8, (H, W, 3) in BGR order or gray (H, W). In a stereo pair it is the left image.
+    depth: (H, W), meters along the optical axis. float32 and float64 are meters unless ``depth_scale`` is
+        given; integers need it. Kept as float32, with NaN where the input is 0, negative, NaN, beyond a
+        million meters or masked. Its size may differ from the color image's.
+    right: the right image of a rectified stereo pair, with the same shape as ``color``.
+    timestamp: seconds of any clock. If two frames are more than a second apart, trackers assume one second.
+    pose: the pose, when the frame was taken, of the camera in whose coordinates positions are: a
+        :class:`tricue.Pose` or its (4, 4) matrix. It replaces the pose of the tracker's camera, unless None.
     depth_scale: meters per unit of ``depth``, 0.001 for millimeters.
 
-    Color images are not copied where the pixels of a row are contiguous, as in whole arrays and crops. Any
+    Color images are not copied if the pixels of each row are contiguous, as in whole arrays and crops. Any
     other layout (mirrored, channels reversed, Fortran order) is copied once. A TypeError or ValueError
-    names the channel. Warns (UserWarning) where the median depth is above 50 m, which looks like millimeters,
-    or below 5 cm, where all depths are beyond a million meters, and where a timestamp is so large that it
-    looks like milliseconds or a smaller unit.
+    names the channel. Warns (UserWarning) if the median depth is above 50 m, which looks like millimeters, or
+    below 5 cm; if all depths are beyond a million meters; and if a timestamp is so large that it looks like
+    milliseconds or a smaller unit.
     """
 
     color: NDArray[np.uint8] | None
@@ -122,7 +121,7 @@ def as_frame(value: FrameLike, name: str = "frame") -> Frame:
 
 
 def _conversion(value: Any) -> str:
-    """A hint about an object that is no array: what it may be, or how to make a BGR image of it; or ""."""
+    """A hint about an object that isn't an array: its likely origin, or how to convert it; "" without one."""
     if value is None:
         return " (cv2.imread and VideoCapture.read give None for what they can't read)"
     kind = type(value)
@@ -149,7 +148,7 @@ def _image(value: Any, name: str) -> NDArray[np.uint8]:
 
 
 def _is_packed(image: NDArray[np.uint8]) -> bool:
-    """Whether pixels are contiguous within rows, and rows are in order; rows may be padded, as in a crop."""
+    """Whether pixels are contiguous in each row, and rows are in order; rows may be padded, as in a crop."""
     row_stride, *strides = image.strides
     row_bytes = image.size // image.shape[0]
     return row_stride >= row_bytes and strides == ([3, 1] if image.ndim == 3 else [1])
@@ -214,7 +213,7 @@ def _warn_of_unit(sample: NDArray[np.float32], scale: float | None) -> None:
     measured = sample[(sample > 0) & (sample <= MAX_DEPTH)]
     message = _unit_problem(measured, scale) if measured.size else _loss(sample)
     if message:
-        warnings.warn(f"depth: {message}", UserWarning, stacklevel=4)  # names the line that made the frame
+        warnings.warn(f"depth: {message}", UserWarning, stacklevel=4)  # at the line with Frame(...)
 
 
 def _unit_problem(measured: NDArray[np.float32], scale: float | None) -> str:
@@ -232,7 +231,7 @@ def _unit_problem(measured: NDArray[np.float32], scale: float | None) -> str:
 
 
 def _loss(sample: NDArray[np.float32]) -> str:
-    """Why no depth is left; "" where nothing was measured, for which drivers write one large number."""
+    """Why no depth is left; "" if nothing was measured, for which drivers write one large number."""
     far = sample[(sample > MAX_DEPTH) & np.isfinite(sample)]
     if not far.size or far.min() == far.max():
         return ""
@@ -251,7 +250,7 @@ def _seconds(timestamp: Any) -> float:
         message = (
             f"timestamp: expected seconds, got {seconds:.4g}, which look like {unit}; divide by {scale:g}"
         )
-        warnings.warn(message, UserWarning, stacklevel=3)  # names the line that made the frame
+        warnings.warn(message, UserWarning, stacklevel=3)  # at the line with Frame(...)
     return seconds
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Checks of numbers; each returns the number, or raises TypeError or ValueError that names the argument."""
+"""Checks of numbers: each returns the number, or raises TypeError or ValueError that names the argument."""
 
 import math
 from numbers import Integral, Real
@@ -17,7 +17,7 @@ def finite(value: Any, name: str, unit: str) -> float:
 
 
 def to_float(value: Any) -> float:
-    """A real number as a float; infinite where it is too large for one."""
+    """A real number as a float; infinity if it is too large for one."""
     try:
         return float(value)
     except OverflowError:

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Files of ``cv2.FileStorage`` (YAML, XML, JSON), read with exceptions that name the file.
 
-ROS's camera_info in YAML, as camera_calibration writes it, is read too: it has no header, and its matrices
-lack the type of their numbers.
+ROS's camera_info in YAML, as camera_calibration writes it, is read, too: it has no header, and its matrices
+don't tell the type of their numbers.
 
-cv2 gets the text, not the path, as it can't open every path; and only text nested no deeper than a
-calibration, as its parser crashes on some thousand levels.
+cv2 gets the text instead of the path, because it can't open every path. Text that is nested more deeply than
+a calibration is refused, because cv2's parser crashes on some thousand levels.
 """
 
 import pathlib
@@ -22,19 +22,19 @@ if TYPE_CHECKING:
 
 MAX_BYTES = 1 << 20
 MAX_LEVELS = 64
-MAX_NUMBERS = 64  # of a list; a calibration's have 16 at most, and cv2 counts to each from the start
+MAX_NUMBERS = 64  # in a list; calibrations have at most 16, and cv2's time per list grows quadratically
 _HEADS = ("%", "<", "{")  # of YAML, XML and JSON as cv2 writes them
 _NAME = re.compile(r"^camera_name:.*$", re.MULTILINE)
-"""Free text in a camera_info, at which cv2's parser may fail: 00b09d0100990bb2 begins like a number."""
+"""Free text in a camera_info, on which cv2's parser may fail: 00b09d0100990bb2 begins like a number."""
 _BRACKETS = re.compile(r"(?P<opening>[\[{]|<[^/?!])|[\]}]|</")
 _DASHES = re.compile(rf"(?:[-?]\s+){{{MAX_LEVELS}}}")
-"""Lists of lists on one line of YAML; on more lines they need more indentation than MAX_BYTES holds."""
+"""Nested lists on one line of YAML; on several lines their indentation would exceed MAX_BYTES."""
 
 
 class OpenCVFile:
     """A ``cv2.FileStorage`` opened for reading, used in ``with``.
 
-    OSError for a file that isn't there, ValueError for one that FileStorage can't read.
+    OSError for a missing file, ValueError for one that FileStorage can't read.
     """
 
     def __init__(self, path: PathLike) -> None:
@@ -61,7 +61,7 @@ class OpenCVFile:
         self.storage.release()
 
     def matrix(self, key: str) -> Matrix | None:
-        """The matrix of that name, or None; ValueError for a wrong count of numbers."""
+        """The matrix with that name, or None; ValueError for a wrong count of numbers."""
         node = self.storage.getNode(key)
         try:
             matrix = _matrix(node) if node.isMap() else None
@@ -72,7 +72,7 @@ class OpenCVFile:
         return None if matrix is None else np.asarray(matrix, np.float64)
 
     def numbers(self, key: str) -> Matrix | None:
-        """The numbers (n,) of a list or a matrix, or None; ValueError as ``matrix``."""
+        """The numbers (n,) of a list or a matrix, or None; ValueError as from ``matrix``."""
         node = self.storage.getNode(key)
         if not node.isSeq():
             matrix = self.matrix(key)
@@ -95,7 +95,7 @@ class OpenCVFile:
 
 
 def _with_head(text: str) -> str:
-    """The text as cv2 can read it: YAML gets the first line by which cv2 recognizes it."""
+    """The text with the first line by which cv2 recognizes YAML."""
     if not text.strip() or text.lstrip().startswith(_HEADS):
         return text
     return "%YAML:1.0\n" + _NAME.sub("", text)
@@ -112,10 +112,10 @@ def _matrix(node: cv2.FileNode) -> Any:
 def _shape(node: cv2.FileNode) -> list[int]:
     """Rows and columns, or the one number that cv2 5 writes for a vector.
 
-    ValueError for anything else: for a matrix without cols or of many dimensions cv2 writes out of bounds.
+    ValueError for anything else: cv2 writes out of bounds for a matrix without cols or of many dimensions.
     """
     rows, cols, sizes = (node.getNode(name) for name in ("rows", "cols", "sizes"))
-    listed = sizes.isSeq()  # in XML a list of one is a number
+    listed = sizes.isSeq()  # in XML, a list of one number is a number
     vector = [sizes.at(index) for index in range(sizes.size())] if listed else [sizes]
     shape = vector if rows.empty() else [rows, cols]
     if len(shape) > 2 or not all(size.isInt() and 0 <= size.real() <= MAX_NUMBERS for size in shape):

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 Floats = NDArray[np.float64]
 
 MAX_SKEW = 1e-3
-"""How much RᵀR may differ from the identity, as for a rotation written with few digits."""
+"""How much RᵀR may differ from the identity: enough for a rotation written with few digits."""
 
 
 @dataclass(frozen=True, slots=True, init=False)
@@ -18,8 +18,8 @@ class Pose:
     """A camera in the world: p_world = R p_camera + t, with the camera frame x right, y down, z forward.
 
     rotation: R, (3, 3), in row-major order. translation: t, (3,) meters: the camera's position in the world.
-    Any right-handed world frame will do. A rounded rotation matrix is made orthogonal.
-    TypeError or ValueError names what is wrong.
+    The world frame can be any right-handed one. A rounded rotation matrix is made orthogonal. TypeError or
+    ValueError says what is wrong.
     """
 
     rotation: tuple[tuple[float, float, float], ...]
@@ -68,7 +68,7 @@ def as_pose(value: Any) -> Pose | None:
 
 
 def _numbers(value: ArrayLike, name: str, shape: tuple[int, ...], *others: tuple[int, ...]) -> Floats:
-    """An array of finite numbers that has the shape, or one of the other shapes."""
+    """An array of finite numbers with the shape, or one of the other shapes."""
     try:
         array = np.asarray(value, np.float64)
     except (TypeError, ValueError, OverflowError):

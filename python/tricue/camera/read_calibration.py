@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Reads a calibration file of any known format, and checks it against the size of the images it is for."""
+"""Reads a calibration file in any known format, and checks it against the images' size."""
 
 import re
 from collections.abc import Callable
@@ -25,10 +25,10 @@ def read_intrinsics(
 ) -> Intrinsics:
     """The intrinsics in a calibration file of any known format.
 
-    These are OpenCV's (YAML, XML, JSON), ROS's (YAML), KITTI's (.txt), Princeton's (.mat) and TOML.
+    The formats are OpenCV's (YAML, XML, JSON), ROS's (YAML), KITTI's (.txt), Princeton's (.mat) and TOML.
     size: width and height of the images, pixels. channel: "depth" or "color", the table to read in a TOML
     file with several. kitti_camera: the camera to read in KITTI's file. ValueError or OSError names the file;
-    a file for another image size is an error, as every position would be wrong. Warns (UserWarning) of
+    a file for another image size is an error, because every position would be wrong. Warns (UserWarning) of
     distortion, which isn't corrected.
     """
     return _read_for(channel, path, size, _reader(path, channel, kitti_camera))
@@ -37,10 +37,10 @@ def read_intrinsics(
 def read_registration(path: Path, depth: Size, color: Size) -> Registration | None:
     """The registration of depth images to the color camera, from a TOML file with both cameras.
 
-    The file has the tables ``depth`` and ``color``. None for any other file, and if both cameras are equal:
-    then the images are registered already. Whatever their poses, both cameras are assumed to be in one place;
-    a color camera without a pose gets that of the depth camera. depth, color: width and height of the images,
-    pixels. ValueError as :func:`read_intrinsics`.
+    The file has the tables ``depth`` and ``color``. None for any other file, and if both cameras are equal,
+    as the images are registered already. Both cameras are assumed to be in one place, whatever their poses; a
+    color camera without a pose gets the depth camera's. depth, color: width and height of the images, pixels.
+    ValueError as from :func:`read_intrinsics`.
     """
     if _format(path) != TOML or not all(_table(path, name) for name in ("depth", "color")):
         return None
@@ -57,11 +57,11 @@ def read_rig(
 ) -> StereoRig:
     """The rectified rig in a calibration file of any known format.
 
-    These are OpenCV's (YAML, XML, JSON; P1, P2), ROS's (YAML) of the right camera, KITTI's (.txt), TOML.
-    size: width and height of the images, pixels. unit: meters per unit of the board of OpenCV's calibration,
-    1 by default. kitti_cameras: the left and right camera to read in KITTI's file. ValueError or OSError
-    names the file, as :func:`read_intrinsics` does; ValueError also for a unit with the other formats, which
-    are in meters.
+    The formats are OpenCV's (YAML, XML, JSON; P1, P2), ROS's (YAML) of the right camera, KITTI's (.txt) and
+    TOML. size: width and height of the images, pixels. unit: meters per unit of the board of OpenCV's
+    calibration, 1 by default. kitti_cameras: the left and right camera to read in KITTI's file. ValueError
+    or OSError names the file, as from :func:`read_intrinsics`; ValueError, too, for a unit with the other
+    formats, which are in meters.
     """
     kind = _format(path)
     if unit is not None and kind != OPENCV:
@@ -72,7 +72,7 @@ def read_rig(
 
 
 def _read_for(channel: str, path: Path, size: Size, read: Callable[..., T]) -> T:
-    """The result of ``read``; the error about another size says which camera's images these are."""
+    """The result of ``read``; the error for another image size says which channel's images differ."""
     try:
         return read(size=size)
     except ImageSizeError as error:

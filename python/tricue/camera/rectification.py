@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Rectification of stereo pairs: both images are remapped so that a point lies in the same row of each.
+"""Rectification of stereo pairs: both images are remapped so that a point is in the same row of both.
 
 The raw cameras follow OpenCV's pinhole model with its distortion coefficients (cv2.stereoCalibrate), not its
-fisheye model. Points of the camera frames: x_right = rotation @ x_left + translation.
+fisheye model. Points in the cameras' frames: x_right = rotation @ x_left + translation.
 """
 
 from collections.abc import Sequence
@@ -42,12 +42,12 @@ class RectifyingTransforms(NamedTuple):
 
 
 class Rectification:
-    """Rectifies the stereo pairs of one calibrated rig; made once, called for each stereo pair.
+    """Rectifies the stereo pairs of one calibrated rig; created once, called for each stereo pair.
 
     raw: the calibrated cameras. size: width and height of the raw images, pixels; the rectified images have
         the same size, and are black where the raw ones have no pixels. unit: meters per unit of the
-        translation. rectified: the transforms to apply; by default those that nearly keep focal length and
-        principal point.
+        translation. rectified: the transforms to apply; by default those that change focal length and
+        principal point as little as possible.
     rig: the rig of the rectified images.
     """
 
@@ -67,10 +67,10 @@ class Rectification:
     def from_opencv(cls, *paths: PathLike, unit: float = 1.0, size: Size | None = None) -> "Rectification":
         """From files of ``cv2.FileStorage``: M1, D1, M2, D2 with R1, R2, P1, P2 or, without these, with R, T.
 
-        paths: one file, or several that together hold all of them, as intrinsics.yml and extrinsics.yml of
-            OpenCV's sample. unit: meters per unit of the board, 0.001 for millimeters. size: of the raw
+        paths: one file, or several that together hold all matrices, such as intrinsics.yml and extrinsics.yml
+            of OpenCV's sample. unit: meters per unit of the board, 0.001 for millimeters. size: of the raw
             images, needed if the files don't hold it.
-        ValueError or OSError names the file, and says what it lacks or that its images have another size.
+        ValueError or OSError names the file, and says what is missing or that its images have another size.
         """
         if not paths:
             raise ValueError("paths: expected a calibration file, got none")
@@ -112,7 +112,7 @@ class Rectification:
         camera, baseline = rig_of_projections(*projections, positive(unit, "unit", "meters"), size, names)
         self.rig = StereoRig(Intrinsics(*camera), baseline)
         self._maps = [
-            # Fixed point: cv2.remap's own resolution, 1/32 px, at a third of the memory of floats.
+            # Fixed point has cv2.remap's own resolution, 1/32 px, and needs less memory than floats.
             cv2.initUndistortRectifyMap(camera, distortion, rotation, projection[:, :3], size, cv2.CV_16SC2)
             for camera, distortion, rotation, projection in zip(
                 raw.cameras, raw.distortions, rotations, projections, strict=True
@@ -125,7 +125,7 @@ def _rectify(raw: StereoCalibration, size: Size) -> RectifyingTransforms:
 
     The matrix has the mean focal length, and the principal point that keeps the mean optical axis in place.
     The camera matrix of cv2.stereoRectify isn't used: it depends on the undistorted image corners, which may
-    be anywhere, as distortion coefficients hold only where the calibration board was seen.
+    be anywhere, because distortion coefficients are valid only where the calibration board was seen.
     """
     (left, right), (left_distortion, right_distortion) = raw.cameras, raw.distortions
     transforms = cv2.stereoRectify(
@@ -157,7 +157,7 @@ class _CalibrationFiles(NamedTuple):
     names: str
 
     def raw(self, posed: bool) -> StereoCalibration:
-        """The raw cameras. posed: whether R and T are required; else they may be missing."""
+        """The raw cameras. posed: whether R and T are required."""
         cameras, distortions = self.pair(_CAMERA_KEYS), self.pair(NUMBERED_DISTORTION_KEYS)
         rotation, translation = self._first(("R", "rotation")), self._first(("T", "translation"))
         there = {"M1 and M2": cameras is not None, "D1 and D2": distortions is not None}
@@ -193,7 +193,7 @@ class _CalibrationFiles(NamedTuple):
         return RectifyingTransforms(rotations, projections)
 
     def pair(self, patterns: Sequence[str]) -> tuple[Matrix, Matrix] | None:
-        """The left and right matrix of the first key pattern for which the files have both; else None."""
+        """The left and right matrix for the first key pattern of which the files have both, or None."""
         for pattern in patterns:
             left, right = (self._first((pattern.format(number),)) for number in (1, 2))
             if left is not None and right is not None:
@@ -201,7 +201,7 @@ class _CalibrationFiles(NamedTuple):
         return None
 
     def size(self, size: Size | None) -> Size:
-        """The raw images' size, from the files or given; ValueError for no size, or for different ones."""
+        """The raw images' size, from the files or as given; ValueError without one, or for different ones."""
         for file in self.files:
             size = image_size(file.size(), size, file.path)
         if size is None:

@@ -12,10 +12,12 @@ from numpy.typing import ArrayLike, NDArray
 from tricue import imgproc
 from tricue.camera.rig import Intrinsics
 
-_OUTSIDE_IMAGE = -2.0  # a pixel coordinate that is in no image
+_OUTSIDE_IMAGE = -2.0  # a pixel coordinate outside any image
 _FAR_OUTSIDE = 1 << 20  # pixels
-_MAX_COVERED = 16  # color pixels that one depth pixel covers in a row or a column, at least
-_NEARER = 2.0  # times as near to the color camera as to the depth camera: what is nearer may have gaps
+# A depth pixel covers at most _MAX_COVERED color pixels along a row or column; more, if needed for surfaces
+# that are 1 / _NEARER as far from the color camera as from the depth camera.
+_MAX_COVERED = 16
+_NEARER = 2.0
 
 
 class Extrinsics(NamedTuple):
@@ -34,13 +36,13 @@ def color_in_depth(
 ) -> NDArray[np.uint8]:
     """The color (h, w, 3) at the 3D point of each pixel of a depth image (h, w).
 
-    It is black where the point isn't in the color image (H, W, 3). Occlusion isn't handled: a point that the
-    color camera can't see gets the color of the surface that hides it.
+    The color is black where the point isn't in the color image (H, W, 3). Occlusion isn't handled: a point
+    that the color camera can't see gets the color of the surface that hides it.
 
     depth: meters, NaN or 0 where nothing was measured; such a pixel is assumed to be infinitely far away.
     extrinsics: by default the cameras are assumed to share one center and orientation, so that they differ
-        in their intrinsics alone. A real baseline of b meters then shifts the color by fx b / z pixels.
-    ValueError if an image has another size than its camera.
+        in their intrinsics alone. An actual baseline of b meters then shifts the color by fx b / z pixels.
+    ValueError if an image's size isn't its camera's.
     """
     points = np.asarray(depth, np.float64)
     _check("depth", points.shape, depth_camera)
@@ -61,8 +63,8 @@ def color_in_depth(
 class Registration:
     """Maps depth images to a color camera's pixels.
 
-    Both cameras are assumed to share one center and orientation. A real baseline of b meters shifts the depth
-    by fx b / z pixels.
+    Both cameras are assumed to share one center and orientation. An actual baseline of b meters shifts the
+    depth by fx b / z pixels.
     depth, color: the intrinsics of the two cameras.
     """
 
@@ -72,10 +74,10 @@ class Registration:
     def __call__(self, meters: NDArray[Any]) -> NDArray[np.float32]:
         """The depth (H, W) of each pixel of the color image, from a depth image (h, w); both in meters.
 
-        It is the depth of the nearest depth pixel, as a mean over an edge would be the depth of no surface;
-        NaN outside the depth image. As the cameras share one center and orientation, z stays the same,
-        columns map to columns, and rows to rows. ValueError if the depth image has another size than its
-        camera.
+        Each color pixel gets the depth of the nearest depth pixel, as a mean across an edge would be the
+        depth of no surface; NaN outside the depth image. As the cameras share one center and orientation, z
+        stays the same, columns map to columns, and rows to rows. ValueError if the depth image's size isn't
+        its camera's.
         """
         image = np.asarray(meters, np.float32)
         _check("depth", image.shape, self.depth)
@@ -111,9 +113,9 @@ class Reprojection:
         """The depth (H, W) of each pixel of the color image, from a depth image (h, w); both in meters.
 
         A depth pixel covers the area between the projections of its four corners, so that a finer or rotated
-        color image has no gaps. Where several fall on one color pixel, the nearest surface hides the others;
-        where none does, it is NaN: beside edges, and outside the depth image. ValueError if the depth image
-        has another size than its camera.
+        color image has no gaps. If several cover one color pixel, it gets the nearest surface; if none does,
+        beside edges and outside the depth image, NaN. ValueError if the depth image's size isn't its
+        camera's.
         """
         image = np.asarray(meters, np.float32)
         _check("depth", image.shape, self.depth)
@@ -134,7 +136,7 @@ class Reprojection:
         return self._rays(0.0, 0.0)
 
     def _rays(self, right: float, down: float) -> NDArray[np.float32]:
-        """(h, w, 3): the point of each pixel at a depth of 1 m, turned into the color camera's frame.
+        """(h, w, 3): the point of each pixel at a depth of 1 m, rotated into the color camera's frame.
 
         right, down: pixels from the pixel's center.
         """
@@ -144,7 +146,7 @@ class Reprojection:
         return rays
 
     def _project(self, rays: NDArray[np.float32], z: NDArray[np.float32]) -> list[NDArray[np.float32]]:
-        """Columns and rows (h, w) in the color image; NaN where there is no depth, or behind the camera."""
+        """Columns and rows (h, w) in the color image; NaN without depth, or behind the camera."""
         x, y, forward = (
             z * rays[..., axis] + np.float32(self.extrinsics.translation[axis]) for axis in range(3)
         )
@@ -178,7 +180,7 @@ class Reprojection:
 
 
 def _covered(corners: list[NDArray[np.float32]]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """The first pixel whose center lies between the corners, and how many do; 0 where one is NaN."""
+    """The first pixel whose center is between the corners, and how many are; 0 where a corner is NaN."""
     low, high = reduce(np.minimum, corners), reduce(np.maximum, corners)
     known = np.isfinite(low) & np.isfinite(high)
     first = np.ceil(np.where(known, low, 0)).clip(-_FAR_OUTSIDE, _FAR_OUTSIDE).astype(np.intp)
@@ -187,7 +189,7 @@ def _covered(corners: list[NDArray[np.float32]]) -> tuple[NDArray[np.intp], NDAr
 
 
 def _nearest(coordinates: NDArray[np.floating[Any]], length: int) -> NDArray[np.intp]:
-    """The index of the nearest pixel of a row of ``length``, counted from 1; 0 or length + 1 outside."""
+    """The index, from 1, of the nearest pixel in a row of ``length``; 0 or length + 1 outside the row."""
     nearest: NDArray[np.intp] = np.clip(np.rint(coordinates) + 1, 0, length + 1).astype(np.intp)
     return nearest
 

@@ -22,11 +22,11 @@ class Intrinsics:
 
     fx, fy: focal lengths. cx, cy: the principal point. width, height: the image's size. All in pixels.
 
-    Coordinates (u, v) are OpenCV's: (0, 0) is the *center* of the first pixel. In a :class:`Box` (0, 0) is
+    Coordinates (u, v) are OpenCV's: (0, 0) is the *center* of the first pixel. In a :class:`Box`, (0, 0) is
     that pixel's corner, so a point (x, y) of a box has u = x - 0.5 and v = y - 0.5.
 
-    pose: the camera's pose in the world, a :class:`tricue.Pose` or its (4, 4) matrix; then tracks also have
-    positions in the world. None if it isn't known.
+    pose: the camera's pose in the world, a :class:`tricue.Pose` or its (4, 4) matrix; None if it isn't known.
+    With a pose, tracks also have positions in the world.
     """
 
     fx: float
@@ -37,7 +37,7 @@ class Intrinsics:
     height: int
     pose: Pose | None = None
 
-    if TYPE_CHECKING:  # the field holds a Pose, and a matrix can be given
+    if TYPE_CHECKING:  # the field is a Pose, but a matrix can be passed, too
 
         def __init__(
             self,
@@ -60,7 +60,7 @@ class Intrinsics:
     def from_fov(
         cls, width: int, height: int, horizontal_deg: float, vertical_deg: float | None = None
     ) -> "Intrinsics":
-        """From the angles of view, in degrees, of the whole image; the principal point is at its center.
+        """From the whole image's fields of view, in degrees; the principal point is at the image's center.
 
         Pixels are square unless the vertical angle is given. The SR-3000 time-of-flight camera is
         ``from_fov(176, 144, 47.5, 39.5)``.
@@ -69,16 +69,16 @@ class Intrinsics:
         fy = fx if vertical_deg is None else _focal_length(height, vertical_deg, "height", "vertical_deg")
         return cls(fx, fy, (width - 1) / 2, (height - 1) / 2, width, height)
 
-    # The readers are imported in the methods, as they import cv2, which takes long to load.
+    # The methods import the readers, because these import cv2, which takes long to load.
 
     @classmethod
     def from_opencv(cls, path: PathLike, *, key: str | None = None, size: Size | None = None) -> "Intrinsics":
         """From the camera matrix in a file of ``cv2.FileStorage`` or in a camera_info file of ROS.
 
         key: the matrix's name in the file; by default the first known name. Warns (UserWarning) if the file
-        has distortion, as it isn't corrected. Rectified images have none; their matrix is the projection
+        has distortion, which isn't corrected. Rectified images have none; their matrix is the projection
         matrix, ``key="P1"`` or, in a camera_info, ``key="projection_matrix"``. ValueError for a ``size``
-        other than the file's.
+        that differs from the file's.
         """
         from tricue.camera.calibration_formats import read_opencv_camera
 
@@ -139,9 +139,9 @@ class Intrinsics:
 class StereoRig:
     """Two rectified cameras side by side with the same intrinsics, and their baseline.
 
-    baseline: meters between the optical centers. Disparity is positive: x_right = x_left - d. The pose is
-    that of the left camera, in ``intrinsics``.
-    Warns (UserWarning) where the baseline is above 2 m, which looks like another unit.
+    baseline: meters between the optical centers. Disparities are positive: x_right = x_left - d. The pose in
+    ``intrinsics`` is the left camera's. Warns (UserWarning) if the baseline is above 2 m, which looks like
+    another unit.
     """
 
     intrinsics: Intrinsics
@@ -158,7 +158,7 @@ class StereoRig:
     def from_opencv(cls, path: PathLike, *, unit: float = 1.0, size: Size | None = None) -> "StereoRig":
         """From P1 and P2 of ``cv2.stereoRectify`` in a file of ``cv2.FileStorage``.
 
-        unit: meters per unit of the calibration board.
+        Or from ROS's camera_info of the right camera. unit: meters per unit of the calibration board.
         """
         from tricue.camera.calibration_formats import read_opencv_rig
 

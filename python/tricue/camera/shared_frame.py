@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A frame that several trackers use: what they share is computed once, and each warning is given once."""
+"""A frame that several trackers use: common results are computed once, and each warning is given once."""
 
 import warnings
 from collections.abc import Callable, Hashable
@@ -22,7 +22,7 @@ class SharedFrame(Frame):
     messages: list[str]
 
     def __init__(self, **channels: Any) -> None:
-        """channels: the attributes of a checked :class:`Frame`, which aren't checked again."""
+        """channels: the attributes of a :class:`Frame`, which was checked; they aren't checked again."""
         for name in _ATTRIBUTES:
             object.__setattr__(self, name, channels.get(name))
         object.__setattr__(self, "_computed", {})
@@ -30,15 +30,15 @@ class SharedFrame(Frame):
 
     @classmethod
     def of(cls, frame: Frame) -> "SharedFrame":
-        """A frame's channels, without a copy."""
+        """A shared frame with a frame's channels, which aren't copied."""
         return cls(**{name: getattr(frame, name) for name in _ATTRIBUTES})
 
 
 def once(frame: Frame, function: Callable[..., T], *arguments: Any) -> T:
     """``function(frame, *arguments)``; for a shared frame it is computed once for each set of arguments.
 
-    Arguments must be hashable. The result must not hold the frame itself, or its images would be kept too
-    long.
+    Arguments must be hashable. The result must not refer to the frame itself: the cycle would keep its images
+    in memory for too long.
     """
     if not isinstance(frame, SharedFrame):
         return function(frame, *arguments)
@@ -50,14 +50,14 @@ def once(frame: Frame, function: Callable[..., T], *arguments: Any) -> T:
 
 
 def messages_of(frame: Frame) -> list[str] | None:
-    """Where warnings about the frame are collected; None where they are shown at once."""
+    """The list that collects warnings about the frame; None if they are shown at once."""
     return frame.messages if isinstance(frame, SharedFrame) else None
 
 
 def warn_of_frame(messages: list[str] | None, message: str, stacklevel: int) -> None:
     """Collect a warning (UserWarning) about a frame, or show it.
 
-    messages: as :func:`messages_of`. stacklevel: as in warnings.warn, counted from the caller.
+    messages: as from :func:`messages_of`. stacklevel: as in warnings.warn, counted from the caller.
     """
     if messages is None:
         warnings.warn(message, UserWarning, stacklevel=stacklevel + 1)

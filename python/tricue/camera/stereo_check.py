@@ -2,7 +2,7 @@
 """Detects stereo pairs that are swapped or not rectified.
 
 Corners of the left image are tracked into the right one and back by pyramidal Lucas-Kanade optical flow
-(Bouguet, 2000). In a rectified pair they stay in their rows, and none moves to the right.
+(Bouguet 2000). In a rectified pair, they stay in their rows, and none moves to the right.
 """
 
 from typing import NamedTuple
@@ -16,28 +16,28 @@ from tricue.camera.shared_frame import messages_of, warn_of_frame
 
 Array = NDArray[np.float64]
 
-MAX_ROW_ERROR = 1.5  # pixels between the rows of one point, root mean square over the image
+MAX_ROW_ERROR = 1.5  # pixels between a point's rows in both images, root mean square over the image
 MIN_PAIR_DISPARITY = -0.5  # pixels; a smaller one counts as negative
-MIN_MATCHES = 20  # with fewer, the check says nothing
+MIN_MATCHES = 20  # with fewer, the check finds nothing
 MAX_NEGATIVE_SHARE = 0.5  # of the matches; with more, left and right count as swapped
 MAX_CORNERS, FLOW_WINDOW, FLOW_PYRAMID_LEVEL = 200, (11, 11), 4
-MAX_ROUND_TRIP_ERROR = 0.5  # pixels between a corner and where tracking it there and back ends
+MAX_ROUND_TRIP_ERROR = 0.5  # pixels between a corner and its place after tracking it there and back
 PLANE_FIT_ITERATIONS = 4
 
 
 class StereoCheck(NamedTuple):
-    """The statistics of the matches of a stereo pair; NaN with fewer than MIN_MATCHES matches."""
+    """Statistics of a stereo pair's matches; NaN with fewer than MIN_MATCHES of them."""
 
     matches: int
     row_error: float
-    """Pixels between a point's rows in the two images, root mean square over the image. It is that of a plane
-    fitted to the matches, which a shift, a rotation and a scale change."""
+    """Pixels between a point's rows in the two images, root mean square over the image. It is computed from a
+    plane fitted to the matches, which models a shift, a rotation and a scale."""
     negative_share: float
     """Share of the matches with a negative disparity, which no point in front of the cameras has."""
 
     @property
     def problem(self) -> str:
-        """A sentence that says what is wrong with the stereo pair, "" if nothing was noticed."""
+        """A sentence that says what is wrong with the stereo pair; "" if nothing was found."""
         if self.matches < MIN_MATCHES:
             return ""
         if self.negative_share > MAX_NEGATIVE_SHARE:
@@ -57,7 +57,7 @@ class StereoCheck(NamedTuple):
 def check_stereo(left: NDArray[np.uint8], right: NDArray[np.uint8]) -> StereoCheck:
     """Match corners of two images of the same size, uint8, BGR (H, W, 3) or gray (H, W).
 
-    It is deterministic and takes a few milliseconds.
+    The check is deterministic and takes a few milliseconds.
     """
     corners, found = _track_corners(_gray(left), _gray(right))
     if len(corners) < MIN_MATCHES:
@@ -73,8 +73,8 @@ def check_stereo(left: NDArray[np.uint8], right: NDArray[np.uint8]) -> StereoChe
 def warn_of_stereo(frame: Frame) -> StereoCheck:
     """Check a frame's stereo pair, warn (UserWarning) of a problem, and return the check.
 
-    The warning names the line that calls the caller.
-    ValueError for a frame without a stereo pair.
+    The warning is attributed to the line that called the caller. ValueError for a frame without a stereo
+    pair.
     """
     frame.require("color", "right")
     assert frame.color is not None
@@ -90,12 +90,12 @@ def _gray(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 
 def _track_corners(left: NDArray[np.uint8], right: NDArray[np.uint8]) -> tuple[Array, Array]:
-    """Corners (n, 2) of the left image that track there and back, and their places in the right one."""
+    """Corners (n, 2) of the left image that track there and back, and their places in the right image."""
     min_distance = max(5, left.shape[1] // 60)
     corners = cv2.goodFeaturesToTrack(left, MAX_CORNERS, 0.01, min_distance)
     if corners is None:
         return np.zeros((0, 2)), np.zeros((0, 2))
-    guess = np.empty_like(corners)  # not used; cv2's signature asks for it
+    guess = np.empty_like(corners)  # unused, but required by cv2's signature
     there, seen, _ = cv2.calcOpticalFlowPyrLK(
         left, right, corners, guess, winSize=FLOW_WINDOW, maxLevel=FLOW_PYRAMID_LEVEL
     )
@@ -110,7 +110,7 @@ def _track_corners(left: NDArray[np.uint8], right: NDArray[np.uint8]) -> tuple[A
 def _mean_row_error(points: Array, errors: Array, shape: tuple[int, ...]) -> float:
     """The root mean square over the image of a plane fitted to the row errors (n,) at points (n, 2).
 
-    Outliers are trimmed: each iteration fits the plane to the points within three medians of the last one.
+    Outliers are trimmed: each iteration fits the points whose residuals are at most three times the median.
     """
     size = np.array([shape[1], shape[0]])
     design = np.column_stack([np.ones(len(points)), points / size - 0.5])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""TOML files: flat tables, read by the standard library, written here."""
+"""TOML files: read by the standard library (tomli on Python 3.10); flat tables are written here."""
 
 import importlib
 import json
@@ -13,7 +13,7 @@ Value = bool | int | float | str | tuple[Any, ...]
 
 
 def read(path: str | os.PathLike[str]) -> dict[str, Any]:
-    """The file's keys and tables. ValueError names a file that isn't TOML, OSError one that can't be read."""
+    """The file's keys and tables. ValueError if the file isn't TOML, OSError if it can't be read."""
     try:
         parser = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
     except ImportError:
@@ -27,7 +27,7 @@ def read(path: str | os.PathLike[str]) -> dict[str, Any]:
 
 
 def dumps(table: Mapping[str, Value], comments: Mapping[str, str] | None = None) -> str:
-    """TOML text with one line per key, and its comment behind it where there is one."""
+    """TOML text with one line per key, followed by the key's comment, if any."""
     comments = comments or {}
     notes = {key: f"  # {' '.join(text.split())}" for key, text in comments.items() if text.strip()}
     return "".join(f"{key} = {_literal(value)}{notes.get(key, '')}\n" for key, value in table.items())
@@ -38,6 +38,6 @@ def _literal(value: Value) -> str:
         return "true" if value else "false"
     if isinstance(value, (int, float)):
         return repr(value)
-    if isinstance(value, str):  # JSON escapes what TOML wants escaped, but for DEL
+    if isinstance(value, str):  # JSON escapes all that TOML requires to be escaped, except DEL
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     return f"[{', '.join(map(_literal, value))}]"
