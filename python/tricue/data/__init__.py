@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Input: videos, image folders, cameras, data set layouts, true boxes."""
+"""Input: videos, image folders, recordings, cameras, layouts of data sets, true boxes."""

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """True boxes in a CSV table: boxes.csv in a folder, or clip.csv beside the video clip.mp4.
 
-A header names the columns, as ``tricue track --csv`` writes it. Without one they are x, y, width, height, or
-the frame number followed by these.
+A header names the columns, as in the tables of ``tricue track --csv``. Without a header they are x, y, width,
+height, or the frame number followed by these.
 """
 
 import csv
@@ -25,7 +25,7 @@ _HEADERLESS_COLUMNS = {4: _BOX_COLUMNS, 5: ("frame", *_BOX_COLUMNS)}
 
 
 class _Row(NamedTuple):
-    """One line of a table: its values by column name, and the file and line that errors name."""
+    """One line of a table: its values by column name, and its file and line for errors."""
 
     cells: Mapping[str, str]
     place: str
@@ -42,7 +42,7 @@ class _Row(NamedTuple):
         return value
 
     def box(self) -> list[float]:
-        """x, y, width, height. ValueError if only some are there: the row is cut off."""
+        """x, y, width, height. ValueError if only some of them are there, as in a truncated row."""
         empty = [name for name in _BOX_COLUMNS if not self.cells[name]]
         if 0 < len(empty) < len(_BOX_COLUMNS):
             raise ValueError(f"{self.place}: expected all of x, y, width, height or none, got no {empty[0]}")
@@ -52,10 +52,10 @@ class _Row(NamedTuple):
 
 
 def read_box_table(path: Path) -> Truth:
-    """The boxes in a table, pixels from 0, and the target's positions if it has columns x_m, y_m or z_m.
+    """The boxes in a table, pixels from 0, and the target's positions if there are columns x_m, y_m or z_m.
 
     Each row is one frame, in order, unless a column ``frame`` gives its number from 0; frames without a row
-    are unknown. Empty cells, NaN, and a width or height of 0 mean that the target is absent. Other columns
+    are unknown. Empty cells, NaN, or a width or height of 0 mean that the target is absent. Other columns
     are ignored. ValueError names the file and the line.
     """
     rows = _rows(path)
@@ -68,15 +68,15 @@ def read_box_table(path: Path) -> Truth:
 
 
 def find_box_table(folder: Path, video: Path | None = None) -> Path | None:
-    """boxes.csv in the folder, or the table beside its one video; None without either."""
+    """boxes.csv in the folder, or the table beside its only video; None without either."""
     path = folder / BOX_TABLE
     return path if path.is_file() else None if video is None else find_video_box_table(video)
 
 
 def find_video_box_table(video: Path) -> Path | None:
-    """The table beside a video that has its name.
+    """The table with a video's name beside it.
 
-    None if there is none, if its header has no boxes, and if a tracker wrote it: those boxes aren't true.
+    None if there is none, if its header lacks x or y, or if a tracker wrote it, whose boxes aren't true ones.
     """
     path = video.with_suffix(".csv")
     if not path.is_file():
@@ -108,7 +108,7 @@ def _rows(path: Path) -> list[_Row]:
 
 
 def _cells(line: str) -> list[str]:
-    """The values of a line, separated by commas, or else by semicolons or tabs."""
+    """The values of a line, separated by commas, or, if there are none, by semicolons or tabs."""
     delimiter = next((mark for mark in ",;\t" if mark in line), ",")
     try:
         return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter), [])]

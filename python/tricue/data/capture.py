@@ -15,7 +15,7 @@ from tricue.data.files import is_video
 from tricue.data.streams import plausible_fps
 
 _URL = re.compile(r"(rtsps?|rtmp|https?|udp|tcp|srt)://", re.IGNORECASE)
-_TIMEOUT = 5000  # milliseconds, in which a URL has to open, and to give an image
+_TIMEOUT = 5000  # milliseconds, for opening a URL, and for each image
 
 
 class Capture:
@@ -58,12 +58,15 @@ class Capture:
 
 
 def is_url(place: str) -> bool:
-    """Whether it is the address of a stream or a file on a network."""
+    """Whether a place is the URL of a stream or of a file."""
     return _URL.match(place) is not None
 
 
 def is_capture(place: str) -> bool:
-    """Whether it is a live camera: a number that isn't a folder's name, /dev/video0, or a URL of no file."""
+    """Whether a place is a live camera.
+
+    That is a number that isn't a folder's name, a file such as /dev/video0, or a URL that isn't a file's.
+    """
     if place.isdecimal():
         return not Path(place).is_dir()
     if place.startswith("/dev/video"):
@@ -77,5 +80,5 @@ def is_file_url(place: str) -> bool:
 
 
 def without_password(url: str) -> str:
-    """The URL without its user and password, which end at the last @ before the path."""
+    """The URL without user and password, which end at the last @ before the path."""
     return re.sub(r"^(\w+://)[^/?#]*@", r"\1", url)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Samples of a color: images, and where the color is in each, by masks or by boxes."""
+"""Samples of a color: images in which masks or boxes mark the color."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,7 +14,7 @@ from tricue.data.skin_masks import find_masked_images, is_mask_folder
 
 
 class ColorSample(NamedTuple):
-    """An image, BGR (H, W, 3), and (H, W) True where it shows the color."""
+    """An image, BGR (H, W, 3), and its mask (H, W), True where it shows the color."""
 
     image: NDArray[np.uint8]
     mask: NDArray[np.bool_]
@@ -23,8 +23,8 @@ class ColorSample(NamedTuple):
 def read_color_samples(place: Path) -> Iterator[ColorSample]:
     """The samples in a folder with ``image/`` and ``mask/``, or in any recording with true boxes.
 
-    With boxes all pixels inside count, and frames without a box are left out. ValueError or OSError names
-    the file, or the place that has neither masks nor boxes, or nothing marked.
+    A box marks all pixels inside it; frames without a box are left out. ValueError or OSError names the file,
+    or the place if it has neither masks nor boxes, or if these mark no pixel.
     """
     marked = False
     for sample in _read_masks(place) if is_mask_folder(place) else _read_boxes(place):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Finds the sequences with true boxes under a folder, by file names alone."""
+"""Finds sequences with true boxes in a folder, by file names alone."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,8 +13,8 @@ from tricue.data.truth import OTB_TRUTH, PRINCETON_FIRST_BOX, VOT_TRUTH, otb_tar
 def find_sequences(root: str | Path) -> list[Path]:
     """The sequences at or under ``root``, in natural order.
 
-    They are the folders with true boxes or KITTI's labels, and the video files with a table of boxes beside
-    them. Folders below a sequence aren't searched, and the others once, however many links lead to them. No
+    These are folders with true boxes or KITTI's labels, and video files with a table of boxes beside them.
+    Folders inside a sequence aren't searched; others are searched once, however many links lead to them. No
     image is read, so malformed sequences are included; opening one says what is wrong with it.
     """
     root = Path(root)
@@ -38,7 +38,7 @@ def _below(folder: Path, seen: set[Path]) -> Iterator[Path]:
 
 
 def _is_sequence_video(path: Path) -> bool:
-    """Whether a table is beside a video; for a possible preview, only if no other video has its name."""
+    """Whether a table is beside a video; for a file that may be a preview, only if no video has its name."""
     if not may_be_video(path) or not path.is_file() or find_video_box_table(path) is None:
         return False
     return is_video(path) or not any(
@@ -47,16 +47,16 @@ def _is_sequence_video(path: Path) -> bool:
 
 
 def _is_sequence(folder: Path) -> bool:
-    """Whether a file of true boxes or of KITTI's labels is where its layout has it."""
+    """Whether the folder has true boxes or KITTI's labels, in the place that their layout prescribes."""
     if (folder / BOX_TABLE).is_file() or (folder / OTB_TRUTH).is_file() or otb_targets(folder):
         return True
     if (folder / VOT_TRUTH).is_file() and not tum.is_tum(
         folder
-    ):  # whose groundtruth.txt is the camera's trajectory
+    ):  # TUM's groundtruth.txt is the camera's trajectory
         return True
     if any((folder / name).is_file() for name in (PRINCETON_FIRST_BOX, f"{folder.resolve().name}.txt")):
         return all(princeton.find_timestamped_images(folder / channel) for channel in ("rgb", "depth"))
     try:
         return kitti.find_labels(folder) is not None
-    except ValueError:  # several sequences, each of which is found by itself
+    except ValueError:  # several sequences, each of which is found separately
         return False

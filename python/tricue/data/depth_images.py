@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Depth images: 16 bits per pixel in one channel, 0 where nothing was measured, in a unit of the format."""
+"""Depth images: one channel of 16 bits, 0 where nothing was measured; the unit depends on the format."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,8 +19,8 @@ class DepthReader:
     """Reads a 16-bit image as meters, (H, W) float32; 0 stays 0.
 
     scale: meters per unit. rotated: whether the bits are rotated left by three, as in the Princeton Tracking
-    Benchmark: the true value is ``value >> 3 | value << 13``.
-    ValueError names a file that can't be read or isn't 16 bits of one channel.
+    Benchmark: the depth is then ``value >> 3 | value << 13``. ValueError names a file that can't be read or
+    isn't one channel of 16 bits.
     """
 
     scale: float
@@ -43,7 +43,7 @@ class DepthReader:
 
 
 def is_depth(path: Path) -> bool:
-    """Whether an image has 16 bits per pixel in one channel; False if it can't be read."""
+    """Whether an image is one channel of 16 bits; False if it can't be read."""
     try:
         image = read_image(path, cv2.IMREAD_UNCHANGED)
     except (OSError, ValueError):
@@ -52,7 +52,7 @@ def is_depth(path: Path) -> bool:
 
 
 def require_scale(place: Path, scale: float | None) -> float:
-    """The scale, meters per unit; ValueError if it isn't given, as it is never guessed."""
+    """The scale, meters per unit; ValueError if it isn't given, because it is never guessed."""
     if scale is None:
         raise ValueError(
             f"{place}: expected --depth-scale, the meters per unit of these 16-bit images; "

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Which files are images and videos, by their names, and their natural order."""
+"""Recognizes image and video files, mostly by their names, and sorts them in natural order."""
 
 import re
 from collections.abc import Iterable
@@ -38,16 +38,16 @@ _OTHER_VIDEO_SUFFIXES = {
     ".vob",
     ".y4m",
 }
-"""Suffixes of videos, but also of previews beside one, of other files, and of streams that cameras send."""
+"""Suffixes of videos, but also of previews beside a video, of other files, and of cameras' streams."""
 
 _NUMBER = re.compile(r"([0-9]{10,}\.[0-9]+|[0-9]+)")
-"""A time since 1970, in seconds or a smaller unit, without trailing zeros as in Python, or a whole number."""
+"""A time since 1970 with decimals, in seconds or a smaller unit, or a whole number."""
 
-_HEAD = 1 << 16  # bytes of a PNG file that are searched for the chunks before its pixels
+_HEAD = 1 << 16  # bytes of a file that are read to recognize animations
 
 
 def listed_path(folder: Path, name: str, list_file: Path) -> Path:
-    """The file of that name in a list; ValueError for one outside the folder."""
+    """The path of a file that a list names; ValueError for one outside the folder."""
     if Path(name).is_absolute() or ".." in Path(name).parts:
         raise ValueError(f"{list_file}: expected files below its folder, got {name!r:.80}")
     return folder / name
@@ -90,17 +90,17 @@ def has_several_pictures(path: Path) -> bool:
 
 
 def is_video(path: Path) -> bool:
-    """Whether the file's suffix is that of a video, and of nothing else."""
+    """Whether the file has a suffix that only videos have."""
     return path.suffix.lower() in _VIDEO_SUFFIXES
 
 
 def may_be_video(path: Path) -> bool:
-    """Whether the file's suffix may be that of a video, among others."""
+    """Whether the file has a suffix that videos and other files have."""
     return is_video(path) or path.suffix.lower() in _OTHER_VIDEO_SUFFIXES
 
 
 def video_paths(folder: Path) -> list[Path]:
-    """The video files in a folder, in natural order; if there are none, those that may be videos by suffix.
+    """The video files in a folder, in natural order; if there are none, those that may be videos.
 
     Hidden files are left out.
     """
@@ -110,8 +110,12 @@ def video_paths(folder: Path) -> list[Path]:
 
 
 def _natural(name: str) -> list[tuple[int, str]]:
-    """A number is its whole part and its decimals, compared as digits, so that .5 comes after .123."""
-    parts = enumerate(_NUMBER.split(name))  # every other one is a number
+    """The sort key of a name: its texts and numbers in turn.
+
+    A number's decimals are compared as digits, as Python writes times without trailing zeros: .5 comes after
+    .123.
+    """
+    parts = enumerate(_NUMBER.split(name))  # every other part is a number
     return [_number(part) if index % 2 else (-1, part) for index, part in parts]
 
 

@@ -13,15 +13,13 @@ from tricue.data.truth import truth_files
 
 
 def input_files(source: Source, *places: Path) -> Iterator[Path]:
-    """The source's images, videos and recordings, its calibration, true boxes and lists, at these
-    places.
-    """
+    """The source's images, videos, recordings and calibration, and the true boxes and lists at its places."""
     for stream in source.channels.values():
         yield from stream_files(stream)
     if source.calibration is not None:
         yield source.calibration
     color = source.channels.get("color")
-    video = color.path if isinstance(color, Video) else None  # a folder's, beside which its table may be
+    video = color.path if isinstance(color, Video) else None  # in a folder, a table may be beside it
     for place in places:
         if place.is_dir():
             yield from truth_files(place)
@@ -32,7 +30,7 @@ def input_files(source: Source, *places: Path) -> Iterator[Path]:
 
 
 def stream_files(stream: Stream) -> Sequence[Path]:
-    """The files of a stream; a camera has none."""
+    """The files of a stream; none for a camera."""
     if isinstance(stream, Images):
         return stream.paths
     if isinstance(stream, JointStream):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Joint streams: channels that are read together, as one recording or device gives all of them."""
+"""Joint streams: channels that are read together, because one recording or device gives all of them."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from tricue.data.streams import Stream
 
 Moment = dict[str, tuple[float, NDArray[Any]]]
-"""By channel: a time in seconds, and the image of that time."""
+"""By channel: the time in seconds, and the image taken at that time."""
 
 
 class Joint(Protocol):
@@ -22,19 +22,20 @@ class Joint(Protocol):
 
     @property
     def paths(self) -> Sequence[Path]:
-        """The files that are read; none of a camera."""
+        """The files that are read; none for a camera."""
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """Problems noticed while reading, one sentence each, such as images that were left out."""
+        """Problems found while reading, such as images that were left out; one sentence each."""
 
     def size(self, channel: str) -> tuple[int, int]:
         """Width and height of the channel's first image, pixels."""
 
     def moments(self, channels: Sequence[str], indices: Sequence[int] | None = None) -> Iterator[Moment]:
-        """The images of these channels, moment by moment; with indices, from 0, only those moments.
+        """The images of these channels, moment by moment.
 
-        ValueError for an index beyond the last moment.
+        indices: numbers, from 0, of the moments to read; by default all. ValueError for an index beyond the
+        last moment.
         """
 
     def count(self) -> int:
@@ -70,7 +71,7 @@ class JointStream:
 
 
 def common_joint(streams: Iterable[Stream]) -> Joint | None:
-    """The joint of which all streams are channels; None if they have none in common."""
+    """The joint that all streams are channels of; None if they have none in common."""
     joints = [stream.joint if isinstance(stream, JointStream) else None for stream in streams]
     return joints[0] if joints and all(joint is joints[0] for joint in joints) else None
 

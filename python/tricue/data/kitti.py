@@ -23,18 +23,18 @@ RIGHT_FOLDERS = {
     "image_00": "image_01",
     "image_0": "image_1",
 }
-"""By the left one's name; if a folder has several, the first is read."""
+"""The right images' folder by the left images'; if a folder has several of these, the first is read."""
 LABEL_WORDS = 17  # in a line of a tracking label
 IGNORED_TYPE = "DontCare"
-MAX_LABEL_VALUE = 1e9  # pixels, meters; a larger value can be neither
+MAX_LABEL_VALUE = 1e9  # pixels or meters, above which a value is invalid
 
 
 class LabeledTarget(NamedTuple):
     """A target of a tracking sequence, with a row for each of the M frames in which it is labeled.
 
     frames: (M,) numbers from 0, increasing. boxes: (M, 4) x, y, width, height, pixels of the left image.
-    front_depths: (M,) meters, the smallest depth of its cuboid in the left camera's frame. positions: (M, 3)
-    the cuboid's center X, Y, Z, meters in the frame of camera 0.
+    front_depths: (M,) the smallest depth of its cuboid, meters. positions: (M, 3) the cuboid's center X, Y,
+    Z, meters. Depths and positions are in the frame of camera 0.
     """
 
     name: str
@@ -148,9 +148,9 @@ def read_channels(
 ) -> tuple[dict[str, Stream], Truth | None]:
     """The stereo pair, or the left images alone, and the truth of one target.
 
-    target: the name of a labeled target. The images are then those from its first to its last frame, by the
-    numbers in the file names. Its positions are in the left camera's frame if the calibration is beside the
-    images, else in camera 0's. Without a target there is no truth.
+    target: the name of a labeled target; without it there is no truth. With a target, the images are those
+    from its first to its last frame, by the numbers in the file names. Its positions are in the left camera's
+    frame if there is a calibration, else in camera 0's.
     """
     folders = {"color": sequence.left, "right": sequence.right}
     paths = {name: image_paths(folder) for name, folder in folders.items() if folder is not None}
@@ -166,7 +166,7 @@ def read_channels(
 
 
 def _numbered(paths: list[Path], frames: range) -> list[Path]:
-    """The images with these numbers; ValueError names the folder that lacks one."""
+    """The images with these numbers; ValueError names the folder in which one is missing."""
     by_number = {int(path.stem): path for path in paths if path.stem.isdecimal()}
     for frame in (frames[0], frames[-1], *frames):
         if frame not in by_number:

@@ -38,9 +38,9 @@ class Layout(NamedTuple):
 def read_layout(folder: Path, scale: float | None, target: str | None = None) -> Layout:
     """The folder's channels and truth.
 
-    scale: meters per unit of depth, if the format doesn't define it or the files don't follow it. target:
-    one that :func:`list_targets` lists; a KITTI sequence is limited to the frames in which it is labeled.
-    ValueError names the folder or the file in it, and what was expected.
+    scale: meters per unit of depth, if the format doesn't define it or the files deviate from the format.
+    target: one of those that :func:`list_targets` lists; a KITTI sequence is limited to the frames in which
+    it is labeled. ValueError names the folder or the file in it, and what was expected.
     """
     if target is not None:
         check_target(target, _list_all_targets(folder), folder)
@@ -63,8 +63,8 @@ def note_box_table(table: Path) -> str:
 def list_targets(folder: str | Path) -> tuple[str, ...]:
     """The names of a folder's targets, if it has several.
 
-    For KITTI they are the targets labeled in two frames or more, such as "Car 31"; for OTB the numbers of
-    its files of true boxes. ValueError names a malformed label.
+    For KITTI, these are the targets that are labeled in two frames or more, such as "Car 31"; for OTB, the
+    numbers of its files of true boxes. ValueError names a malformed label.
     """
     folder = Path(folder)
     names = _list_all_targets(folder)
@@ -72,7 +72,7 @@ def list_targets(folder: str | Path) -> tuple[str, ...]:
 
 
 def layout_files(folder: Path) -> Iterator[Path]:
-    """The lists and labels by which a folder's layout is read, if it has them."""
+    """The lists and labels in a folder from which its layout is read."""
     names = (vot.SEQUENCE_FILE, *tum.LIST_FILES.values())
     yield from (path for path in map(folder.joinpath, names) if path.is_file())
     with suppress(ValueError):  # several sequences, none of which is read
@@ -83,7 +83,7 @@ def layout_files(folder: Path) -> Iterator[Path]:
 def depth_images(paths: Sequence[Path], scale: float | None) -> Images:
     """A stream of depth images; ValueError if their unit isn't known.
 
-    Princeton's, whose unit is known, are recognized by their file names.
+    Princeton's images, whose unit is known, are recognized by their names.
     """
     if len(images := princeton.timestamped_images(paths)) == len(paths):
         return princeton.depth_images(images, scale)
@@ -117,8 +117,9 @@ def _detect_layout(folder: Path, scale: float | None, target: str | None) -> Lay
 
 
 def _read_plain_layout(folder: Path, scale: float | None, target: str | None) -> Layout:
-    """Images in one of COLOR_FOLDERS or in the folder itself, or one video; depth in depth/, right images in
-    right/ beside left/.
+    """Images in one of COLOR_FOLDERS or in the folder itself, or one video.
+
+    Depth is in depth/. Right images are in right/ if the left ones are in left/.
     """
     truth = find_truth(folder, target)
     images = find_plain_images(folder)
@@ -142,7 +143,7 @@ def _read_plain_layout(folder: Path, scale: float | None, target: str | None) ->
 
 
 def find_plain_images(folder: Path) -> list[Path]:
-    """The images in the first of COLOR_FOLDERS that has some, else in the folder itself."""
+    """The images in the first of COLOR_FOLDERS that has any, else those in the folder itself."""
     places = [folder / sub for sub in COLOR_FOLDERS if (folder / sub).is_dir()]
     return next((paths for place in (*places, folder) if (paths := image_paths(place))), [])
 

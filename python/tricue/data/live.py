@@ -15,7 +15,7 @@ from tricue.camera.rig import Intrinsics
 from tricue.data.joint import JointStream, Moment
 from tricue.data.streams import DEFAULT_FPS
 
-MAX_LAST_READ = 6.0  # seconds, in which a device's methods return
+MAX_LAST_READ = 6.0  # seconds, within which a device's methods return
 
 _lives: "WeakSet[Live]" = WeakSet()
 
@@ -23,14 +23,14 @@ _lives: "WeakSet[Live]" = WeakSet()
 class Device(Protocol):
     """A camera or a stream. Its methods are called in one thread, and return within MAX_LAST_READ.
 
-    name: used in messages. remote: whether it may become available later, and is waited for.
+    name: used in messages. remote: whether to wait for the device if it can't be opened at first.
     """
 
     name: str
     remote: bool
 
     def open(self) -> None:
-        """Open the device; OSError or ImportError, in one line, if that fails."""
+        """Open the device; OSError or ImportError, with a message of one line, if that fails."""
 
     def read(self) -> dict[str, NDArray[Any]] | None:
         """The next images by channel; None if there are no more."""
@@ -40,16 +40,18 @@ class Device(Protocol):
 
     @property
     def fps(self) -> float | None:
-        """Frames per second once it is open, None where unknown."""
+        """Frames per second once the device is open; None if unknown."""
 
     @property
     def camera(self) -> Intrinsics | None:
-        """Its intrinsics once it is open, None where unknown."""
+        """The intrinsics once the device is open; None if unknown."""
 
 
 class Patience(NamedTuple):
-    """Times in seconds: how long to wait for the first image; the first and the longest wait between tries,
-    which doubles after each; and the time without images after which the stream has ended.
+    """How long to wait for a stream, seconds.
+
+    start: for the first image. first_wait, longest_wait: between two attempts to open the device; the wait
+    doubles after each. silence: without images, until the stream counts as ended.
     """
 
     start: float = 10.0
@@ -59,8 +61,10 @@ class Patience(NamedTuple):
 
 
 class Health(NamedTuple):
-    """The state of a stream: images dropped because newer ones came, number of reconnections, total seconds
-    without images, and why there are none now, "" while they come.
+    """The state of a stream.
+
+    dropped: number of images replaced by newer ones before they were used. reopened: number of reconnections.
+    silence: total seconds of interruptions. trouble: why there are no images now; "" while they come.
     """
 
     dropped: int = 0
@@ -77,8 +81,8 @@ class _Newest(NamedTuple):
 class Live:
     """A joint stream of a device's channels; each iteration gets the newest images.
 
-    The device is opened at once, and its first images are waited for. OSError, in one line, if they don't
-    come, if the device can't be opened, or, while reading, if it sends nothing for too long.
+    The constructor opens the device and waits for its first images. OSError, with a message of one line, if
+    the device can't be opened, if no images come, or, while reading, if none come for too long.
     """
 
     def __init__(self, device: Device, patience: Patience | None = None) -> None:
@@ -98,12 +102,12 @@ class Live:
 
     @property
     def channels(self) -> tuple[str, ...]:
-        """The names of the channels that the device gives."""
+        """The names of the device's channels."""
         return tuple(self._sizes)
 
     @property
     def health(self) -> Health:
-        """The stream's state now; any thread may ask."""
+        """The stream's current state; thread-safe."""
         with self._news:
             return Health(self._dropped, self._reopened, self._silence, self._stopped_by)
 
@@ -137,7 +141,7 @@ class Live:
         raise ValueError(f"{self.device.name}: expected a recording, of which the frames can be counted")
 
     def close(self) -> None:
-        """Stop reading; iterating again starts anew."""
+        """Stop reading; iterating again restarts it."""
         with self._news:
             self._running.clear()
             self._news.notify_all()
@@ -145,7 +149,7 @@ class Live:
     def _newest_moments(self, channels: Sequence[str]) -> Iterator[Moment]:
         self._start_thread()
         with self._news:
-            self._dropped = 0  # images that came before this are no loss
+            self._dropped = 0  # images from before the iteration don't count as dropped
         try:
             while (newest := self._wait_for_news()) is not None:
                 yield {name: (newest.seconds, newest.images[name]) for name in channels}
@@ -153,13 +157,13 @@ class Live:
             self.close()
 
     # The condition guards what the thread and its reader share: _newest, _trouble, _failure, and the counts.
-    # _running is an event, which both check at any time; when it is cleared, the condition is notified.
+    # _running is an event, which both may check without the condition; who clears it notifies the condition.
 
     def _start_thread(self) -> None:
         if self._running.is_set():
             return
         if self._thread is not None:
-            self._thread.join()  # until then the device belongs to the thread
+            self._thread.join()  # until it ends, only that thread may use the device
         _lives.add(self)
         with self._news:
             self._newest: _Newest | None = None
@@ -185,7 +189,7 @@ class Live:
         )
 
     def _wait_for_news(self) -> _Newest | None:
-        """The newest images, once; None if it was closed. Warns (UserWarning) of an interruption."""
+        """The newest images, each once; None after ``close``. Warns (UserWarning) of an interruption."""
         since = time.monotonic()
         while True:
             with self._news:
@@ -208,14 +212,14 @@ class Live:
                 raise OSError(f"{self.device.name}: no image for {silence:.0f} s; the stream has ended")
 
     def _run(self) -> None:
-        """The thread's body. An error that ends it, even in closing the device, must reach the reader."""
+        """The thread's body. An error that ends it, even while closing the device, must reach the reader."""
         try:
             self._read()
         except Exception as error:
             self._fail(error)
 
     def _read(self) -> None:
-        """Open, read, and reopen with growing waits, until it isn't running or an error ends it."""
+        """Open, read, and reopen with growing waits, until ``close`` or a fatal error."""
         wait, stopped = self.patience.first_wait, 0.0
         any_read = False
         while self._running.is_set():
@@ -239,7 +243,7 @@ class Live:
         now = time.monotonic()
         with self._news:
             if first:
-                self._trouble = ""  # trouble at the start is over
+                self._trouble = ""  # failed attempts before the first image aren't reported
             elif stopped:
                 self._reopened += 1
                 self._silence += now - stopped
@@ -249,14 +253,14 @@ class Live:
             self._news.notify_all()
 
     def _fail(self, error: Exception) -> None:
-        """Report an error to the reader, unless another one was reported before."""
+        """Report an error to the reader, unless one was reported before."""
         with self._news:
             if self._failure is None:
                 self._failure = error
             self._news.notify_all()
 
     def _pause(self, trouble: str, wait: float) -> float:
-        """Wait before another try; return the next wait. trouble: "" if it was reported already."""
+        """Wait before the next attempt; return the wait after that. trouble: "" if already reported."""
         with self._news:
             if self._running.is_set():
                 self._trouble = trouble or self._trouble
@@ -268,7 +272,7 @@ class Live:
 
 @atexit.register
 def _end_threads() -> None:
-    """Wait for the threads: if one returned from a library while Python exits, it would abort the process."""
+    """Wait for the threads: one that returns from a library while Python exits would abort the process."""
     for live in [*_lives]:
         live.close()
     for live in [*_lives]:

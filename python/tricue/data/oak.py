@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""OAK cameras, live: color, and stereo depth registered to it on the camera itself."""
+"""OAK cameras, live: color, and stereo depth that the camera itself registers to color."""
 
 from datetime import timedelta
 from typing import Any
@@ -17,7 +17,7 @@ _METERS_PER_UNIT = np.float32(0.001)
 
 
 class Oak:
-    """An OAK camera by its id or address, "" for the first one."""
+    """An OAK camera by its id or address; "" for the first one found."""
 
     remote = False
     fps = FPS
@@ -58,9 +58,9 @@ class Oak:
 
 
 def _color_and_depth(dai: Any, pipeline: Any, aligns_apart: bool) -> Any:
-    """The queue of simultaneous color and depth images, of which the camera keeps the newest.
+    """The queue of simultaneous color and depth images, which keeps only the newest.
 
-    aligns_apart: whether the camera registers depth in a node of its own, as OAK 4 does.
+    aligns_apart: whether the camera registers depth in a separate node, as OAK 4 does.
     """
     sockets = dai.CameraBoardSocket
     color, left, right = (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Opens any input for tracking: a video, a folder of images, a benchmark's sequence, a camera."""
+"""Opens any input for tracking: a video, a folder of images, a sequence, a recording, a camera."""
 
 import os
 from collections.abc import Mapping
@@ -21,8 +21,8 @@ from tricue.data.truth import Truth, check_target
 
 __all__ = ["Source", "open_source"]
 
-TEXT_SUFFIXES = {".ans", ".art", ".asc", ".diz", ".ice", ".nfo", ".txt", ".vt"}  # that FFmpeg plays as videos
-BOOT_SECONDS = 30.0  # until the first image of a camera that starts a system of its own
+TEXT_SUFFIXES = {".ans", ".art", ".asc", ".diz", ".ice", ".nfo", ".txt", ".vt"}  # FFmpeg plays them as videos
+BOOT_SECONDS = 30.0  # until the first image of a camera that boots an operating system of its own
 CALIBRATION_FILE = "intrinsics.toml"  # searched in a sequence's folder and in the folder above
 PRINCETON_CALIBRATION_FILE = "frames.mat"  # searched in the sequence's folder
 
@@ -43,21 +43,23 @@ def open_source(
     benchmark's (``rgb/r-0-1.png``), or holds one video, with a file of true boxes. 16-bit images are depth.
     Stereo pairs are KITTI's (``image_02`` and ``image_03``, or gray), or in ``left`` and ``right``.
 
-    A recording is a ROS 1 bag, also RealSense's, a ROS 2 folder, or an MCAP file. A camera is a number, a
-    file such as ``/dev/video0``, a URL (rtsp, http, https, udp, tcp), ``realsense:`` or ``oak:``, with a
-    serial number after it if needed; each frame is then the newest, and :attr:`Source.remarks` counts the
-    dropped ones.
+    A recording is a ROS 1 bag (also a RealSense one), a ROS 2 folder, or an MCAP file. A camera is a number,
+    a file such as ``/dev/video0``, a URL (rtsp, rtmp, srt, http, udp, tcp), or ``realsense:`` or ``oak:``,
+    followed by a serial number if needed. A camera's frame is always the newest; :attr:`Source.remarks` gives
+    the number of dropped ones.
 
     depth: a folder of 16-bit images, or a sequence folder with depth, for the color images of ``place``;
         they are paired by order.
-    depth_scale: meters per unit of depth; required unless the format defines it (VOT, TUM, Princeton,
-        recordings, whose own it overrides).
+    depth_scale: meters per unit of depth. It is required unless the format defines it, as VOT, TUM, Princeton
+        and recordings do, and overrides the format's.
     fps: frames per second of images without times, 30 by default; ValueError for images with times.
-    right: the right camera's video, folder, number or URL; ``place`` is the left one's; paired by order.
+    right: the right camera's video, folder, number or URL; ``place`` is the left camera's. They are paired by
+        order.
     target: one of :func:`tricue.data.layouts.list_targets`, for a folder with several. A KITTI sequence is
         limited to the frames in which it is labeled.
-    topics: of a recording, by channel: "color", "depth", "right"; by default guessed, and named in a note.
-    Raises ValueError or OSError that names the place and what is wrong with it.
+    topics: a recording's topics by channel: "color", "depth", "right". By default they are guessed, and named
+        in a note.
+    Raises ValueError or OSError that names the place and says what is wrong with it.
     """
     place = _checked(place, "place")
     if depth_scale is not None and depth is None:
@@ -75,7 +77,7 @@ def open_source(
 
 def _checked(place: Any, name: str) -> str | Path:
     if isinstance(place, int) and not isinstance(place, bool):
-        return str(place) if is_capture(str(place)) else f"/dev/video{place}"  # whatever a folder is called
+        return str(place) if is_capture(str(place)) else f"/dev/video{place}"  # a folder has that name
     if not isinstance(place, str | os.PathLike):
         raise TypeError(f"{name}: expected a path, a URL or a camera's number, got {place!r:.80}")
     return place if isinstance(place, str) else Path(place)
@@ -128,13 +130,13 @@ def _opened(
 
 
 def _refuse_scale_of_device(place: str | Path) -> None:
-    """ValueError for a live device, whose depth is in meters, if it has any."""
+    """ValueError for a live device: if it has depth, that is in meters."""
     if isinstance(place, str) and (device := live_device(place)):
         raise ValueError(f"--depth-scale: expected with recorded depth, got {device.name}; leave it out")
 
 
 def _refuse_topics(topics: Mapping[str, str] | None, place: str | Path) -> None:
-    """ValueError for topics if the place isn't a recording."""
+    """ValueError if topics are given for a place that isn't a recording."""
     if topics is not None:
         raise ValueError(
             f"--topics: expected with a recording (.bag, .mcap, .db3), got {place}; leave it out"
@@ -142,7 +144,7 @@ def _refuse_topics(topics: Mapping[str, str] | None, place: str | Path) -> None:
 
 
 def _refuse_target(target: str | None, place: str | Path) -> None:
-    """ValueError for a target if the place has only one."""
+    """ValueError if a target is named for a place that has only one."""
     if target is not None:
         check_target(target, (), place)
 
@@ -163,7 +165,7 @@ def _open_live(device: Device) -> Source:
 
 
 def _with_table(source: Source, path: Path) -> Source:
-    """The source with the true boxes of the table beside a file, or in a recording's folder."""
+    """The source with the true boxes of the table beside its file or in its folder."""
     table = find_box_table(path, None) if path.is_dir() else find_video_box_table(path)
     if table is None:
         return source
@@ -178,7 +180,7 @@ def _with_truth(source: Source, truth: Truth | None) -> Source:
 
 
 def _with_right(source: Source, shown: str, right: str | Path) -> Source:
-    """The source as a stereo pair: its color images are the left ones, those of ``right`` the right ones."""
+    """The source as a stereo pair: its color images on the left, those of ``right`` on the right."""
     streams = [opened.channels.get("color") for opened in (source, _opened(right, None))]
     option = f"--right {without_password(str(right))}"
     for stream, at in zip(streams, (shown, option), strict=True):
@@ -197,7 +199,7 @@ def _with_right(source: Source, shown: str, right: str | Path) -> Source:
 
 
 def _with_depth(source: Source, shown: str, depth: Path, scale: float | None) -> Source:
-    """The source with the depth images of another place."""
+    """The source with depth images from another place."""
     color = source.channels.get("color")
     if color is None:
         raise ValueError(f"{shown}: expected color images beside --depth {depth}, found only depth")

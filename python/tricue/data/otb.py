@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""OTB's sequences whose true boxes cover only a range of the images.
+"""The sequences of OTB whose true boxes cover only a part of the images.
 
 Source: Wu, Lim, Yang, "Object Tracking Benchmark", PAMI 2015; its evaluation code names the ranges.
 """
@@ -19,13 +19,14 @@ FRAME_RANGES = {  # file numbers of the first and the last image that has a true
 
 
 def has_otb_truth(folder: Path) -> bool:
-    """Whether the folder has a file of true boxes by OTB."""
+    """Whether the folder has a file of true boxes in OTB's format."""
     return (folder / OTB_TRUTH).is_file() or bool(otb_targets(folder))
 
 
 def find_range(folder: Path, boxes: int) -> tuple[int, int]:
-    """The numbers of the first and the last image to which so many true boxes of the sequence belong; an
-    empty range if the sequence isn't known to have images without boxes.
+    """The numbers of the first and last image with a true box, given the number of boxes.
+
+    An empty range unless the sequence is known to have images without boxes.
     """
     first, last = FRAME_RANGES.get(folder.resolve().name.lower(), (0, -1))
     return (first, last) if boxes == last - first + 1 else (0, -1)
@@ -34,8 +35,8 @@ def find_range(folder: Path, boxes: int) -> tuple[int, int]:
 def cut_to_range(folder: Path, color: Stream, boxes: int) -> Images | None:
     """The images to which the true boxes belong, if a sequence has more images than boxes; else None.
 
-    boxes: the number of true boxes. Images that already begin where the range does need no cut, as boxes and
-    images then correspond by index.
+    boxes: the number of true boxes. If the images already begin with the range, nothing is cut, because boxes
+    and images correspond by index.
     """
     first, last = find_range(folder, boxes)
     if first > last or not (isinstance(color, Images) and boxes < len(color.paths)):

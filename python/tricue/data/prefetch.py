@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Prefetching: a background thread makes items before they are needed, as in decoding while tracking."""
+"""Prefetching: a background thread makes items before they are needed, for example decodes while tracking."""
 
 from collections.abc import Generator, Iterable, Iterator
 from queue import SimpleQueue
@@ -16,22 +16,22 @@ def prefetch(iterable: Iterable[T], ahead: int = MAX_PREFETCHED) -> Generator[T,
     """Iterate over ``iterable``; a background thread makes up to ``ahead`` items in advance.
 
     An exception of the iterable is raised after the items that came before it. The thread starts when the
-    first item is requested. It ends with the iterable, or once the item in progress is made after this
-    iterator is closed or garbage collected; the iterable's own iterator is closed then.
-    ValueError or TypeError if ``ahead`` isn't a whole number above 0.
+    first item is requested. It ends with the iterable, or after the item in progress if this iterator is
+    closed or garbage collected; then it closes the iterable's own iterator. ValueError or TypeError if
+    ``ahead`` isn't a whole number above 0.
     """
     return _consume(_Producer(iterable, positive_whole(ahead, "ahead", "items")))
 
 
 class _Failure:
-    """How the iterable ended: with an exception, or None."""
+    """How the iterable ended: with an exception, or normally (None)."""
 
     def __init__(self, error: BaseException | None) -> None:
         self.error = error
 
 
 class _Producer(Generic[T]):
-    """The background thread's side; ``room`` counts how many more items may be made."""
+    """The background thread's side; ``room`` counts the items that may still be made."""
 
     def __init__(self, iterable: Iterable[T], ahead: int) -> None:
         self.iterable = iterable
@@ -58,7 +58,7 @@ class _Producer(Generic[T]):
                 close()
 
     def _stops(self) -> bool:
-        """Wait for room, then tell whether to end."""
+        """Wait for room; return whether to stop."""
         self.room.acquire()
         return self.stopped.is_set()
 
@@ -68,7 +68,7 @@ class _Producer(Generic[T]):
 
 
 def _consume(producer: _Producer[T]) -> Generator[T, None, None]:
-    # A daemon, for a process that ends with an iterator left open must not wait for it.
+    # A daemon thread, so that a process doesn't wait for an iterator that was left open.
     thread = Thread(target=producer.run, name="prefetched", daemon=True)
     thread.start()
     try:
@@ -79,5 +79,5 @@ def _consume(producer: _Producer[T]) -> Generator[T, None, None]:
             raise item.error
     finally:
         producer.stop()
-        if thread is not current_thread():  # which may be the one that collects an iterator left open
+        if thread is not current_thread():  # the thread itself may garbage-collect an iterator left open
             thread.join()

@@ -19,7 +19,7 @@ _FILE_NAME = re.compile(r"[rd]-(\d+)-(\d+)\.png")
 
 
 def timestamped_images(paths: Iterable[Path]) -> TimedPaths:
-    """Times in seconds and files, in order of the frame numbers in the names; other files are left out."""
+    """Times in seconds and files, sorted by the frame numbers in the names; other files are left out."""
     names = ((_FILE_NAME.fullmatch(path.name), path) for path in paths)
     found = sorted((int(name[2]), int(name[1]) * SECONDS_PER_TICK, path) for name, path in names if name)
     return [(time, path) for _, time, path in found]
@@ -36,9 +36,9 @@ def depth_images(images: TimedPaths, scale: float | None) -> Images:
 
 
 def read_channels(folder: Path, scale: float | None) -> dict[str, Stream] | None:
-    """Each color image with the depth image that is nearest in time; None if the folder isn't Princeton's.
+    """Each color image with the depth image nearest in time; None if the folder isn't Princeton's.
 
-    The true boxes belong to the color images.
+    Frames are those of color, because the true boxes belong to the color images.
     """
     color, depth = (find_timestamped_images(folder / channel) for channel in ("rgb", "depth"))
     if not (color and depth):

@@ -13,9 +13,9 @@ _WAIT = 5000  # milliseconds, for an image
 
 
 class RealSense:
-    """A RealSense camera by its serial number, "" for the first one.
+    """A RealSense camera by its serial number; "" for the first one found.
 
-    context: of pyrealsense2, for cameras that it doesn't find by itself.
+    context: a pyrealsense2 context, for cameras that pyrealsense2 doesn't find by itself.
     """
 
     remote = False
@@ -51,7 +51,7 @@ class RealSense:
     def read(self) -> dict[str, NDArray[Any]] | None:
         try:
             frames = self._align.process(self._pipeline.wait_for_frames(_WAIT))
-        except RuntimeError:  # none came
+        except RuntimeError:  # no image came in time
             return None
         color, depth = frames.get_color_frame(), frames.get_depth_frame()
         if not color or not depth:

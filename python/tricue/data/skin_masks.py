@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Color images with a mask for each: ``image/`` and ``mask/`` in one folder, paired by the files' names."""
+"""Color images with a mask for each: ``image/`` and ``mask/`` in one folder, paired by file name."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -13,7 +13,7 @@ from tricue.data.files import image_paths
 from tricue.data.streams import read_image
 
 IMAGE_FOLDERS, MASK_FOLDERS = ("image", "images"), ("mask", "masks")
-MARKED_ABOVE = 127  # levels of a mask that marks by white
+MARKED_ABOVE = 127  # gray level of a mask, above which a pixel is marked
 
 
 class MaskedImage(NamedTuple):
@@ -23,9 +23,9 @@ class MaskedImage(NamedTuple):
     mask: Path
 
     def read(self) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
-        """BGR (H, W, 3), and (H, W) True where the mask is white.
+        """The image, BGR (H, W, 3), and its mask (H, W), True where it is white.
 
-        ValueError or OSError names a file that can't be read, or a mask of another size.
+        ValueError or OSError names a file that can't be read, or a mask whose size isn't its image's.
         """
         image: NDArray[np.uint8] = read_image(self.image, cv2.IMREAD_COLOR).astype(np.uint8, copy=False)
         mask = read_image(self.mask, cv2.IMREAD_GRAYSCALE)
@@ -39,15 +39,15 @@ class MaskedImage(NamedTuple):
 
 
 def is_mask_folder(folder: Path) -> bool:
-    """Whether a folder has a folder ``mask`` or ``masks``, or one of images that should have one."""
+    """Whether a folder contains a folder of masks, or one of images, beside which masks are then expected."""
     return any(_subfolder(folder, names) is not None for names in (IMAGE_FOLDERS, MASK_FOLDERS))
 
 
 def find_masked_images(folder: Path) -> list[MaskedImage]:
     """The pairs in a folder with ``image/`` and ``mask/`` (or ``images/``, ``masks/``), in natural order.
 
-    A mask has the name of its image, up to the suffix. ValueError names a folder that is missing or empty, an
-    image without a mask, a mask without an image, and the second of two files with one name.
+    A mask has the name of its image, except for the suffix. ValueError names a folder that is missing or
+    empty, an image without a mask, a mask without an image, or the second of two files with the same name.
     """
     image_folder, mask_folder = _required(folder, IMAGE_FOLDERS), _required(folder, MASK_FOLDERS)
     images, masks = _by_name(image_folder), _by_name(mask_folder)
@@ -59,7 +59,7 @@ def find_masked_images(folder: Path) -> list[MaskedImage]:
 
 
 def _by_name(folder: Path) -> dict[str, Path]:
-    """The images of a folder in natural order, by their names without suffix."""
+    """The images in a folder, in natural order, by their names without suffix."""
     found: dict[str, Path] = {}
     for path in image_paths(folder):
         if path.stem in found:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A source of frames: one stream per channel, and what is known about them."""
+"""A source of frames: one stream per channel, and what is known about the frames."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ Register = Callable[[NDArray[Any]], NDArray[Any]]
 
 @dataclass(frozen=True)
 class Source:
-    """Frames in order, with one stream per channel, and what is known about them.
+    """Frames in order, with one stream per channel, and what is known about the frames.
 
     channels: "color", "right", "depth"; images of one frame have the same index in each. Times and frame rate
         are those of the first channel that has its own.
@@ -33,19 +33,19 @@ class Source:
         from the number of frames.
     calibration: a calibration file that was found beside the images.
     kitti_cameras: the left and right camera's numbers in a KITTI calibration.
-    camera: the camera or the rig that the recording or the device itself describes: for registered depth the
-        color camera, else the depth camera.
-    notes: what was left out of a folder and why, one sentence each.
+    camera: the camera or rig described by the recording or device itself; with depth, the color camera if
+        depth is registered to color, else the depth camera.
+    notes: what was left out of a folder and why, and similar remarks, one sentence each.
     rate: frames per second, for images without times.
     rectify: rectifies a raw stereo pair (color, right).
     register: maps depth to the color image's pixels.
-    absent: (M,) whether the target is known to be out of sight; other frames without a box, and frames after
-        the last row, are unknown.
+    absent: (M,) whether the target is known to be out of sight. Nothing is known about the target in other
+        frames without a box, and after the last row.
     positions: (K, 3) the target's true X, Y, Z in the camera's frame, meters, NaN where unknown.
     format: the name of the layout, such as "VOT RGB-D".
 
-    ValueError if the channels differ in length, which may show only while iterating, and for a ``rate`` if
-    images have times of their own.
+    ValueError if the channels differ in length, which may be found only while iterating, and for a ``rate``
+    if images have times of their own.
     """
 
     name: str
@@ -79,7 +79,7 @@ class Source:
 
     @property
     def knows_times(self) -> bool:
-        """Whether the times of frames are known; otherwise they are assumed to come at ``fps``."""
+        """Whether the frames' times are known; otherwise the rate ``fps`` is assumed."""
         return self.rate is not None or self.clock.timed
 
     @property
@@ -89,21 +89,22 @@ class Source:
 
     @property
     def length(self) -> int | None:
-        """The number of frames, None if it isn't known before reading them."""
+        """The number of frames; None if it isn't known before reading them."""
         lengths = (stream.length for stream in self.channels.values())
         return next((length for length in lengths if length is not None), None)
 
     @property
     def size(self) -> tuple[int, int]:
-        """Width and height in pixels that a calibration has to match: those of depth, unless it is to be
-        registered to color, else those of color images.
+        """Width and height in pixels that a calibration must match.
+
+        These are depth's, or color's if there is no depth, or if depth will be registered to color.
         """
         registered = self.register is not None and "color" in self.channels
         return self.channels.get("color" if registered else "depth", self._first).size
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """Problems noticed while reading, one sentence each: images left out, a recording cut off."""
+        """Problems found while reading, such as images left out or a truncated recording; a sentence each."""
         return tuple(remark for joint in joints_of(self.channels.values()) for remark in joint.remarks)
 
     @property
@@ -121,9 +122,9 @@ class Source:
         return self._frames(self._moments(), count())
 
     def frames(self, indices: Iterable[int]) -> Iterator[Frame]:
-        """A source of only the frames with these increasing indices from 0; other image files aren't read.
+        """Only the frames with these increasing indices, from 0; other image files aren't read.
 
-        ValueError for indices that don't increase, and for an index beyond the last frame.
+        ValueError for indices that don't increase, or an index beyond the last frame.
         """
         wanted = _increasing(indices)
         return self._frames(self._moments(wanted), wanted)
@@ -161,12 +162,12 @@ class Source:
             images = {name: image for name, (_, image) in moment.items()}
             try:
                 frame = self._frame(images, seconds)
-            except ValueError as error:  # of one image of thousands
+            except ValueError as error:  # which of thousands of images it was
                 raise ValueError(f"frame {number}: {error}") from error
             yield frame
 
     def _frame(self, images: Mapping[str, NDArray[Any]], seconds: float) -> Frame:
-        """The frame of one moment, its pair rectified and its depth registered as needed."""
+        """The frame of one moment, with its stereo pair rectified and its depth registered as needed."""
         color, depth, right = (images.get(name) for name in ("color", "depth", "right"))
         if self.rectify and color is not None and right is not None:
             color, right = self.rectify(color, right)
@@ -197,7 +198,7 @@ class Source:
 
 
 def _increasing(indices: Iterable[int]) -> list[int]:
-    """The indices as a list; ValueError unless they increase from 0 on."""
+    """The indices as a list; ValueError unless they are increasing and not negative."""
     numbers = list(map(index, indices))
     if any(low >= high for low, high in pairwise([-1, *numbers])):
         raise ValueError(f"indices: expected rising numbers of frames from 0, got {numbers!r:.60}")

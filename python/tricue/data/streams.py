@@ -20,13 +20,13 @@ from numpy.typing import NDArray
 DEFAULT_FPS = 30.0
 MAX_FPS = 1000.0
 MIN_DECODED_SHARE = 0.95  # of the frames or the duration that a container states
-MAX_MISCOUNTED = 4  # frames by which a duration may be too long: Flash's counts the delay of B-frames
-TIME_ROUNDING = 0.001  # seconds, the unit of times in Matroska and Flash
+MAX_MISCOUNTED = 4  # frames by which a duration may be too long: Flash's includes the delay of B-frames
+TIME_ROUNDING = 0.001  # seconds: the unit of times in Matroska and Flash
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
-PNG_END = 4096  # bytes in which its last chunk is, as some tools write more after it
-MAX_DAMAGED = 100  # frames in a row that can't be decoded, before the video is taken to end
-DOUBTED_FPS = 60.0  # above it FFmpeg may give the unit of a container's times, if that states no rate
-FIRST_FRAMES = 16  # by whose times such a rate is checked
+PNG_END = 4096  # bytes that are searched for the last chunk, as some tools append others
+MAX_DAMAGED = 100  # frames in a row that can't be decoded, before the video counts as ended
+DOUBTED_FPS = 60.0  # if a container states no rate, FFmpeg may give a higher one, derived from its time unit
+FIRST_FRAMES = 16  # whose times are used to check such a rate
 
 Image = NDArray[Any]
 ImageReader = Callable[[Path], Image]
@@ -40,7 +40,7 @@ def read_color(path: Path) -> Image:
 
 
 class Stream(Protocol):
-    """Images with their times in seconds. Each iteration starts at the first one; a live camera goes on."""
+    """Images with their times in seconds. Each iteration starts at the first one, unless it is a camera's."""
 
     @property
     def fps(self) -> float:
@@ -56,20 +56,19 @@ class Stream(Protocol):
 
     @property
     def length(self) -> int | None:
-        """The number of images, None if it isn't known before reading them."""
+        """The number of images; None if it isn't known before reading them."""
 
     def __iter__(self) -> Iterator[tuple[float, Image]]: ...
 
     def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
-        """A stream of only these images, by increasing indices; ValueError for one beyond the last image."""
+        """Only the images with these increasing indices; ValueError for an index beyond the last image."""
 
 
 @dataclass(frozen=True)
 class Images:
     """Image files in the given order; the error of ``read`` names the first that can't be read.
 
-    rate: frames per second, None where unknown. times: seconds, one per image; without them they follow from
-        ``fps``.
+    rate: frames per second; None if unknown. times: seconds, one per image; by default index / ``fps``.
     """
 
     paths: Sequence[Path]
@@ -106,13 +105,13 @@ class Images:
 
 
 def image_names(channels: Mapping[str, Stream]) -> Sequence[str]:
-    """The names of the image files in whose pixels boxes are: color, or else depth; none for a video."""
+    """The names of the image files to which boxes refer: color, or else depth; none for a video."""
     stream = channels.get("color") or channels.get("depth")
     return [path.name for path in stream.paths] if isinstance(stream, Images) else ()
 
 
 def timed_images(images: TimedPaths, read: ImageReader = read_color) -> Images:
-    """Images with times, and the frame rate that follows from the median step between these."""
+    """Images with times, and the frame rate given by the median time between images."""
     times = [time for time, _ in images]
     step = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
     rate = 1 / step if step > 1 / MAX_FPS else None
@@ -120,17 +119,17 @@ def timed_images(images: TimedPaths, read: ImageReader = read_color) -> Images:
 
 
 class FrameTimes:
-    """The times at which a video's frames are shown, from what its container says about each in turn.
+    """The times at which a video's frames are shown, from the times in its container.
 
-    Seconds from the first frame, always rising. At a constant rate they are number / fps, without the
-    container's rounding, and so are those that it doesn't give. fps: frames per second.
+    They are seconds from the first frame, and strictly increase. At a constant rate they are number / fps,
+    without the container's rounding; so are times that the container doesn't give. fps: frames per second.
     """
 
     def __init__(self, fps: float) -> None:
         self._fps = fps
-        self._begin = 0.0  # of the container's times
-        self._number, self.last = -1, -1.0  # of the frame before, and its seconds
-        self.longest = 0.0  # seconds that a frame was shown, up to the last
+        self._begin = 0.0  # the container's time of the first frame
+        self._number, self.last = -1, -1.0  # of the previous frame, and its time
+        self.longest = 0.0  # the longest time from one frame to the next
         self.constant = True
 
     def add(self, told: float) -> float:
@@ -146,7 +145,7 @@ class FrameTimes:
 
     def _choose(self, told: float, nominal: float) -> float:
         agrees = abs(told - nominal) <= TIME_ROUNDING and nominal > self.last
-        # After a repeated time the container's may be a frame late; then some, rounded, are just after last.
+        # After a repeated time, the container's times may be a frame late; rounded, some are just after last.
         if agrees or (self.constant and not told > self.last + TIME_ROUNDING):
             return nominal
         self.constant = False
@@ -154,9 +153,9 @@ class FrameTimes:
 
 
 class Video:
-    """A video file. Its length is None, as containers state their frame count wrongly or not at all.
+    """A video file. Its length is None, because containers often state a wrong number of frames or none.
 
-    url: its address, if it is on a network instead. shown: its name in messages, without a password.
+    url: its URL, if it isn't a local file. shown: its name in messages, without a password.
     """
 
     length = None
@@ -177,7 +176,7 @@ class Video:
 
     @cached_property
     def times(self) -> Sequence[float]:
-        """The seconds of all frames, by reading all of them; the first one's are 0."""
+        """The times of all frames, in seconds from the first; this reads the whole video."""
         capture = self._open()
         try:
             return [seconds for seconds, _ in self._grab(capture, FrameTimes(self.fps))]
@@ -185,7 +184,7 @@ class Video:
             capture.release()
 
     def __iter__(self) -> Iterator[tuple[float, Image]]:
-        """A damaged frame between others gets the previous one's image, so that all keep their numbers."""
+        """A damaged frame between others gets the previous image, so that later frames keep their numbers."""
         capture, count, times = self._open(), 0, FrameTimes(self.fps)
         stated = capture.get(cv2.CAP_PROP_FRAME_COUNT)
         rate = plausible_fps(capture.get(cv2.CAP_PROP_FPS)) or self.fps
@@ -215,7 +214,7 @@ class Video:
             warnings.warn(f"{self.place}: only {missing} can be decoded; is it cut off?", stacklevel=2)
 
     def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
-        """Reads all frames between, as seeking in videos isn't reliable."""
+        """Reads all frames up to the last index, because seeking in videos isn't reliable."""
         capture, index, whole = self._open(), -1, 0
         frames = self._grab(capture, FrameTimes(self.fps))
         try:
@@ -235,12 +234,12 @@ class Video:
             capture.release()
 
     def count(self) -> int:
-        """The number of frames, by reading all of them."""
+        """The number of frames; this reads the whole video."""
         return len(self.times)
 
     def _grab(self, capture: cv2.VideoCapture, times: FrameTimes) -> Iterator[tuple[float, bool]]:
-        """The seconds of each frame, grabbed unless it is a damaged one between, and whether it is whole."""
-        damaged, patience = 0, 0  # none before the first frame, nor of a URL
+        """The time of each frame, and whether it could be grabbed; False for a damaged one between others."""
+        damaged, patience = 0, 0  # no damaged frames are skipped before the first frame, or of a URL
         while damaged <= patience:
             if not capture.grab():
                 damaged += 1
@@ -252,8 +251,9 @@ class Video:
             damaged, patience = 0, 0 if self._is_remote else MAX_DAMAGED
 
     def _is_read_whole(self, count: int, duration: float) -> bool:
-        """Whether these frames are all that a file has whose sound, or last frame, goes on to its end; False
-        without PyAV, which finds that out, and of a URL.
+        """Whether the file has no more than ``count`` frames, and its sound or last frame fills its duration.
+
+        Only PyAV can tell; False without it, and for a URL.
         """
         if self._is_remote or importlib.util.find_spec("av") is None:
             return False
@@ -280,15 +280,15 @@ class Video:
 
 
 def _told(capture: cv2.VideoCapture) -> float:
-    """The seconds at which the container shows the frame that was read last; 0 where it doesn't say."""
+    """The time, in seconds, of the frame that was read last, according to the container; 0 if unknown."""
     return capture.get(cv2.CAP_PROP_POS_MSEC) / 1000
 
 
 def _missing(count: int, times: FrameTimes, stated: float, fps: float) -> str:
-    """A sentence about how much of a video was decoded; "" if all of it was.
+    """How much of a video was decoded, in words; "" if all of it was.
 
-    stated: the frames that its container states, or its duration in frames at ``fps``, which is no number of
-    frames where the rate isn't constant.
+    stated: the number of frames that the container states; some derive it from the duration and ``fps``,
+    which is wrong unless the rate is constant.
     """
     if count >= min(MIN_DECODED_SHARE * stated, stated - MAX_MISCOUNTED):
         return ""
@@ -313,18 +313,18 @@ def read_image(path: Path, flag: int) -> Image:
 
 
 def _is_truncated(content: NDArray[np.uint8]) -> bool:
-    """Whether a PNG file, whatever its name, is truncated; libpng would write to stderr about it."""
+    """Whether this is a truncated PNG file, about which libpng would write to stderr."""
     is_png = content[: len(PNG_SIGNATURE)].tobytes() == PNG_SIGNATURE
     return is_png and b"IEND" not in content[-PNG_END:].tobytes()
 
 
 def plausible_fps(fps: float) -> float | None:
-    """The frame rate that a file states; None if it is implausible: 0, NaN, thousands."""
+    """The frame rate that a file states; None if it is implausible, such as 0, NaN or thousands."""
     return fps if 0 < fps <= MAX_FPS else None
 
 
 def checked_fps(fps: float | None, times: Sequence[float]) -> float | None:
-    """The stated rate; if there is none, or it is far too high, that of the first frames' times."""
+    """The stated rate; if there is none, or it is far too high, the rate given by the first frames' times."""
     step = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
     doubted = fps is None or (fps > DOUBTED_FPS and step > 1.5 / fps)
     return plausible_fps(1 / step) if doubted and step > 0 else fps

@@ -16,14 +16,14 @@ from tricue.data.open_source import Source
 from tricue.data.recordings.recording import Recording
 from tricue.data.streams import Images, Stream, Video
 
-MAX_SAMPLED_FRAMES = 100  # whose depth is summarized
+MAX_SAMPLED_FRAMES = 100  # of which the depth is summarized
 DEPTH_LEVELS = 1 << 16  # values of a 16-bit image
-PLAUSIBLE_BASELINES = 0.001, 10.0  # meters, a baseline
+PLAUSIBLE_BASELINES = 0.001, 10.0  # meters
 Summary = dict[str, Any]
 
 
 def count_frames(stream: Stream) -> int:
-    """The number of images in a recording; a video is read to its end."""
+    """The number of images in a stream; a video is read to its end."""
     return stream.count() if isinstance(stream, Video | JointStream) else stream.length or 0
 
 
@@ -36,7 +36,7 @@ def compute_duration(source: Source, frames: int) -> float:
 
 
 def compute_rate(source: Source, frames: int) -> float:
-    """Frames per second; the mean for a video whose rate isn't constant."""
+    """Frames per second; the mean rate for a video whose rate isn't constant."""
     seconds = compute_duration(source, frames)
     if not isinstance(source.clock, Video) or not seconds:
         return source.fps
@@ -66,9 +66,9 @@ def summarize_topics(source: Source) -> list[Summary]:
 def summarize_depth(stream: Stream, source: str) -> Summary | None:
     """The unit, the 5th and 95th percentile of the depth in meters, and the share of pixels without depth.
 
-    They are taken over all frames, or over MAX_SAMPLED_FRAMES evenly spaced ones. The percentiles are None
-    if no pixel has a depth; the summary is None if the stream has no unit. source: where the unit comes from,
-    as it is reported.
+    They are computed over all frames, or over MAX_SAMPLED_FRAMES evenly spaced ones. The percentiles are None
+    if no pixel has a depth; the summary is None if the unit isn't known. source: where the unit comes from,
+    for the report.
     """
     scale, rotated = _depth_unit(stream)
     if scale is None:
@@ -76,7 +76,7 @@ def summarize_depth(stream: Stream, source: str) -> Summary | None:
     length = count_frames(stream)
     chosen = np.unique(np.linspace(0, length - 1, min(MAX_SAMPLED_FRAMES, length)).round().astype(int))
     counts = np.zeros(DEPTH_LEVELS, np.int64)
-    level = min(scale, METERS_PER_MILLIMETER)  # also of depth that is recorded in meters
+    level = min(scale, METERS_PER_MILLIMETER)  # depth may be recorded in meters, as floats
     for _, meters in stream.at(chosen.tolist()):
         units = np.rint(np.nan_to_num(meters.ravel() / level, posinf=0)).clip(0, DEPTH_LEVELS - 1)
         counts += np.bincount(units.astype(np.int64), minlength=DEPTH_LEVELS)
@@ -92,7 +92,7 @@ def summarize_depth(stream: Stream, source: str) -> Summary | None:
 
 
 def summarize_truth(source: Source, frames: int) -> Summary | None:
-    """How many frames have a box, have none, or are unknown, and the range of box sizes in pixels.
+    """The numbers of frames with a box, without the target, and unknown; and the range of box sizes, pixels.
 
     None for a source without truth.
     """
@@ -112,8 +112,8 @@ def summarize_truth(source: Source, frames: int) -> Summary | None:
 def summarize_calibration(source: Source, given: Path | None) -> Summary | None:
     """The camera or the stereo rig in the given calibration file, or in the one beside the images.
 
-    None without a file. ValueError or OSError if the given file can't be used; for a file that was found,
-    "error" says why.
+    Without a file it is the recording's own, or None. ValueError or OSError if the given file can't be used;
+    for a file that was found beside the images, "error" says why.
     """
     path = given or source.calibration
     if path is None:
@@ -128,7 +128,7 @@ def summarize_calibration(source: Source, given: Path | None) -> Summary | None:
 
 
 def _depth_unit(stream: Stream) -> tuple[float | None, bool]:
-    """Meters per unit, None where it isn't known, and whether the bits are rotated."""
+    """Meters per unit, None if unknown, and whether the bits are rotated."""
     if isinstance(stream, Images) and isinstance(stream.read, DepthReader):
         return stream.read.scale, stream.read.rotated
     if isinstance(stream, JointStream) and isinstance(stream.joint, Recording):
@@ -137,7 +137,7 @@ def _depth_unit(stream: Stream) -> tuple[float | None, bool]:
 
 
 def _percentile(counts: NDArray[np.int64], share: float, scale: float) -> float | None:
-    """The quantile of the depth, meters, of the pixels with depth; None without any."""
+    """The quantile of depth, meters, over the pixels with depth; None without any."""
     total = np.cumsum(counts[1:])
     if total[-1] == 0:
         return None

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Files of true boxes: OTB's groundtruth_rect.txt counts pixels from 1; the groundtruth.txt of VOT, GOT-10k
-and LaSOT is assumed to count from 0.
+"""Files of true boxes.
 
-Princeton has <sequence>.txt, which is public for few sequences, and init.txt with the first box alone.
-Folders without any of them may have a table, boxes.csv; see :mod:`tricue.data.box_table`.
+OTB's groundtruth_rect.txt counts pixels from 1. The groundtruth.txt of VOT, GOT-10k and LaSOT is assumed to
+count from 0. Princeton has <sequence>.txt, which is public for few sequences, and init.txt with the first box
+alone. Folders without these files may have a table, boxes.csv; see :mod:`tricue.data.box_table`.
 """
 
 import re
@@ -17,8 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 OTB_TRUTH, VOT_TRUTH, PRINCETON_FIRST_BOX = "groundtruth_rect.txt", "groundtruth.txt", "init.txt"
 ABSENT_TAGS = ("absent.tag", "absence.label", "full_occlusion.txt", "out_of_view.txt")
 """Files of VOT, GOT-10k and LaSOT (the last two): a number per frame, 1 where the target can't be seen."""
-_WHOLE_TAGS = ABSENT_TAGS[1:]  # a number per box; VOT's toolkit takes missing ones for 0
-MAX_FRAME_NUMBER = 10_000_000  # a day at 100 frames per second; a larger number can't be a frame's
+_WHOLE_TAGS = ABSENT_TAGS[1:]  # have a number per box; in VOT's, a missing number means 0
+MAX_FRAME_NUMBER = 10_000_000  # a day at 100 frames per second; larger numbers are refused
 DEPTHS_FILE = (
     "position_z_mm.txt"  # one line per frame: the target's median depth in millimeters, 0 or NaN if unknown
 )
@@ -27,7 +27,7 @@ _OTB_TARGET_TRUTH = re.compile(r"groundtruth_rect\.(\d+)\.txt")  # in folders wi
 
 
 class Truth(NamedTuple):
-    """What is known of the target, one row per frame; frames after the last row are unknown.
+    """What is known about the target, one row per frame; after the last row nothing is known.
 
     boxes: (M, 4) x, y, width, height, pixels from 0, NaN where absent or unknown. absent: (M,) whether the
     target is known to be out of sight. positions: (K, 3) X, Y, Z in meters in the camera's frame, NaN where
@@ -40,7 +40,7 @@ class Truth(NamedTuple):
 
 
 def truth_from_rows(boxes: ArrayLike) -> Truth:
-    """The truth from the rows (M, 4) of a file: a row with NaN, or a width or height of 0, means absent."""
+    """The truth from the rows (M, 4) of a file; NaN, or a width or height of 0, means that it is absent."""
     rows = np.array(boxes, np.float64).reshape(-1, 4)
     there = np.isfinite(rows).all(axis=1) & (rows[:, 2:] > 0).all(axis=1)
     absent: NDArray[np.bool_] = np.logical_not(there)
@@ -49,11 +49,10 @@ def truth_from_rows(boxes: ArrayLike) -> Truth:
 
 
 def find_truth(folder: Path, target: str | None = None) -> Truth | None:
-    """The truth of a sequence folder in OTB's or VOT's format, with the tags and depths beside it; None
-    without a file.
+    """The truth of a sequence folder in OTB's or VOT's format, with the tags and depths beside it.
 
-    target: one of :func:`otb_targets`. By default the file without a number, else that of the first target.
-    ValueError names the file and its line, or the targets of the folder.
+    target: one of :func:`otb_targets`; by default the file without a number is read, or else the first
+    target's. None without a file. ValueError names the file and its line, or the targets of the folder.
     """
     path = _truth_path(folder, target)
     if path is None:
@@ -63,14 +62,14 @@ def find_truth(folder: Path, target: str | None = None) -> Truth | None:
 
 
 def find_princeton_truth(folder: Path) -> Truth | None:
-    """The truth of a sequence of the Princeton Tracking Benchmark, whose lines hold more than the box."""
+    """The truth of a sequence of the Princeton Tracking Benchmark, whose lines have more than the box."""
     names = (f"{folder.resolve().name}.txt", PRINCETON_FIRST_BOX)
     path = next((folder / name for name in names if (folder / name).is_file()), None)
     return None if path is None else add_tags_and_depths(read_truth_file(path, count=4), folder)
 
 
 def otb_targets(folder: Path) -> tuple[str, ...]:
-    """The numbers in the file names groundtruth_rect.1.txt, ... of OTB's folders with several targets."""
+    """The numbers in the file names groundtruth_rect.1.txt and so on, in OTB's folders of several targets."""
     names = (_OTB_TARGET_TRUTH.fullmatch(path.name) for path in folder.iterdir())
     return tuple(sorted((name[1] for name in names if name), key=int))
 
@@ -84,10 +83,10 @@ def truth_files(folder: Path) -> list[Path]:
 
 
 def add_tags_and_depths(truth: Truth, folder: Path, rows: int = 0) -> Truth:
-    """Add the tags of absent frames and the file of depths, if the folder has them.
+    """The truth with the tags of absent frames and the depths, if the folder has files of these.
 
-    rows: how many boxes the benchmark's file has. LaSOT's and GOT-10k's tags must be as many, else ValueError
-    names their file. The exception is a file with the first box alone, as in test sets.
+    rows: the number of boxes in the benchmark's file. LaSOT and GOT-10k must have as many tags, else
+    ValueError names the file of tags; except if there is only the first box, as in test sets.
     """
     for path in (folder / name for name in ABSENT_TAGS):
         if path.is_file():
@@ -106,8 +105,8 @@ def read_truth_file(path: Path, count: int | None = None) -> Truth:
     """Read a file with one box per line: x, y, width, height; the result counts pixels from 0.
 
     Commas, tabs, semicolons or blanks separate the numbers. VOT's polygons and masks become their bounding
-    boxes. count: how many numbers of a line are read, by default all. ValueError names a line that holds
-    anything else.
+    boxes. count: how many numbers of a line to read; by default all. ValueError names a line with anything
+    else.
     """
     numbered = enumerate(read_lines(path), 1)
     truth = truth_from_rows([_true_box(line, f"{path}, line {number}", count) for number, line in numbered])
@@ -117,7 +116,7 @@ def read_truth_file(path: Path, count: int | None = None) -> Truth:
 
 
 def read_lines(path: Path) -> list[str]:
-    """The lines of a text file without empty ones at its end; bytes that aren't UTF-8 are replaced."""
+    """The lines of a text file, without empty ones at the end; bytes that aren't UTF-8 are replaced."""
     lines = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
     while lines and not lines[-1].strip():
         lines.pop()
@@ -135,7 +134,7 @@ def _truth_path(folder: Path, target: str | None) -> Path | None:
 
 
 def check_target(target: str, known: Sequence[str], place: str | Path) -> None:
-    """Raise ValueError, which lists the known targets, if a folder, a file or a camera has no such target."""
+    """Raise ValueError, which lists the known targets, if a place (a folder, a file, a camera) lacks one."""
     if target not in known:
         listed = f"one of {', '.join(map(repr, known))}" if known else "none, for it has one target"
         raise ValueError(f"{place}: expected target to be {listed}, got {target!r}")
@@ -161,7 +160,7 @@ def read_box(line: str, place: str, count: int | None = None) -> tuple[float, ..
 
 
 def _true_box(line: str, place: str, count: int | None) -> tuple[float, ...]:
-    """As :func:`read_box`; ValueError also for a negative width or height, as in a file of corners."""
+    """As :func:`read_box`; ValueError, too, for a negative width or height, as in a file of corners."""
     return check_sizes(read_box(line, place, count), place, line)
 
 
@@ -173,7 +172,7 @@ def check_sizes(box: Box, place: str, line: str) -> Box:
 
 
 def _apply_tag(truth: Truth, tag: NDArray[np.bool_]) -> Truth:
-    """The truth with tagged frames absent too; tags beyond the last box lengthen it."""
+    """The truth with tagged frames absent, too; tags after the last box extend it."""
     count = max(len(truth.boxes), len(tag))
     boxes, absent = np.full((count, 4), np.nan), np.zeros(count, np.bool_)
     boxes[: len(truth.boxes)], absent[: len(truth.absent)] = truth.boxes, truth.absent

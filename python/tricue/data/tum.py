@@ -21,14 +21,14 @@ LIST_FILES = {"color": "rgb.txt", "depth": "depth.txt"}
 
 
 def is_tum(folder: Path) -> bool:
-    """Whether the folder has one of the lists."""
+    """Whether the folder has rgb.txt or depth.txt."""
     return any((folder / name).is_file() for name in LIST_FILES.values())
 
 
 def read_channels(folder: Path, scale: float | None) -> tuple[dict[str, Stream], tuple[str, ...]]:
     """Color and depth images paired by time, or those of the only list, and notes on what was left out.
 
-    scale: meters per unit of depth, where the files don't follow the format.
+    scale: meters per unit of depth, if the files deviate from the format.
     """
     color, depth = (_read_list(folder / name) for name in LIST_FILES.values())
     reader = DepthReader(TUM_METERS_PER_UNIT if scale is None else scale)
@@ -80,7 +80,10 @@ def _entry(line: str, path: Path, number: int) -> tuple[float, Path]:
 def match_times(
     first: Sequence[float], second: Sequence[float], max_difference: float
 ) -> list[tuple[int, int]]:
-    """Pairs of indices into two sorted lists of times, closest matches first; each index is used once."""
+    """Pairs of indices into two sorted lists of times, in order; each index is used at most once.
+
+    Closest times are paired first. max_difference: seconds.
+    """
     times = np.array(second)
     low = np.searchsorted(times, np.subtract(first, max_difference), "left").tolist()
     high = np.searchsorted(times, np.add(first, max_difference), "right").tolist()

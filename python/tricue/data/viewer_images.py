@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Folders that cameras' viewers write: color and depth images side by side, paired by the numbers in their
+"""Folders written by cameras' viewers: color and depth images side by side, paired by the numbers in their
 names.
 
 Examples are RealSense's ``rs_Color_1.png`` and ``rs_Depth_1.png``, ``frame-000000.color.jpg`` and
@@ -17,18 +17,18 @@ from tricue.data.files import image_paths
 from tricue.data.streams import Images, Stream, timed_images
 from tricue.data.tum import match_times
 
-MAX_SAMPLED = 200  # images checked for their kind
+MAX_SAMPLED = 200  # images whose bits are checked
 _WORD = r"(?<![a-z])({})(?![a-z])"
 _DEPTH, _COLOR = (re.compile(_WORD.format(words), re.IGNORECASE) for words in ("depth", "colou?r|rgb"))
-_FIRST_TIME = 1e9  # a larger number is a time, in a unit by its size: s, ms, us, ns
+_FIRST_TIME = 1e9  # a larger number is a time since 1970; its size tells the unit: s, ms, us, ns
 _PNG_HEADER = b"\x89PNG"
 
 
 def read_channels(folder: Path, scale: float | None) -> tuple[dict[str, Stream], tuple[str, ...]] | None:
-    """Color and depth, paired by the same number or the nearest time, and notes; None unless both are there.
+    """Color and depth, paired by equal numbers or the nearest times, and notes; None unless both are there.
 
-    scale: meters per unit of depth; without it depth is left out, with a note. ValueError if images of both
-    kinds can't be paired, because together they aren't one sequence.
+    scale: meters per unit of depth; without it, depth is left out, with a note. ValueError if images of both
+    kinds can't be paired, because then they aren't one sequence.
     """
     paths = image_paths(folder)
     color, depth = _by_name(paths) or _by_pixels(paths)
@@ -53,14 +53,14 @@ def read_channels(folder: Path, scale: float | None) -> tuple[dict[str, Stream],
 
 
 def _by_name(paths: Sequence[Path]) -> tuple[list[Path], list[Path]] | None:
-    """Color and depth images; None unless the names show both."""
+    """Color and depth images by the words in their names; None unless there are both."""
     depth = [path for path in paths if _DEPTH.search(path.stem)]
     color = [path for path in _others(paths, depth) if _COLOR.search(path.stem)]
     return (color, depth) if color and depth else None
 
 
 def _by_pixels(paths: Sequence[Path]) -> tuple[list[Path], list[Path]]:
-    """Color and depth images, where depth has 16 bits in one channel."""
+    """Color and depth images by their bits: depth images are one channel of 16 bits."""
     chosen = np.linspace(0, len(paths) - 1, min(MAX_SAMPLED, len(paths))).round().astype(int)
     if len({_has_16_bits(paths[index]) for index in chosen}) < 2:
         return [], []
@@ -74,7 +74,7 @@ def _others(paths: Sequence[Path], chosen: Sequence[Path]) -> list[Path]:
 
 
 def _has_16_bits(path: Path) -> bool:
-    """Whether an image has 16 bits per pixel; for PNG its header is enough."""
+    """Whether an image is one channel of 16 bits; for PNG, by its header alone."""
     with path.open("rb") as file:
         header = file.read(26)
     if header.startswith(_PNG_HEADER):
@@ -83,7 +83,7 @@ def _has_16_bits(path: Path) -> bool:
 
 
 def _pairs(folder: Path, color: Sequence[Path], depth: Sequence[Path]) -> tuple[list[tuple[int, int]], bool]:
-    """Pairs of indices, and whether the numbers are times. ValueError if nothing pairs them."""
+    """Pairs of indices, and whether the numbers are times. ValueError if there are no pairs."""
     first, second = ([_number(path) for path in paths] for paths in (color, depth))
     pairs: list[tuple[int, int]] = []
     timed = min(*first, *second) >= _FIRST_TIME
@@ -110,7 +110,7 @@ def _number(path: Path) -> float:
 
 
 def _seconds_per_unit(time: float) -> float:
-    """Seconds since 1970 have 10 digits before the point, milliseconds 13, and so on."""
+    """Seconds per unit of a time since 1970: seconds have 10 digits, milliseconds 13, and so on."""
     return float(10.0 ** -(3 * min(3, max(0, (len(str(int(time))) - 10) // 3))))
 
 

@@ -27,7 +27,7 @@ def read_channels(folder: Path, scale: float | None) -> dict[str, Stream] | None
 
 
 def _listed(folder: Path, reader: DepthReader) -> dict[str, Stream]:
-    """The channels that the file lists as patterns such as color/%08d.jpg, with numbers from 1."""
+    """The channels that the file lists as patterns, such as color/%08d.jpg."""
     lines = (folder / SEQUENCE_FILE).read_text(encoding="utf-8-sig", errors="replace").splitlines()
     values = {
         key.strip(): value.strip() for key, found, value in (line.partition("=") for line in lines) if found
@@ -49,7 +49,7 @@ def _fps(values: Mapping[str, str]) -> float | None:
 
 
 def _color(values: Mapping[str, str]) -> str:
-    """The pattern of the channel color, else of the default channel; "" without one."""
+    """The pattern of the channel color, or else of the default channel; "" without both."""
     default = values.get("channel.default")
     return values.get("channels.color") or (
         values.get(f"channels.{default}", "") if default != "depth" else ""
@@ -73,7 +73,7 @@ def _images(folder: Path, channel: str, pattern: str) -> list[Path]:
 
 
 def _is_folder(path: Path) -> bool:
-    """Whether there is such a folder; False also for an invalid file name."""
+    """Whether there is such a folder; False for an invalid file name, too."""
     try:
         return path.is_dir()
     except (OSError, ValueError):
