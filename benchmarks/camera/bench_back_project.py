@@ -35,7 +35,7 @@ IMPLEMENTATIONS = {"native": _core.back_project, "reference": reference.back_pro
 @pytest.mark.work(flops64=60 * 500, divs64=500, why="matrices of 3x3, point by point")
 @pytest.mark.parametrize("back_project", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_back_project(benchmark: Any, back_project: Callable[..., tuple[Floats, Floats]]) -> None:
-    """All see the same points, as sure of them."""
+    """All compute the same points and covariances."""
     arguments = MEASUREMENTS, VARIANCES, CAMERA, BASELINE
     for ours, theirs in zip(benchmark(back_project, *arguments), script(*arguments), strict=True):
         assert_allclose(ours, theirs, rtol=1e-10, atol=1e-14)

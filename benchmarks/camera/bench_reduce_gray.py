@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Gray levels of 640x480 in cells of 4x4: native, reference, and cv2's two calls."""
+"""Gray levels of 640x480 in cells of 4x4: native, reference, and two calls of cv2."""
 
 from collections.abc import Callable
 from typing import Any
@@ -15,7 +15,7 @@ Image = NDArray[np.uint8]
 
 
 def baseline(image: Image, step: int) -> Image:
-    """A conversion and a scaling."""
+    """cv2's conversion to gray, and resize."""
     gray = cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
     size = image.shape[1] // step, image.shape[0] // step
     return np.asarray(cv2.resize(gray, size, interpolation=cv2.INTER_AREA), np.uint8)

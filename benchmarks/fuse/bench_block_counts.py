@@ -21,7 +21,7 @@ def script(
     expected: float,
     tolerance: float,
 ) -> tuple[Any, ...]:
-    """The baseline: integral images of the part with blocks, whose corners are whole numbers here."""
+    """The baseline: integral images of the part with blocks, whose corners are integers here."""
     corners = blocks.astype(int)
     left, top = corners[:, :2].min(axis=0)
     right, bottom = corners[:, 2:].max(axis=0)
@@ -42,7 +42,7 @@ IMPLEMENTATIONS = {"native": _core.block_counts, "reference": reference.block_co
 
 
 def check(benchmark: Any, block_counts: Callable[..., Any], target: Any, size: int) -> None:
-    """All count the same; means to the rounding of integral images."""
+    """All count the same; means differ by the rounding of integral images."""
     x, y = np.meshgrid(np.arange(10) * size, np.arange(20) * size)
     x0, y0 = target.window[0] - size, 0
     low = np.column_stack([x.ravel() + x0, y.ravel() + y0])
@@ -59,7 +59,7 @@ def check(benchmark: Any, block_counts: Callable[..., Any], target: Any, size: i
 @pytest.mark.work(bytes=5 * 200 * 6 * 6, flops64=200 * 6 * 6, why="4 pixels at a time")
 @pytest.mark.parametrize("block_counts", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_block_counts(benchmark: Any, block_counts: Callable[..., Any], small: Any) -> None:
-    """In the paper's frame."""
+    """In a frame of 160x120, as in the paper."""
     check(benchmark, block_counts, small, 6)
 
 
@@ -67,5 +67,5 @@ def bench_block_counts(benchmark: Any, block_counts: Callable[..., Any], small: 
 @pytest.mark.work(bytes=5 * 200 * 24 * 24, flops64=200 * 24 * 24, why="4 pixels at a time")
 @pytest.mark.parametrize("block_counts", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_block_counts_of_many(benchmark: Any, block_counts: Callable[..., Any], large: Any) -> None:
-    """In a usual frame."""
+    """In a frame of 640x480."""
     check(benchmark, block_counts, large, 24)

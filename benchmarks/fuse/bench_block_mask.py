@@ -15,7 +15,7 @@ Mask = NDArray[np.uint8]
 
 
 def script(blocks: NDArray[np.float64], height: int, width: int) -> Mask:
-    """The baseline: cv2.rectangle, of corners that are whole numbers here."""
+    """The baseline: cv2.rectangle; corners are integers here."""
     mask = np.zeros((height, width), np.uint8)
     for x0, y0, x1, y1 in blocks.astype(int).tolist():
         cv2.rectangle(mask, (x0, y0), (x1 - 1, y1 - 1), 1, cv2.FILLED)
@@ -26,7 +26,7 @@ IMPLEMENTATIONS = {"native": _core.block_mask, "reference": reference.block_mask
 
 
 def check(benchmark: Any, block_mask: Callable[..., Mask], size: int) -> None:
-    """All mark the same: blocks side by side, 10 x 10, all in the image."""
+    """All mark the same 10 x 10 adjacent blocks, all in the image."""
     x, y = (each.ravel() * size for each in np.meshgrid(np.arange(10), np.arange(10)))
     blocks = np.column_stack([x + 5, y, x + size + 5, y + size]).astype(float)
     mask = benchmark(block_mask, blocks, 10 * size, 10 * size + 40)

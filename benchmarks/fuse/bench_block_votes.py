@@ -15,7 +15,7 @@ RULES = ((12.0, 2.0, 15.0), 0.25, (3, 4, 8, 20))
 
 
 def arrays() -> list[NDArray[Any]]:
-    """Blocks in any state, and what a frame measures in them."""
+    """Blocks in all states, and a frame's measurements in them."""
     rng = np.random.default_rng(0)
     blocks = [rng.integers(0, most, COUNT) for most in (3, 5, 9, 2, 4, 25)]
     cells = rng.choice(np.array([0, 5, 40]), COUNT)
@@ -25,7 +25,7 @@ def arrays() -> list[NDArray[Any]]:
 
 
 def script(*arguments: Any) -> tuple[list[Any], ...]:
-    """The baseline: one block after the other, in Python's numbers."""
+    """The baseline: one block after the other, with Python's numbers."""
     *numbers, (target, tolerance, occluder), least, (add, remove, release, unproven) = arguments
     rows = []
     for block in zip(*(each.tolist() for each in numbers), strict=True):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Two filters' answers to 19 channels of 32x32 cells: native, reference, and OpenCV's transforms."""
+"""Two filters' responses to 19 channels of 32x32 cells: native, reference, and OpenCV's transforms."""
 
 from collections.abc import Callable
 from typing import Any
@@ -20,7 +20,7 @@ FILTERS = np.ascontiguousarray(np.fft.rfft2(random.uniform(-1, 1, (2, *CELLS.sha
 
 
 def prepared(spectra: Complexes) -> list[Floats]:
-    """A filter as the baseline's tracker would hold it: whole spectra (32, 32, 2), made before the clock."""
+    """A filter as the baseline needs it: whole spectra (32, 32, 2), made before the clock starts."""
     weights = np.fft.irfft2(spectra, (32, 32)).astype(np.float32)
     return [cv2.dft(each, flags=cv2.DFT_COMPLEX_OUTPUT) for each in weights]
 
@@ -29,7 +29,7 @@ PREPARED = [prepared(each) for each in FILTERS]
 
 
 def script(cells: Floats, filters: Complexes) -> Floats:
-    """Do it as one would without the kernel."""
+    """The baseline: transforms and products by OpenCV, plane by plane."""
     planes = [cv2.dft(plane, flags=cv2.DFT_COMPLEX_OUTPUT) for plane in cells]
     answers = []
     for spectra in PREPARED:
@@ -52,7 +52,7 @@ IMPLEMENTATIONS = {
 @pytest.mark.work(flops32=21 * 25_600 + 2 * 19 * 8 * 32 * 17)
 @pytest.mark.parametrize("respond", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_correlation_response(benchmark: Any, respond: Callable[..., Floats]) -> None:
-    """All answer the same."""
+    """All give the same responses."""
     answer = benchmark(respond, CELLS, FILTERS)
     expected = reference.correlation_response(CELLS, FILTERS)
     assert_allclose(answer, expected, atol=1e-5 * abs(expected).max())

@@ -24,7 +24,7 @@ NONE = np.zeros((19, 32, 17), np.complex64), np.zeros((32, 17), np.float32)
 
 
 def spectrum(plane: Floats) -> Floats:
-    """(32, 32, 2), real and imaginary parts."""
+    """The spectrum (32, 32, 2): real and imaginary parts."""
     return cv2.dft(plane, flags=cv2.DFT_COMPLEX_OUTPUT)
 
 
@@ -38,7 +38,7 @@ def script(
     denominator: Floats,
     rate: float,
 ) -> Filter:
-    """Do it as one would without the kernel."""
+    """The baseline: transforms by OpenCV, products and blends by NumPy."""
     spectra = np.stack([spectrum(plane) for plane in cells])
     new = np.stack([cv2.mulSpectrums(WHOLE_LABEL, x, 0, conjB=True) for x in spectra])
     energy = (spectra * spectra).sum(axis=(0, 3))[HALF]

@@ -33,7 +33,7 @@ def script(responses: Plane, contrast: Plane, filter_weight: float, contrast_wei
     ids=["native", "reference", "baseline"],
 )
 def bench_evidence_peak(benchmark: Any, evidence_peak: Callable[..., Any]) -> None:
-    """All find the same, to the roundings of float32 in the fit."""
+    """All find the same, within the rounding of float32 in the fit."""
     y, x = np.indices((32, 32))
     responses = np.stack([np.exp(-((x - 14.3) ** 2 + (y - 17.8) ** 2) / s) for s in (9, 16)])
     contrast = np.random.default_rng(0).random((32, 32), np.float32)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A step of the filter on 100 rectangles: native, reference, and the native stages called one by one."""
+"""A step of the filter with 100 rectangles: native, reference, and the native stages called one by one."""
 
 from collections.abc import Callable
 from typing import Any
@@ -32,7 +32,7 @@ ARGUMENTS = (
 
 
 def log_likelihood(states: Floats) -> Floats:
-    """Nats, of each rectangle."""
+    """The log-likelihood of each rectangle."""
     seen = _core.depth_contrast(DEPTH, CAMERA, states, MODEL, *VIEW)
     likeness = -30 * seen[:, 0] ** 2 + 8 * (seen[:, 1] - seen[:, 3])
     return likeness + _core.rectangle_prior(states, *PRIOR[0], *PRIOR[1])
@@ -61,7 +61,7 @@ def script(*_: Any) -> tuple[Floats, ...]:
     ids=["native", "reference", "baseline"],
 )
 def bench_filter_rectangles(benchmark: Any, filter_rectangles: Callable[..., Any]) -> None:
-    """All find the same, to the rounding of the log-likelihoods."""
+    """All find the same, within the rounding of the log-likelihoods."""
     found, expected = benchmark(filter_rectangles, *ARGUMENTS), reference.filter_rectangles(*ARGUMENTS)
     for one, other in zip(found, expected, strict=False):
         assert_allclose(one, other, rtol=1e-11, atol=1e-13)

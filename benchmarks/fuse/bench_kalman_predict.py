@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""One step of the head tracker's seven numbers: native, reference, and OpenCV's filter."""
+"""A prediction of a state of seven numbers: native, reference, and OpenCV's filter."""
 
 from collections.abc import Callable
 from typing import Any
@@ -19,7 +19,7 @@ BASELINE = cv2.KalmanFilter(7, 7, 0, cv2.CV_64F)
 
 
 def baseline(mean: Floats, covariance: Floats, transition: Floats, noise: Floats) -> tuple[Floats, Floats]:
-    """OpenCV's, which has a state of its own that must be set, and writes into what it was set to."""
+    """OpenCV's filter: its own state must be set first, and it overwrites the arrays that it is set to."""
     BASELINE.statePost, BASELINE.errorCovPost = mean[:, None].copy(), covariance.copy()
     BASELINE.transitionMatrix, BASELINE.processNoiseCov = transition, noise
     return BASELINE.predict()[:, 0], BASELINE.errorCovPre

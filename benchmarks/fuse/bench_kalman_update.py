@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""One measurement of the head tracker's seven numbers: native, reference, and OpenCV's filter."""
+"""An update of a state of seven numbers: native, reference, and OpenCV's filter."""
 
 from collections.abc import Callable
 from typing import Any
@@ -21,7 +21,7 @@ BASELINE = cv2.KalmanFilter(7, 7, 0, cv2.CV_64F)
 def baseline(
     mean: Floats, covariance: Floats, measurement: Floats, observation: Floats, noise: Floats
 ) -> tuple[Floats, ...]:
-    """OpenCV's, which has a state of its own that must be set, and tells no innovation covariance."""
+    """OpenCV's filter: its own state must be set first, and it doesn't return the innovation covariance."""
     BASELINE.statePre, BASELINE.errorCovPre = mean[:, None].copy(), covariance.copy()
     BASELINE.measurementMatrix, BASELINE.measurementNoiseCov = observation, noise
     return BASELINE.correct(measurement[:, None])[:, 0], BASELINE.errorCovPost

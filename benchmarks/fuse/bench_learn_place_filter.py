@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A filter learned of a patch of 64x64 pixels: native, reference, and its parts one by one."""
+"""Learning of a filter from a patch of 64x64 pixels: native, reference, and its parts one by one."""
 
 from collections.abc import Callable
 from typing import Any
@@ -34,7 +34,7 @@ def script(patch: Any, taper: Any, mask: Any, label: Any, before: Any, first: An
     ids=["native", "reference", "baseline"],
 )
 def bench_learn_place_filter(benchmark: Any, learn_place_filter: Callable[..., Any]) -> None:
-    """All learn the same, to the roundings of transforms in float32."""
+    """All learn the same, within the rounding of transforms in float32."""
     arguments = PATCH, TAPER, MASK, LABEL, BEFORE, FIRST, 2.0, 0.05, 0.2
     applied = benchmark(learn_place_filter, *arguments)[1]
     expected = reference.learn_place_filter(*arguments)[1]

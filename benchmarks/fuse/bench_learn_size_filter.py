@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A filter learned of a patch of 64x64 pixels: native, reference, and its parts one by one."""
+"""Learning of a filter from a patch of 64x64 pixels: native, reference, and its parts one by one."""
 
 from collections.abc import Callable
 from typing import Any
@@ -37,7 +37,7 @@ def script(patch: Any, places: Any, taper: Any, label: Any, *filters: Any) -> An
     ids=["native", "reference", "baseline"],
 )
 def bench_learn_size_filter(benchmark: Any, learn_size_filter: Callable[..., Any]) -> None:
-    """All learn the same, to the roundings of transforms in float32."""
+    """All learn the same, within the rounding of transforms in float32."""
     arguments = PATCH, PLACES, TAPER, LABEL, BEFORE, BELOW, FIRST, FIRST_BELOW, 0.1, 0.2, 0.01
     applied = benchmark(learn_size_filter, *arguments)[2]
     expected = reference.learn_size_filter(*arguments)[2]

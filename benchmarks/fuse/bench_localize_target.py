@@ -19,7 +19,7 @@ BOX = 17.4, 26.1, 1.5, 0.5, 0.7, 0.3, 0.8
 
 
 def script(patch: Any, taper: Any, filters: Any, table: Any, other: Any, roots: Any, *box: float) -> Any:
-    """The baseline: a call for each part, the features of the place in NumPy."""
+    """The baseline: a call for each part, and NumPy for the features of the place."""
     responses = _core.correlation_response(_core.hog_color_cells(patch, taper), filters)
     posterior = _core.combine_posteriors(_core.color_posterior(patch, table), other)
     peak = _core.evidence_peak(responses, _core.box_contrast(posterior, *box[:4]), *box[4:6])
@@ -41,7 +41,7 @@ def script(patch: Any, taper: Any, filters: Any, table: Any, other: Any, roots: 
     ids=["native", "reference", "baseline"],
 )
 def bench_localize_target(benchmark: Any, localize_target: Callable[..., Any]) -> None:
-    """All find the same, to the roundings of the responses."""
+    """All find the same, within the rounding of the responses."""
     arguments = PATCH, TAPER, FILTERS, TABLE, OTHER, ROOTS, *BOX
     found, _ = benchmark(localize_target, *arguments)
     expected, _ = reference.localize_target(*arguments)

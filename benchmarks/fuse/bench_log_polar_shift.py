@@ -16,7 +16,7 @@ FILTER = np.ascontiguousarray(np.fft.rfft2(random.uniform(-1, 1, (1, 19, 32, 32)
 
 
 def script(patch: Any, places: Any, taper: Any, model: Any, right: int, down: int, penalty: float) -> Any:
-    """The baseline: a call for each part, the peak in NumPy."""
+    """The baseline: a call for each part, and NumPy for the peak."""
     cells = _core.hog_color_cells(_core.pick_pixels(patch, places), taper)
     near = _core.correlation_response(cells, model)[0][16 - down : 17 + down, 16 - right : 17 + right]
     evidence = near - penalty * np.arange(-right, right + 1) ** 2
@@ -38,7 +38,7 @@ def script(patch: Any, places: Any, taper: Any, model: Any, right: int, down: in
     ids=["native", "reference", "baseline"],
 )
 def bench_log_polar_shift(benchmark: Any, log_polar_shift: Callable[..., Any]) -> None:
-    """All find the same, to the roundings of the responses."""
+    """All find the same, within the rounding of the responses."""
     arguments = PATCH, PLACES, TAPER, FILTER, 2, 1, 0.05
     found = benchmark(log_polar_shift, *arguments)
     assert found == pytest.approx(reference.log_polar_shift(*arguments), abs=1e-3)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A target's pixels, and what is in 200 blocks: native, reference, and a script on NumPy and OpenCV."""
+"""A target's pixels, and counts in 200 blocks: native, reference, and a script on NumPy and OpenCV."""
 
 from collections.abc import Callable
 from typing import Any
@@ -15,7 +15,7 @@ COLUMNS, ROWS = 10, 20
 
 
 def cleaned(mask: Any, neighbors: int, share: float, trim: float) -> Any:
-    """Large regions of dense pixels, and the box around them."""
+    """The large regions of dense pixels, and the box around them."""
     around = cv2.filter2D(mask, -1, np.ones((3, 3)), borderType=cv2.BORDER_CONSTANT) - mask
     dense = mask * (around >= neighbors).astype(np.uint8)
     _, labels, stats, _ = cv2.connectedComponentsWithStats(dense, connectivity=8)
@@ -43,7 +43,7 @@ def script(
     states: Any,
     limits: tuple[float, float, float],
 ) -> Any:
-    """The baseline: posteriors by tables, regions by OpenCV, and a slice of each block."""
+    """The baseline: posteriors by tables, regions by OpenCV, and a slice for each block."""
     shape = planes[0].shape
     columns = np.interp(np.arange(shape[1]) + 0.5, [candidate[0], *window[::2], candidate[2]], [0, 1, 1, 0])
     rows = np.interp(np.arange(shape[0]) + 0.5, [candidate[1], *window[1::2], candidate[3]], [0, 1, 1, 0])
@@ -75,7 +75,7 @@ IMPLEMENTATIONS = {"native": _core.observe_target, "reference": reference.observ
 
 
 def check(benchmark: Any, observe_target: Callable[..., Any], target: Any) -> None:
-    """All find the same but for a few pixels whose reading lies where rounding decides on its bin."""
+    """All find the same, except for a few pixels whose bin depends on rounding."""
     x0, y0, x1, y1 = target.window
     i, j = (each.ravel() for each in np.meshgrid(np.arange(COLUMNS), np.arange(ROWS)))
     left, top = (i / COLUMNS - 0.5) * (x1 - x0), (j / ROWS - 0.5) * (y1 - y0)
@@ -116,5 +116,5 @@ WHY = "short rows; blocks one after the other"
 @pytest.mark.work(lookups=3 * 60 * 75, bytes=3 * 4 * 60 * 75 + 5 * 160 * 120, why=WHY)
 @pytest.mark.parametrize("observe_target", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_observe_target(benchmark: Any, observe_target: Callable[..., Any], small: Any) -> None:
-    """Of a target in the paper's frame."""
+    """In a frame of 160x120, as in the paper."""
     check(benchmark, observe_target, small)

@@ -36,7 +36,7 @@ def script(
     lower: Floats,
     upper: Floats,
 ) -> Floats:
-    """The baseline: the same without any check."""
+    """The baseline: the same without checks of arguments."""
     moved = particles + drift + scale * noise
     every = round(1 / share)
     moved[every - 1 :: every, :2] = mean + noise[every - 1 :: every, :2] @ root.T

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A step of the color tracker's filter with 100 particles: native, reference, and a script on both."""
+"""A step of the color particle tracker's filter, 100 particles: native, reference, a cv2 and NumPy script."""
 
 from collections.abc import Callable
 from typing import Any
@@ -29,7 +29,7 @@ def log_likelihoods(
     sharpness: float,
     contrast_weight: float,
 ) -> Floats:
-    """By remap, calcHist and an indexed table."""
+    """Log-likelihoods by remap, calcHist and an indexed table."""
     cells = (image >> 4).astype(np.int32)
     likely = table[cells[..., 0], cells[..., 1], cells[..., 2]]
     means = []
@@ -90,7 +90,7 @@ def script(
     "rank_filter", [_core.rank_filter, reference.rank_filter, script], ids=["native", "reference", "baseline"]
 )
 def bench_rank_filter(benchmark: Any, rank_filter: Callable[..., Any], frame: Image) -> None:
-    """Twins agree; the script's places are rounded to 1/32 of a pixel, which moves the estimate a little."""
+    """The twins agree; the script rounds places to 1/32 pixel, which changes the estimate slightly."""
     rng = np.random.default_rng(0)
     particles = rng.normal([160, 120, 25, 31], [5, 5, 1, 1], (N, 4))
     maps, table = rng.random((2, 3, 96), np.float32), rng.random((16, 16, 16), np.float32)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What is known of 100 rectangles beforehand: native, reference, and a script on NumPy."""
+"""The prior of 100 rectangles: native, reference, and a script on NumPy."""
 
 from collections.abc import Callable
 from typing import Any
@@ -26,7 +26,7 @@ ARGUMENTS = (
 def script(
     states: Floats, size: Floats, spread: Floats, state: Floats, deviation: Floats, most: float
 ) -> Floats:
-    """The baseline: the same without any check."""
+    """The baseline: the same without checks of arguments."""
     off, away = np.log(states[:, 3:] / size) / spread, (states - state) / deviation
     return -(off * off).sum(axis=1) / 2 - np.minimum((away * away).sum(axis=1) / 2, most)
 
@@ -42,7 +42,7 @@ IMPLEMENTATIONS = {
 @pytest.mark.work(flops64=100 * (2 * 20 + 20), why="logarithms, one by one")
 @pytest.mark.parametrize("rectangle_prior", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_rectangle_prior(benchmark: Any, rectangle_prior: Callable[..., Floats]) -> None:
-    """All know the same, to the rounding of seven squares."""
+    """All compute the same prior, within the rounding of seven squares."""
     prior = benchmark(rectangle_prior, *ARGUMENTS)
     assert_allclose(prior, reference.rectangle_prior(*ARGUMENTS), rtol=20 * 2.0**-52)
-    assert prior.min() < -12  # some are as far off as counts
+    assert prior.min() < -12  # some reach the largest cost

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A filter of 19 channels of 32x32 cells in a mask: native, reference, and OpenCV's transforms one by one."""
+"""Learning of a masked filter, 19 channels of 32x32 cells: native, reference, and OpenCV's transforms."""
 
 from collections.abc import Callable
 from typing import Any
@@ -19,14 +19,14 @@ CELLS = random.uniform(0, 0.4, (19, 32, 32)).astype(np.float32)
 BELL = np.hanning(32)
 BELLS = np.roll(np.outer(BELL, BELL) ** 8, (16, 16), (0, 1))
 LABEL = np.ascontiguousarray(np.fft.rfft2(BELLS), np.complex64)
-PROFILE = np.pad(np.hanning(24)[1:-1], 5)  # as the fused tracker's, of two thirds of the window
+PROFILE = np.pad(np.hanning(24)[1:-1], 5)  # like the fused tracker's mask, two thirds of the window wide
 MASK = np.outer(PROFILE, PROFILE).astype(np.float32)
 NONE = np.zeros((19, 32, 17), np.complex64)
 PREVIOUS = reference.regularized_filter(CELLS[:, ::-1].copy(), MASK, LABEL, NONE, 0.0, 1.0)
 
 
 def whole(half: Complexes) -> Complexes:
-    """(32, 32) of (32, 17): with the other frequencies, which mirror these."""
+    """(32, 32) from (32, 17): with the other frequencies, which mirror these."""
     return np.fft.fft2(np.fft.irfft2(half, (32, 32))).astype(np.complex64)
 
 
@@ -36,7 +36,7 @@ MIRRORED = np.roll(MASK[::-1, ::-1], 1, (0, 1))
 
 
 def spectrum(plane: Floats) -> Complexes:
-    """(32, 32), all frequencies."""
+    """The spectrum (32, 32) with all frequencies."""
     return cv2.dft(plane, flags=cv2.DFT_COMPLEX_OUTPUT).view(np.complex64)[..., 0]
 
 
@@ -54,7 +54,7 @@ def script(
     temporal_weight: float,
     penalty: float,
 ) -> Complexes:
-    """Do it as one would without the kernel."""
+    """The baseline: transforms by OpenCV, one by one, and NumPy."""
     channels = np.stack([spectrum(each) for each in cells])
     conjugate = channels.conj()
     energy = (channels.real**2 + channels.imag**2).sum(axis=0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Systematic resampling of 100 particles: native, reference, and the NumPy lines that everybody writes."""
+"""Systematic resampling of 100 particles: native, reference, and a few lines of NumPy."""
 
 from collections.abc import Callable
 from typing import Any
@@ -15,7 +15,7 @@ OFFSET = 0.3
 
 
 def script(weights: NDArray[np.float64], offset: float) -> NDArray[np.int64]:
-    """The baseline: comb through the cumulative sum."""
+    """The baseline: searchsorted in the cumulative sum."""
     cumulative = np.cumsum(weights / weights.sum())
     cumulative[-1] = 1.0
     teeth = (np.arange(len(weights)) + offset) / len(weights)

@@ -35,7 +35,7 @@ def script(
     root: Floats,
     share: float,
 ) -> tuple[Floats, float]:
-    """The baseline: densities as in the textbook; NaN as soon as all of them underflow."""
+    """The baseline: densities as in the textbook; NaN if all of them underflow."""
     position = proposed[:, :2]
     z = (position - previous[:, :2] - drift[:2]) / scale[:2]
     p = np.exp(-0.5 * (z * z).sum(axis=1)) / (scale[0] * scale[1])

@@ -18,7 +18,7 @@ RIPPLE = 0.05
 def script(
     histogram: Floats, smoothing: float, ripple: float, expected: float, spread: float
 ) -> tuple[Floats, float]:
-    """The baseline: blurred as an image of one row, then a walk down either side."""
+    """The baseline: blurred as an image of one row, then a search for the minimum on each side."""
     size = (2 * int(np.ceil(4 * smoothing)) + 1, 1)
     smooth, ones = (
         cv2.GaussianBlur(values[None], size, smoothing, borderType=cv2.BORDER_CONSTANT)[0]
@@ -52,7 +52,7 @@ IMPLEMENTATIONS = {
 
 
 def check(benchmark: Any, target_distribution: Callable[..., Any], expected: float) -> float:
-    """All cut the same histogram of three bumps on both sides, within rounding; the peak."""
+    """All cut the same histogram of three bumps on both sides, within rounding; returns the peak."""
     bins = np.arange(64)
     bumps = [(300, 30, 3), (120, 18, 3), (150, 45, 4)]
     histogram = sum(weight * np.exp(-0.5 * ((bins - mean) / width) ** 2) for weight, mean, width in bumps)
@@ -70,7 +70,7 @@ def check(benchmark: Any, target_distribution: Callable[..., Any], expected: flo
 @pytest.mark.work(flops64=64 * 6 * 4, why="the call, and bins searched one by one")
 @pytest.mark.parametrize("target_distribution", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_target_distribution(benchmark: Any, target_distribution: Callable[..., Any]) -> None:
-    """Of the highest of three bumps."""
+    """The highest of three bumps."""
     assert abs(check(benchmark, target_distribution, np.nan) - 30.5) < 1
 
 
@@ -78,5 +78,5 @@ def bench_target_distribution(benchmark: Any, target_distribution: Callable[...,
 @pytest.mark.work(flops64=64 * (6 * 4 + 20), why="the call, and bins searched one by one")
 @pytest.mark.parametrize("target_distribution", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_target_distribution_expected(benchmark: Any, target_distribution: Callable[..., Any]) -> None:
-    """Of a lower one that is expected."""
+    """A lower bump, at the expected place."""
     assert abs(check(benchmark, target_distribution, 46.0) - 45.5) < 1

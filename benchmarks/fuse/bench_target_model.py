@@ -16,7 +16,7 @@ RULES = (BINS, 1.5, 0.05, 0.8, 0.8)
 
 
 def script(maps: Any, expected: Any, window: Any, blocks: Any, depth: Any, before: Any, rules: Any) -> Any:
-    """The baseline: histograms by NumPy, smoothed, whose highest bin is the peak."""
+    """The baseline: histograms by NumPy, smoothed; the peak is the highest bin."""
     x0, y0, x1, y1 = map(int, window)
     target = np.zeros(maps[0][0].shape, np.bool_)
     target[y0:y1, x0:x1] = True
@@ -42,7 +42,7 @@ IMPLEMENTATIONS = {"native": _core.target_model, "reference": reference.target_m
 
 
 def check(benchmark: Any, target_model: Callable[..., Any], target: Any) -> None:
-    """Native and reference agree; the baseline's peaks are the same to a bin, its alternatives to 1 %."""
+    """The twins agree; the baseline's peaks are the same within a bin, its alternatives within 1 %."""
     x0, y0, x1, y1 = target.window
     blocks = np.array([[0.0, 0.0, x1 - x0, y1 - y0]]), (1.0, x0, y0, 0.0, 0.0), np.array([1]), np.array([3])
     lows = [value - half for value, _, half in EXPECTED]
@@ -63,5 +63,5 @@ def check(benchmark: Any, target_model: Callable[..., Any], target: Any) -> None
 @pytest.mark.work(lookups=3 * 160 * 120, bytes=3 * 8 * 160 * 120, why="a sum at a time of the bins")
 @pytest.mark.parametrize("target_model", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_target_model(benchmark: Any, target_model: Callable[..., Any], small: Any) -> None:
-    """Of a target in the paper's frame."""
+    """In a frame of 160x120, as in the paper."""
     check(benchmark, target_model, small)

@@ -23,7 +23,7 @@ def script(
     threshold: float,
     alternatives: list[NDArray[np.float64]],
 ) -> tuple[NDArray[np.uint8], Plane]:
-    """The baseline: the same on the candidate region's pixels, whole numbers here; the prior by np.interp."""
+    """The baseline: the same in the candidate region, with integer corners here; the prior by np.interp."""
     x0, y0, x1, y1 = map(int, candidate)
     part = np.s_[y0:y1, x0:x1]
     columns = np.interp(np.arange(x0, x1) + 0.5, [x0, window[0], window[2], x1], [0, 1, 1, 0])
@@ -44,8 +44,8 @@ IMPLEMENTATIONS = {"native": _core.target_pixels, "reference": reference.target_
 
 
 def check(benchmark: Any, target_pixels: Callable[..., Any], target: Any) -> None:
-    """All decide alike but for a pixel whose reading lies where rounding decides on its bin. How the
-    alternatives are makes no difference to the time.
+    """All decide the same, except for a pixel whose bin depends on rounding. The time doesn't depend on the
+    alternatives.
     """
     ramp = np.linspace(1, 2, len(target.densities[0]))
     alternatives = [0.9 * ramp / ramp.sum()] * 3
@@ -63,7 +63,7 @@ def check(benchmark: Any, target_pixels: Callable[..., Any], target: Any) -> Non
 @pytest.mark.work(lookups=3 * 60 * 75, bytes=3 * 4 * 60 * 75 + 5 * 160 * 120)
 @pytest.mark.parametrize("target_pixels", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_target_pixels(benchmark: Any, target_pixels: Callable[..., Any], small: Any) -> None:
-    """Of a target in the paper's frame."""
+    """In a frame of 160x120, as in the paper."""
     check(benchmark, target_pixels, small)
 
 
@@ -71,5 +71,5 @@ def bench_target_pixels(benchmark: Any, target_pixels: Callable[..., Any], small
 @pytest.mark.work(lookups=3 * 240 * 300, bytes=3 * 4 * 240 * 300 + 5 * 640 * 480)
 @pytest.mark.parametrize("target_pixels", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_target_pixels_of_many(benchmark: Any, target_pixels: Callable[..., Any], large: Any) -> None:
-    """Of a target in a usual frame."""
+    """In a frame of 640x480."""
     check(benchmark, target_pixels, large)

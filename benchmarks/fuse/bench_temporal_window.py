@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The rectangle round target pixels, among as many wrong ones: native, reference, and a script on OpenCV."""
+"""The rectangle around target pixels, among as many wrong ones: native, reference, an OpenCV script."""
 
 from collections.abc import Callable
 from typing import Any
@@ -17,7 +17,7 @@ NEIGHBORS, SHARE, TRIM = 3, 0.2, 0.02
 
 
 def script(mask: Mask, neighbors: int, share: float, trim: float) -> tuple[Any, int, Mask]:
-    """The baseline: filter2D for the neighbors, connected components, cumulative sums of rows, columns."""
+    """The baseline: filter2D for neighbors, connected components, cumulative sums over rows and columns."""
     counts = cv2.filter2D(mask, cv2.CV_8U, AROUND, borderType=cv2.BORDER_CONSTANT)
     enough = mask * (counts >= neighbors)
     _, labels, stats, _ = cv2.connectedComponentsWithStats(enough, ltype=cv2.CV_32S)
@@ -41,8 +41,10 @@ IMPLEMENTATIONS = {
 
 
 def check(benchmark: Any, temporal_window: Callable[..., Any], target: Any) -> None:
-    """All leave the same, in the same box, of which both that and the clean-up have had to be found: some
-    pixels are left and some not, and, though half of them were anywhere, the box is in the candidate region.
+    """All keep the same pixels and find the same box.
+
+    Some pixels are kept and some removed, and though half of the pixels are anywhere in the frame, the box is
+    in the candidate region.
     """
     wrong = np.random.default_rng(1).random(target.mask.shape) < target.mask.mean()
     mask = target.mask | wrong.astype(np.uint8)
@@ -61,7 +63,7 @@ def check(benchmark: Any, temporal_window: Callable[..., Any], target: Any) -> N
 @pytest.mark.work(ops8=12 * 160 * 120, bytes=2 * 160 * 120, why="runs are joined one by one")
 @pytest.mark.parametrize("temporal_window", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_temporal_window(benchmark: Any, temporal_window: Callable[..., Any], small: Any) -> None:
-    """In the paper's frame."""
+    """In a frame of 160x120, as in the paper."""
     check(benchmark, temporal_window, small)
 
 
@@ -69,5 +71,5 @@ def bench_temporal_window(benchmark: Any, temporal_window: Callable[..., Any], s
 @pytest.mark.work(ops8=12 * 640 * 480, bytes=2 * 640 * 480, why="runs are joined one by one")
 @pytest.mark.parametrize("temporal_window", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_temporal_window_of_many(benchmark: Any, temporal_window: Callable[..., Any], large: Any) -> None:
-    """In a usual frame."""
+    """In a frame of 640x480."""
     check(benchmark, temporal_window, large)

@@ -17,7 +17,7 @@ RANGES = [(-4.0, 4.0), (-4.0, 4.0), (0.0, 16.0)]
 def script(
     values: Plane, weights: Plane, region: Any, low: float, high: float, bins: int, mask: NDArray[np.uint8]
 ) -> NDArray[np.float64]:
-    """The baseline: NumPy's histogram, which has weights; OpenCV's has none."""
+    """The baseline: NumPy's histogram, because OpenCV's has no weights."""
     x0, y0, x1, y1 = map(int, region)
     part = np.s_[y0:y1, x0:x1]
     seen = (mask[part] > 0) & np.isfinite(values[part])
@@ -25,7 +25,7 @@ def script(
 
 
 def run(histogram: Histogram, target: Any, mask: NDArray[np.uint8]) -> list[NDArray[np.float64]]:
-    """Those of u, v and d."""
+    """The histograms of u, v and d."""
     return [
         histogram(values, weights, target.window, *limits, 64, mask)
         for values, weights, limits in zip(target.planes, target.weights, RANGES, strict=True)
@@ -40,7 +40,7 @@ IMPLEMENTATIONS = {
 
 
 def check(benchmark: Any, histogram: Histogram, target: Any) -> None:
-    """All sum the same, but for a few values whose bin rounding decides."""
+    """All sum the same, except for a few values whose bin depends on rounding."""
     mask = (np.random.default_rng(1).random(target.mask.shape) < 0.8).astype(np.uint8)
     found = benchmark(run, histogram, target, mask)
     for ours, theirs in zip(found, run(reference.weighted_histogram, target, mask), strict=True):
@@ -52,7 +52,7 @@ def check(benchmark: Any, histogram: Histogram, target: Any) -> None:
 @pytest.mark.work(counts=3 * 40 * 60 // 2, why="sums in one order")
 @pytest.mark.parametrize("histogram", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_weighted_histogram(benchmark: Any, histogram: Histogram, small: Any) -> None:
-    """Of a target in the paper's frame."""
+    """In a frame of 160x120, as in the paper."""
     check(benchmark, histogram, small)
 
 
@@ -60,5 +60,5 @@ def bench_weighted_histogram(benchmark: Any, histogram: Histogram, small: Any) -
 @pytest.mark.work(counts=3 * 160 * 240 // 2, why="sums in one order")
 @pytest.mark.parametrize("histogram", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_weighted_histogram_of_many(benchmark: Any, histogram: Histogram, large: Any) -> None:
-    """Of a target in a usual frame."""
+    """In a frame of 640x480."""
     check(benchmark, histogram, large)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Flow and disparity round a target, made before any clock starts: what the flow and depth tracker sees."""
+"""Flow and disparity around a target, as the flow-depth tracker gets them, made before any clock starts."""
 
 from dataclasses import dataclass
 
@@ -17,7 +17,7 @@ BINS = 64
 
 @dataclass(frozen=True)
 class Target:
-    """A target's planes u, v, d (H, W), their weights, densities, and where it is."""
+    """A target's planes u, v, d (H, W), with their weights, densities and the target's place."""
 
     planes: list[Plane]
     weights: list[Plane]
@@ -28,8 +28,8 @@ class Target:
 
 
 def target(width: int, height: int) -> Target:
-    """A target of a quarter of the width and half of the height before a background that moves otherwise; a
-    third of the readings is missing.
+    """A target of a quarter of the width and half of the height, in front of a background that moves
+    differently; a third of the readings is missing.
     """
     rng = np.random.default_rng(0)
     x0, y0, x1, y1 = width * 3 // 8, height // 4, width * 5 // 8, height * 3 // 4

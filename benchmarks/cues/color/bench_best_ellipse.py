@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""An ellipse of 30x36 pixels at 17x9 places over 4096 bins: native, reference, and the script on NumPy."""
+"""An ellipse of 30x36 pixels at 17x9 places over 4096 bins: native, reference, and a NumPy script."""
 
 from collections.abc import Callable
 from typing import Any
@@ -19,7 +19,7 @@ GRID, MARGIN, WEIGHTS, MIN_MARKED = (9, 17, 1), 1.4, (0.6, 0.4, 0.5), 8
 def script(
     bins: Bins, ellipse: Floats, grid: Any, model: Floats, margin: float, mask: Any, weights: Any, least: int
 ) -> tuple[int, int, float, float, float, Floats]:
-    """The baseline: the native search, and NumPy on what it measures."""
+    """The baseline: the native search, then NumPy for the scores and colors."""
     measured = _core.ellipse_search(bins, ellipse, grid, model, margin, mask)
     ring, depth, depth_ring = weights
     scores = measured[..., 0] - ring * measured[..., 1]

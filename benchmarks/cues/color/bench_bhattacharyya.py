@@ -15,7 +15,7 @@ Image = NDArray[np.uint8]
 
 
 def script(histograms: NDArray[np.float32], model: NDArray[np.float32], groups: int) -> NDArray[np.float64]:
-    """The baseline: compareHist of each histogram and channel, their squares averaged."""
+    """The baseline: compareHist for each histogram and channel; the squares are averaged."""
     split, target = histograms.reshape(len(histograms), groups, -1), model.reshape(groups, -1)
     squares = [
         [cv2.compareHist(row[k], target[k], cv2.HISTCMP_BHATTACHARYYA) ** 2 for k in range(groups)]
@@ -33,7 +33,7 @@ def script(histograms: NDArray[np.float32], model: NDArray[np.float32], groups: 
     ids=["native", "reference", "baseline"],
 )
 def bench_bhattacharyya(benchmark: Any, bhattacharyya: Callable[..., Any], samples: Image) -> None:
-    """All measure the same; near 0 the root enlarges the rounding of float histograms."""
+    """All measure the same; near 0 the square root amplifies the rounding of float histograms."""
     histograms = reference.color_histogram(samples, 16)
     distances = benchmark(bhattacharyya, histograms, histograms[0], 3)
     assert_allclose(

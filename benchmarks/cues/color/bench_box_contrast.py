@@ -17,7 +17,7 @@ PLANE = np.random.default_rng(0).random((64, 64)).astype(np.float32)
 
 
 def script(plane: Plane, width: float, height: float, outer: float, around: float) -> Plane:
-    """Do it as one would without the kernel: corners between pixels are read from the integral image."""
+    """The baseline: corners between pixels are read from the integral image by remap."""
     integral = cv2.integral(plane, sdepth=cv2.CV_64F).astype(np.float32)
     rows, columns = plane.shape[0] // 2, plane.shape[1] // 2
     y, x = (n + 2.0 * (np.arange(n) - n // 2) for n in (rows, columns))
@@ -43,7 +43,7 @@ IMPLEMENTATIONS = {"native": _core.box_contrast, "reference": reference.box_cont
 @pytest.mark.work(lookups=2 * 4 * 32 * 32, why="the sums, row after row")
 @pytest.mark.parametrize("contrast", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_box_contrast(benchmark: Any, contrast: Callable[..., Plane]) -> None:
-    """All agree; remap's places are rounded to 1/32 pixel, which is a hundredth of the box."""
+    """All agree; remap rounds places to 1/32 pixel, a hundredth of the box."""
     found = benchmark(contrast, PLANE, 23.4, 30.1, 1.5, 1.0)
     expected = reference.box_contrast(PLANE, 23.4, 30.1, 1.5, 1.0)
     assert_allclose(found, expected, atol=0.01 if contrast is script else 1e-6)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Bins of the region that a head is searched in, 60x56: native, reference, and a script on NumPy."""
+"""Bins of the region in which a head is searched for, 60x56: native, reference, and a NumPy script."""
 
 from collections.abc import Callable
 from typing import Any
@@ -16,7 +16,7 @@ Image = NDArray[np.uint8]
 def script(
     image: Image, region: tuple[int, int, int, int], bins: tuple[int, int, int], chroma: int, step: int
 ) -> NDArray[np.uint16]:
-    """The baseline: slices, differences, shifts, as powers of two need no division."""
+    """The baseline: slices and differences, and shifts instead of divisions by powers of two."""
     x0, y0, x1, y1 = region
     b, g, r = np.moveaxis(image[y0:y1:step, x0:x1:step].astype(np.int32), 2, 0)
     first = np.clip(b - g + chroma, 0, 2 * chroma - 1) * bins[0] // (2 * chroma)

@@ -14,7 +14,7 @@ Image = NDArray[np.uint8]
 
 
 def script(samples: Image, table: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The baseline: take by one index, on tables of 32 levels."""
+    """The baseline: take with one flat index, for tables of 32 levels."""
     b, g, r = (samples >> 3).astype(np.int32).transpose(1, 0, 2)
     result: NDArray[np.float32] = table.ravel().take(b << 10 | g << 5 | r)
     return result

@@ -15,7 +15,7 @@ Plane = NDArray[np.float32]
 
 
 def script(image: Image, table: Plane) -> Plane:
-    """The baseline: take by one index, on tables of 16 levels."""
+    """The baseline: take with one flat index, for tables of 16 levels."""
     cells = (image >> 4).astype(np.int32)
     result: Plane = table.ravel().take(cells[..., 0] << 8 | cells[..., 1] << 4 | cells[..., 2])
     return result

@@ -15,7 +15,7 @@ Image = NDArray[np.uint8]
 
 
 def script(samples: Image) -> NDArray[np.float64]:
-    """The baseline: average ranks, moved to the same origin."""
+    """The baseline: average ranks, shifted to the same origin."""
     return (rankdata(samples, axis=2) - 0.5) / samples.shape[2]  # type: ignore[no-any-return]
 
 

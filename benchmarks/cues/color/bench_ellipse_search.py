@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""An ellipse of 30x36 pixels at 16x4 places over 4096 bins: native, reference, and a script on OpenCV; and
-what it takes natively without a walk, every place counted from scratch.
+"""An ellipse of 30x36 pixels at 16x4 places over 4096 bins: native, reference, and a script on OpenCV.
+Also natively without sliding: every place is counted from scratch.
 """
 
 from collections.abc import Callable
@@ -26,7 +26,7 @@ def every_place(ellipse: Floats, grid: Grid) -> Floats:
 
 
 def full(bins: Bins, ellipse: Floats, grid: Grid, model: Floats, margin: float, mask: None) -> Floats:
-    """Each place is a search of its own: counted from scratch, compared natively."""
+    """Each place is a separate native search, so it is counted from scratch."""
     places = every_place(ellipse, grid)
     found = [_core.ellipse_search(bins, place, (1, 1, 1), model, margin, mask) for place in places]
     return np.reshape(found, (*grid[:2], 4))
@@ -55,7 +55,7 @@ def script(bins: Bins, ellipse: Floats, grid: Grid, model: Floats, margin: float
 def bench_ellipse_search(
     benchmark: Any, ellipse_search: Callable[..., Floats], region_bins: Bins, ellipse: Floats, model: Floats
 ) -> None:
-    """All find the same: the native search within its rounding, the script within that of float32."""
+    """All find the same: the native search within its own rounding, the script within float32's."""
     arguments = (region_bins, ellipse, (4, 16, 1), model, 1.4, None)
     found = benchmark(ellipse_search, *arguments)
     assert_allclose(found, reference.ellipse_search(*arguments), rtol=0, atol=1e-5)

@@ -15,7 +15,7 @@ BINS, CHROMA = (32, 32, 4), 64
 
 
 def script(histogram: Floats, bins: tuple[int, int, int], chroma: int) -> Floats:
-    """The baseline: the marginals, one tensor product an axis."""
+    """The baseline: the marginals, one tensor product per axis."""
     cube = histogram.reshape(bins)
     chromas = [-chroma + (np.arange(n) + 0.5) * 2 * chroma / n - 0.5 for n in bins[:2]]
     light = (np.arange(bins[2]) + 0.5) * 766 / bins[2] - 0.5

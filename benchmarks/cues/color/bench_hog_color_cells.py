@@ -18,7 +18,7 @@ HAT = np.array([1, 3, 3, 1]) / 4  # bilinear weights of the pixels around a cell
 
 
 def script(patch: Image, taper: Planes) -> Planes:
-    """Do it as one would without the kernel."""
+    """The baseline: gradients, bins and block norms by cv2 and NumPy."""
     levels = patch.astype(np.float32)
     right = cv2.Sobel(levels, -1, 1, 0, ksize=1, borderType=cv2.BORDER_REPLICATE)
     down = cv2.Sobel(levels, -1, 0, 1, ksize=1, borderType=cv2.BORDER_REPLICATE)
@@ -62,7 +62,7 @@ IMPLEMENTATIONS = {
 @pytest.mark.work(flops32=84 * 64 * 64, divs32=2 * 64 * 64, why="planes are read 2 by 2")
 @pytest.mark.parametrize("cells_of", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_hog_color_cells(benchmark: Any, cells_of: Callable[..., Planes], frame: Image) -> None:
-    """All agree to float32's rounding."""
+    """All agree within float32's rounding."""
     patch = np.ascontiguousarray(frame[80:144, 100:164])
     taper = np.outer(np.hanning(34)[1:-1], np.hanning(34)[1:-1]).astype(np.float32)
     found = benchmark(cells_of, patch, taper)

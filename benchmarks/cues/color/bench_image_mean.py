@@ -28,6 +28,6 @@ def baseline(image: Image, step: int) -> Floats:
     ids=["native", "reference", "baseline"],
 )
 def bench_image_mean(benchmark: Any, image_mean: Callable[..., Floats]) -> None:
-    """All give the same mean but for its last bit."""
+    """All give the same mean, except for its last bit."""
     image = np.random.default_rng(0).integers(0, 256, (480, 640, 3), np.uint8)
     assert_allclose(benchmark(image_mean, image, 4), reference.image_mean(image, 4), rtol=1e-15)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Joint histograms of 16 bins a channel of 100 ellipses: native, reference, and a script on OpenCV."""
+"""Joint histograms of 100 ellipses, 16 bins per channel: native, reference, and a script on OpenCV."""
 
 from collections.abc import Callable
 from typing import Any

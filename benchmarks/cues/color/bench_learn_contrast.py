@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Colors in and round a target, 600 samples each, learned: native, reference, and a script on OpenCV."""
+"""Learning of colors in and around a target, 600 samples each: native, reference, and an OpenCV script."""
 
 from collections.abc import Callable
 from typing import Any
@@ -48,7 +48,7 @@ def script(
     ids=["native", "reference", "baseline"],
 )
 def bench_learn_contrast(benchmark: Any, learn_contrast: Callable[..., Any], frame: Image) -> None:
-    """All learn the same, but for samples that rounding moves to the next pixel."""
+    """All learn the same, except for samples that rounding moves to the next pixel."""
     rng = np.random.default_rng(0)
     target, surround = (cube / cube.sum() for cube in rng.random((2, 16, 16, 16), np.float32))
     ellipse, patterns = np.array([160.0, 120, 25, 31]), (ring(600, 0.0, 1.0), ring(600, 1.15, 2.0))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A histogram of 4096 bins that learns, with its mean: native, reference, and a script on NumPy."""
+"""Learning of a histogram of 4096 bins, and its mean: native, reference, and a script on NumPy."""
 
 from collections.abc import Callable
 from typing import Any
@@ -23,7 +23,7 @@ def script(
     bins: tuple[int, int, int],
     chroma: int,
 ) -> tuple[Floats, Floats, Floats]:
-    """The baseline: mixtures, and the marginals, one tensor product an axis."""
+    """The baseline: mixtures, and the marginals, one tensor product per axis."""
     learned = histogram + rate * (measured - histogram)
     cube = learned.reshape(bins)
     chromas = [-chroma + (np.arange(n) + 0.5) * 2 * chroma / n - 0.5 for n in bins[:2]]

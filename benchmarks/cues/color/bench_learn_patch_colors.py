@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Colors learned of a patch of 64x64 pixels: native, reference, and a script on masks and learn_contrast."""
+"""Learning of colors from a patch of 64x64 pixels: native, reference, and a script on OpenCV and NumPy."""
 
 from collections.abc import Callable
 from typing import Any

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Two rank maps of 96 places, of which one learns: native, reference, and a script on OpenCV."""
+"""Learning of one of two rank maps of 96 places: native, reference, and a script on OpenCV."""
 
 from collections.abc import Callable
 from typing import Any
@@ -25,7 +25,7 @@ def script(models: Singles, ranks: Singles, rate: float) -> Singles:
     "learn_ranks", [_core.learn_ranks, reference.learn_ranks, script], ids=["native", "reference", "baseline"]
 )
 def bench_learn_ranks(benchmark: Any, learn_ranks: Callable[..., Any]) -> None:
-    """All learn the same, to the rounding of float32."""
+    """All learn the same, within float32's rounding."""
     rng = np.random.default_rng(0)
     models, ranks = rng.random((2, 3, 96), np.float32), rng.random((3, 96), np.float32)
     learned = benchmark(learn_ranks, models, ranks, 0.14)

@@ -19,7 +19,7 @@ Y, X = (each.astype(np.float32) for each in np.divmod(PLACES, 64))
 
 
 def script(image: Image, places: NDArray[np.int64]) -> Image:
-    """The baseline: a map of float32, made before."""
+    """The baseline: maps in float32, made before the clock starts."""
     return cv2.remap(image, X, Y, cv2.INTER_NEAREST)  # type: ignore[return-value]
 
 

@@ -16,7 +16,7 @@ Maps = NDArray[np.float32]
 
 
 def script(samples: Image, models: Maps) -> Maps:
-    """The baseline: calcHist and cumsum make a look-up table, channel by channel."""
+    """The baseline: a look-up table by calcHist and cumsum, channel by channel."""
     ellipses, _, n = samples.shape
     distances = np.empty((ellipses, len(models)), np.float32)
     ranks = np.empty((3, n), np.float32)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The color tracker's measurement of 100 ellipses: native, reference, and a script on OpenCV and NumPy."""
+"""The likelihoods of 100 ellipses: native, reference, and a script on OpenCV and NumPy."""
 
 from collections.abc import Callable
 from typing import Any
@@ -60,7 +60,7 @@ def script(
     ids=["native", "reference", "baseline"],
 )
 def bench_rank_likelihood(benchmark: Any, rank_likelihood: Callable[..., Any], frame: Image) -> None:
-    """Twins agree; the script's places are rounded to 1/32 of a pixel, which moves a few samples by one."""
+    """The twins agree; the script rounds places to 1/32 pixel, which moves a few samples by a pixel."""
     rng = np.random.default_rng(0)
     ellipses = rng.normal([160, 120, 25, 31], [20, 20, 1, 1], (100, 4))
     inside, around = grid(12, 8), ring(40, 1.3, 1.8)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The order of 96 pixels in an ellipse, and two correlations: native, reference, and a script."""
+"""The ranks of 96 pixels in an ellipse, and two correlations: native, reference, and a script."""
 
 from collections.abc import Callable
 from typing import Any
@@ -39,7 +39,7 @@ def script(
     ids=["native", "reference", "baseline"],
 )
 def bench_rank_window(benchmark: Any, rank_window: Callable[..., Any], frame: Image) -> None:
-    """Twins agree; the script's places are rounded to 1/32 of a pixel, which moves a few samples by one."""
+    """The twins agree; the script rounds places to 1/32 pixel, which moves a few samples by a pixel."""
     rng = np.random.default_rng(0)
     ellipse, pattern = np.array([160.3, 120.7, 25, 31]), grid(12, 8)
     seen = reference.rank_window(frame, ellipse + 2, pattern, np.empty((0, 3, 96), np.float32), 0.1)[0]

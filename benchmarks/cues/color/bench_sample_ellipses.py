@@ -16,7 +16,7 @@ Floats = NDArray[np.float64]
 
 
 def script(image: Image, ellipses: Floats, pattern: Floats) -> Image:
-    """The baseline: one remap of all places. It rounds where we take the floor: half a pixel is taken off."""
+    """The baseline: one remap of all places, half a pixel less, as remap rounds where we take the floor."""
     places = (ellipses[:, None, :2] + ellipses[:, None, 2:] * pattern - 0.5).astype(np.float32)
     pixels = cv2.remap(image, places, None, cv2.INTER_NEAREST, borderMode=cv2.BORDER_REPLICATE)
     return np.ascontiguousarray(pixels.transpose(0, 2, 1))
@@ -30,9 +30,7 @@ def script(image: Image, ellipses: Floats, pattern: Floats) -> Image:
     ids=["native", "reference", "baseline"],
 )
 def bench_sample_ellipses(benchmark: Any, sample_ellipses: Callable[..., Any], frame: Image) -> None:
-    """Twins read the same pixels; remap's places are rounded to 1/32 of a pixel, so it differs where they are
-    near an edge.
-    """
+    """The twins read the same pixels; remap rounds places to 1/32 pixel, so it differs near pixels' edges."""
     rng = np.random.default_rng(0)
     ellipses = rng.normal([160, 120, 25, 31], [20, 20, 1, 1], (100, 4))
     pattern = grid(12, 12)

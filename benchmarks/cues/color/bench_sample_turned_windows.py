@@ -21,7 +21,7 @@ SIDES = np.array([math.cos(ANGLE), math.sin(ANGLE), -math.sin(ANGLE), math.cos(A
 
 
 def script(image: Image, windows: Floats, rows: int, columns: int) -> Image:
-    """The baseline."""
+    """The baseline: a box filter, then warpAffine."""
     side = round(math.hypot(*windows[0, 2:4]) / columns)
     axes = np.column_stack([windows[0, 2:4] / columns, windows[0, 4:] / rows])
     corner = windows[0, :2] - 0.5 * side - axes @ [columns / 2 - 0.5, rows / 2 - 0.5]
@@ -61,7 +61,7 @@ IMPLEMENTATIONS = {
 def bench_sample_turned_windows(
     benchmark: Any, sample_turned_windows: Callable[..., Image], frame: Image, length: float
 ) -> None:
-    """Twins give the same bytes; the baseline rounds places to another part of a pixel, and means twice."""
+    """The twins give the same bytes; the baseline rounds places and means differently."""
     windows = np.array([[X, Y, *(length * SIDES)]])
     samples = benchmark(sample_turned_windows, frame, windows, 64, 64)
     differences = abs(samples.astype(int) - reference.sample_turned_windows(frame, windows, 64, 64))
@@ -74,8 +74,8 @@ def bench_sample_turned_windows(
 def bench_sample_turned_windows_of_new_frames(
     benchmark: Any, sample_turned_windows: Callable[..., Image], new_frames: list[Image]
 ) -> None:
-    """As in video: no frame is in the cache. On noise the baseline's places, rounded otherwise, differ by
-    more than on smooth images.
+    """As in video, no frame is in the cache. On noise, the baseline's rounding of places differs by more than
+    on smooth images.
     """
     windows, frames = np.array([[320.3, 239.6, *(260.0 * SIDES)]]), cycle(new_frames)
     benchmark(lambda: sample_turned_windows(next(frames), windows, 64, 64))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Windows on a grid: native, reference, and OpenCV's resize of each window moved to whole pixels."""
+"""Windows on a grid: native, reference, and OpenCV's resize of each window, rounded to whole pixels."""
 
 from collections.abc import Callable
 from typing import Any
@@ -18,7 +18,7 @@ SCALES = np.array([[160 - s, 120 - s, 2 * s, 2 * s] for s in 37.5 * 1.03 ** np.a
 
 
 def script(image: Image, windows: Floats, rows: int, columns: int) -> Image:
-    """The baseline: INTER_AREA where windows shrink, as they all do here."""
+    """The baseline: INTER_AREA, as all windows are scaled down here."""
     samples = []
     for x, y, width, height in np.rint(windows).astype(int).tolist():
         part = image[y : y + height, x : x + width]
@@ -57,8 +57,8 @@ IMPLEMENTATIONS = {"native": _core.sample_windows, "reference": reference.sample
 def bench_sample_windows(
     benchmark: Any, sample_windows: Callable[..., Image], frame: Image, windows: Floats, side: int
 ) -> None:
-    """Twins give the same bytes; on clouds without sharp edges the baseline's areas, moved by up to half a
-    pixel, are a level from our readings in the mean.
+    """The twins give the same bytes. The baseline's windows are off by up to half a pixel, which on smooth
+    images is one gray level on average.
     """
     samples = benchmark(sample_windows, frame, windows, side, side)
     differences = abs(samples.astype(int) - reference.sample_windows(frame, windows, side, side))

@@ -16,7 +16,7 @@ BINS, CHROMA = (32, 32, 4), 64
 
 
 def script(histogram: Floats, bins: tuple[int, int, int], chroma: int, mean: Floats) -> Floats:
-    """The baseline: the center of mass, and a shift with linear interpolation; mass that leaves is lost."""
+    """The baseline: the center of mass, and a linearly interpolated shift, which loses mass at the ends."""
     cube = histogram.reshape(bins)
     widths = np.array([2 * chroma, 2 * chroma, 766]) / bins
     target = (mean + 0.5 - np.array([-chroma, -chroma, 0])) / widths - 0.5
@@ -32,7 +32,7 @@ def script(histogram: Floats, bins: tuple[int, int, int], chroma: int, mean: Flo
     ids=["native", "reference", "baseline"],
 )
 def bench_shift_histogram(benchmark: Any, shift_histogram: Callable[..., Floats]) -> None:
-    """All move a histogram that stays clear of the ends to the same bins."""
+    """All shift a histogram that doesn't reach the ends to the same bins."""
     cube = np.zeros(BINS)
     cube[10:20, 8:22, 1:3] = np.random.default_rng(0).random((10, 14, 2))
     mean = reference.histogram_mean(cube.ravel(), BINS, CHROMA) + np.array([7.0, -5.5, 30.0])

@@ -16,7 +16,7 @@ THRESHOLD, MIN_AREA = 0.4, 20
 
 
 def script(image: Image, color: Image, threshold: float, min_area: int) -> NDArray[np.float64]:
-    """The baseline: classify by planes, then connectedComponentsWithStats."""
+    """The baseline: classification of whole planes, then connectedComponentsWithStats."""
     b, g, r = cv2.split(image)
     eta = cv2.max(cv2.max(b, g), r)
     b, g, r = cv2.split(cv2.absdiff(image, np.array([*color, 0.0])))

@@ -16,7 +16,7 @@ MEAN, PRECISION = np.array([110.0, 150.0]), np.array([[0.01, 0.002], [0.002, 0.0
 
 
 def script(samples: Image, mean: NDArray[np.float64], precision: NDArray[np.float64]) -> NDArray[np.float32]:
-    """The baseline: cvtColor, which rounds the chrominance, then floats."""
+    """The baseline: cvtColor, which rounds the chrominance, then float32."""
     pixels = np.ascontiguousarray(samples.transpose(0, 2, 1))
     chroma = cv2.cvtColor(pixels, cv2.COLOR_BGR2YCrCb)[:, :, :0:-1].astype(np.float32) - mean.astype(
         np.float32
@@ -34,7 +34,7 @@ def script(samples: Image, mean: NDArray[np.float64], precision: NDArray[np.floa
     ids=["native", "reference", "baseline"],
 )
 def bench_skin_gaussian(benchmark: Any, skin_gaussian: Callable[..., Any], samples: Image) -> None:
-    """All evaluate the same, but OpenCV rounds Y, Cb, Cr: 0.96 in each chroma, at a deviation of 9."""
+    """All agree, except that OpenCV rounds Y, Cb, Cr: by up to 0.96 in Cb and Cr, whose deviation is 9."""
     density = benchmark(skin_gaussian, samples, MEAN, PRECISION)
     assert_allclose(
         density, reference.skin_gaussian(samples, MEAN, PRECISION), rtol=0, atol=0.61 * 0.96 * 2**0.5 / 9

@@ -18,7 +18,7 @@ THRESHOLD, REGION = 0.4, (50, 50, 180, 193)
 def script(
     image: Image, color: Image, threshold: float, region: tuple[int, int, int, int]
 ) -> NDArray[np.float64]:
-    """The baseline: classify the region by planes, then cv2.moments of the mask."""
+    """The baseline: classification of the region's planes, then cv2.moments of the mask."""
     x0, y0, x1, y1 = region
     part = image[y0:y1, x0:x1]
     b, g, r = cv2.split(part)

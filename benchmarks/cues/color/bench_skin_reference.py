@@ -14,7 +14,7 @@ Image = NDArray[np.uint8]
 
 
 def script(patch: Image) -> Image:
-    """The baseline: the cells that occur, their counts, the mean of the fullest one."""
+    """The baseline: np.unique counts the bins, then the mean of the largest one."""
     pixels = patch.reshape(-1, 3)
     _, inverse, counts = np.unique(
         pixels // 8 @ np.array([1024, 32, 1]), return_inverse=True, return_counts=True

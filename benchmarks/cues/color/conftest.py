@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a head is searched in: bins of a region, and the ellipse in their middle."""
+"""The input of searches for a head: the bins of a region, and the ellipse in its middle."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ def ellipse() -> NDArray[np.float64]:
 
 @pytest.fixture(scope="session")
 def model(region_bins: NDArray[np.uint16], ellipse: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(4096,) how many pixels in the ellipse have each bin."""
+    """(4096,) the number of pixels of each bin in the ellipse."""
     y, x = np.mgrid[: region_bins.shape[0], : region_bins.shape[1]] + 0.5
     x0, y0, minor, major = ellipse
     inside = ((x - x0) / minor) ** 2 + ((y - y0) / major) ** 2 <= 1

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What of a depth image of 176x144 is above the floor: native, reference, and a script on NumPy."""
+"""The part of a depth image of 176x144 above the floor: native, reference, and a script on NumPy."""
 
 from collections.abc import Callable
 from typing import Any
@@ -16,7 +16,7 @@ NEAR, FAR, CLEAR = 0.3, 7.5, 0.12
 
 
 def script(depth: Depth, camera: Floats, plane: Floats, near: float, far: float, clear: float) -> Depth:
-    """The baseline: back-project all pixels, one product, and where."""
+    """The baseline: back-projection of all pixels, one product, and np.where."""
     fx, fy, cx, cy = camera.astype(np.float32)
     v, u = np.indices(depth.shape, np.float32)
     points = np.dstack([(u - cx) / fx * depth, (v - cy) / fy * depth, depth])

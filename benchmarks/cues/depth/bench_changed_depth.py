@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where a depth image of 176x144 differs from one before: native, reference, and a script on OpenCV."""
+"""Where a depth image of 176x144 differs from an earlier one: native, reference, and a script on OpenCV."""
 
 from collections.abc import Callable
 from typing import Any
@@ -30,7 +30,7 @@ def script(depth: Depth, before: Depth, noise: float, slope: float) -> NDArray[n
     ids=["native", "reference", "baseline"],
 )
 def bench_changed_depth(benchmark: Any, changed_depth: Callable[..., Any], room: Depth) -> None:
-    """All find the same pixels, but for a few next to the limit."""
+    """All find the same pixels, except for a few next to the limit."""
     before = room + np.random.default_rng(1).normal(0, 0.03, room.shape).astype(np.float32)
     changed = benchmark(changed_depth, room, before, NOISE, SLOPE)
     different = changed != reference.changed_depth(room, before, NOISE, SLOPE)

@@ -40,7 +40,7 @@ def script(
     mean_size: tuple[Floats, Flags],
     pieces: tuple[float, float, float, float],
 ) -> tuple[Floats, Flags, Floats, Floats]:
-    """The baseline: all objects in the region at once, cut at the bottom at most, without any check."""
+    """The baseline: all objects in the region at once, cut at most at the bottom, without checks."""
     (size, _), (region, inside, _, reach) = mean_size, pieces
     centers, extents, z = measured[:, :2], measured[:, 3:5], measured[:, 2]
     low = np.maximum(centers - extents / 2, expected[:2] - region * expected[3:] / 2)
@@ -68,7 +68,7 @@ def script(
     ids=["native", "reference", "baseline"],
 )
 def bench_complete_body(benchmark: Any, complete_body: Callable[..., Any]) -> None:
-    """All join both pieces, one of which is cut, to some ten roundings of lengths below 8 m."""
+    """All join both pieces, one of which is cut; they differ by the rounding of lengths below 8 m."""
     body = benchmark(complete_body, *ARGUMENTS)
     for one, other in zip(body, reference.complete_body(*ARGUMENTS), strict=True):
         assert_allclose(one, other, rtol=1e-12, atol=1e-13)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where eight objects of a depth image of 176x144 may go on: native, reference, and a script on OpenCV."""
+"""The cut sides of eight objects of a depth image of 176x144: native, reference, and a script on OpenCV."""
 
 from collections.abc import Callable
 from typing import Any
@@ -14,7 +14,7 @@ from tricue import _core, reference
 Depth = NDArray[np.float32]
 Floats = NDArray[np.float64]
 BORDER, BESIDE, NEARER, SHARE = 2, 0.08, 0.3, 0.15
-# x, y, width, height, area, depth, label: the person of the room, and others behind, before and beside him.
+# x, y, width, height, area, depth, label: the person in the room, and objects behind, before and beside.
 TABLE = np.array(
     [
         [71.0, 16, 39, 100, 3500, 2.5, 1],
@@ -32,7 +32,7 @@ TABLE = np.array(
 def script(
     depth: Depth, table: Floats, camera: Floats, border: int, beside: float, nearer: float, share: float
 ) -> NDArray[np.bool_]:
-    """The baseline: one remap of all places, which rounds where we take the floor; a mean of each side."""
+    """The baseline: one remap of all places, which rounds where we take the floor, and a mean per side."""
     height, width = depth.shape
     x, y, w, h, z = table[:, [0, 1, 2, 3, 5]].T
     along = (2 * np.arange(12) + 1) / 12 - 1
@@ -54,7 +54,7 @@ def script(
     "cut_sides", [_core.cut_sides, reference.cut_sides, script], ids=["native", "reference", "baseline"]
 )
 def bench_cut_sides(benchmark: Any, cut_sides: Callable[..., Any], room: Depth, camera: Floats) -> None:
-    """All find the same sides cut, some of all four kinds."""
+    """All find the same cut sides; each of the four sides is among them."""
     arguments = room, TABLE, camera, BORDER, BESIDE, NEARER, SHARE
     cut = benchmark(cut_sides, *arguments)
     assert_array_equal(cut, reference.cut_sides(*arguments))

@@ -17,7 +17,7 @@ PROMINENCE = 2e-4
 
 
 def script(density: Floats, prominence: float) -> tuple[Any, Any]:
-    """The baseline: find_peaks on the density between zeros, and the least of each part between two peaks."""
+    """The baseline: find_peaks on the zero-padded density, and the minimum between each two peaks."""
     maxima = find_peaks(np.pad(density, 1), prominence=prominence)[0] - 1
     minima = [a + density[a:b].argmin() for a, b in pairwise(maxima)]
     return maxima, np.array(minima, np.int64)

@@ -18,7 +18,7 @@ NEAR, FAR, LEVELS, BINS, MIN_AREA = 0.3, 7.5, 64, 16, 30
 
 @pytest.fixture(scope="module")
 def scene() -> tuple[Labels, Depth]:
-    """Clouds 1 to 6 m away, a twentieth of the pixels not measured, divided at 2.5, 3.5 and 4.5 m."""
+    """Smooth random depths of 1 to 6 m, 5 % not measured, divided at 2.5, 3.5 and 4.5 m."""
     rng = np.random.default_rng(0)
     clouds = cv2.GaussianBlur(rng.normal(0, 1, (144, 176)), (0, 0), 9)
     depth = np.interp(clouds, [clouds.min(), clouds.max()], [1, 6]).astype(np.float32)
@@ -62,8 +62,8 @@ def script(
 def bench_depth_components(
     benchmark: Any, depth_components: Callable[..., Any], scene: tuple[Labels, Depth]
 ) -> None:
-    """All find the same regions. OpenCV's calcHist rounds otherwise, so a pixel at the edge of a level may be
-    in the next.
+    """All find the same regions. OpenCV's calcHist rounds differently, so a pixel at the edge of a level may
+    be in the next.
     """
     arguments = (*scene, NEAR, FAR, LEVELS, BINS, MIN_AREA, True)
     found = benchmark(depth_components, *arguments)

@@ -17,7 +17,7 @@ LEVELS, GRID, RING, REACH, NEARER = 64, (14, 10), (1.3, 12), 0.5, 0.2
 
 
 def read(depth: Depth, camera: Floats, states: Floats, u: Floats, v: Floats) -> Depth:
-    """Depths less Z at places (u, v), in half sizes; beyond reach where nothing is measured."""
+    """Depths minus Z at places (u, v), in half sizes; larger than the reach where nothing is measured."""
     half = states[:, None, 3:] / 2 * np.stack([u, v], axis=-1)
     places = (states[:, None, :2] + half) / states[:, None, 2:3] * camera[:2] + camera[2:]
     seen = cv2.remap(depth, places.astype(np.float32), None, cv2.INTER_NEAREST, borderValue=np.nan)
@@ -70,7 +70,7 @@ def middles(grid: tuple[int, int]) -> tuple[Floats, Floats]:
     ids=["native", "reference", "baseline"],
 )
 def bench_depth_contrast(benchmark: Any, depth_contrast: Callable[..., Any], camera: Floats) -> None:
-    """Twins measure the same; remap's places are rounded to 1/32 of a pixel, so a few differ."""
+    """The twins measure the same; remap rounds places to 1/32 pixel, so a few differ."""
     rng = np.random.default_rng(0)
     depth = np.full((144, 176), 5, np.float32)
     depth[30:, 60:110] = 2.5

@@ -23,7 +23,7 @@ def script(
     """The baseline: one remap of all places, which rounds where we take the floor, and calcHist of each."""
     places = (rectangles[:, None, :2] + rectangles[:, None, 2:4] / 2 * pattern - 0.5).astype(np.float32)
     seen = cv2.remap(depth, places, None, cv2.INTER_NEAREST, borderValue=np.nan)
-    # calcHist counts NaN, so what isn't measured goes beyond reach.
+    # calcHist counts NaN, so unmeasured depths are put beyond the reach.
     relative = np.nan_to_num(seen - rectangles[:, 4:], nan=2 * reach).astype(np.float32)
     measured = np.empty((len(rectangles), 3))
     for i, row in enumerate(relative):
@@ -42,7 +42,7 @@ def script(
     ids=["native", "reference", "baseline"],
 )
 def bench_depth_distance(benchmark: Any, depth_distance: Callable[..., Any]) -> None:
-    """Twins measure the same; remap's places are rounded to 1/32 of a pixel, so a few differ."""
+    """The twins measure the same; remap rounds places to 1/32 pixel, so a few differ."""
     rng = np.random.default_rng(0)
     depth = np.full((144, 176), 5, np.float32)
     depth[30:, 60:110] = 2.5

@@ -16,7 +16,7 @@ GAP, SLOPE = 0.1, 0.02
 
 
 def script(depth: Depth, gap: float, slope: float) -> NDArray[np.uint8]:
-    """The baseline: the least of 3x3 by erosion, then NumPy."""
+    """The baseline: the minimum of 3x3 pixels by erosion, then NumPy."""
     nearest = cv2.erode(np.where(depth > 0, depth, np.float32(1e9)), np.ones((3, 3), np.uint8))
     return (depth - nearest > np.float32(gap) + np.float32(slope) * (nearest * nearest)).view(np.uint8)
 

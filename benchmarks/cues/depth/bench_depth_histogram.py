@@ -15,7 +15,7 @@ Mask = NDArray[np.uint8]
 
 
 def script(depth: Depth, mask: Mask, near: float, far: float, levels: int) -> Depth:
-    """The baseline: calcHist, which leaves out what is out of range, but takes NaN for the first level."""
+    """The baseline: calcHist, which ignores values out of range, but counts NaN in the first level."""
     seen = mask & (depth > 0)
     return cv2.calcHist([depth], [0], seen, [levels], [near, far]).ravel()
 
@@ -28,7 +28,7 @@ def script(depth: Depth, mask: Mask, near: float, far: float, levels: int) -> De
     ids=["native", "reference", "baseline"],
 )
 def bench_depth_histogram(benchmark: Any, depth_histogram: Callable[..., Any], room: Depth) -> None:
-    """All count the same but for a few pixels whose level rounding decides."""
+    """All count the same, except for a few pixels whose level depends on rounding."""
     mask = (np.random.default_rng(1).random(room.shape) < 0.8).astype(np.uint8)
     counts = benchmark(depth_histogram, room, mask, 0.3, 7.5, 256)
     assert counts.sum() > 10_000

@@ -14,7 +14,7 @@ Depth = NDArray[np.float32]
 
 
 def script(depth: Depth, z: float, reach: float) -> Any:
-    """The baseline: NaN made far, then OpenCV's scaling, which clips."""
+    """The baseline: NaN is replaced by the reach, NumPy clips, and OpenCV scales."""
     known = np.nan_to_num(depth - np.float32(z), nan=reach)
     return cv2.convertScaleAbs(np.clip(known, -reach, reach), alpha=127 / reach, beta=128)
 
@@ -27,7 +27,7 @@ def script(depth: Depth, z: float, reach: float) -> Any:
     ids=["native", "reference", "baseline"],
 )
 def bench_depth_picture(benchmark: Any, draw: Callable[..., NDArray[np.uint8]], room: Depth) -> None:
-    """All draw the same, to a level."""
+    """All draw the same, within one gray level."""
     found, expected = benchmark(draw, room, 2.5, 0.5), reference.depth_picture(room, 2.5, 0.5)
     assert np.abs(found.astype(int) - expected).max() <= 1
     assert 0.02 < ((expected > 1) & (expected < 255)).mean() < 0.9

@@ -44,7 +44,7 @@ def script(
     ids=["native", "reference", "baseline"],
 )
 def bench_depth_posterior(benchmark: Any, judge: Callable[..., Answer], room: Depth) -> None:
-    """All judge the same."""
+    """All compute the same posteriors."""
     arguments = room, 40.3, -8.2, 1.7, 64, 64, 2.5, 0.3, 0.5
     found, expected = benchmark(judge, *arguments), reference.depth_posterior(*arguments)
     assert_allclose(found[0], expected[0], atol=2e-6)

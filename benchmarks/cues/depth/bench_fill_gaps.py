@@ -18,7 +18,7 @@ RING = np.uint8([[1, 1, 1], [1, 0, 1], [1, 1, 1]])
 
 
 def script(depth: Depth, gap: float, slope: float, ragged: float, passes: int) -> Depth:
-    """The baseline: the nearest by erosion, then a padded copy and its eight views in NumPy."""
+    """The baseline: the nearest depth by erosion, then NumPy on the eight shifted views of a padded copy."""
     height, width = depth.shape
     for number in range(passes):
         known = depth > 0

@@ -24,7 +24,7 @@ def script(
     up: Floats,
     least_cosine: float,
 ) -> Floats:
-    """The baseline: all planes at once, one product for all heights, then SVD."""
+    """The baseline: all planes at once, one product for all heights, then an SVD."""
     fx, fy, cx, cy = camera.astype(np.float32)
     v, u = np.indices(depth.shape, np.float32)
     points = np.dstack([(u - cx) / fx * depth, (v - cy) / fy * depth, depth]).reshape(-1, 3)
@@ -54,7 +54,7 @@ def script(
     "floor_plane", [_core.floor_plane, reference.floor_plane, script], ids=["native", "reference", "baseline"]
 )
 def bench_floor_plane(benchmark: Any, floor_plane: Callable[..., Any], room: Depth, camera: Floats) -> None:
-    """Twins find the same floor; the script, all in float32, to a millimeter."""
+    """The twins find the same floor; the script, in float32, within a millimeter."""
     thin, lens = np.ascontiguousarray(room[::2, ::2]), camera / 2
     triples = np.random.default_rng(0).integers(0, thin.size, (100, 3))
     arguments = thin, lens, triples, TOLERANCE, UP, LEAST_COSINE

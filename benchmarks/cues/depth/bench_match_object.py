@@ -48,7 +48,7 @@ def script(
     gate: tuple[float, float],
     ___: bool,
 ) -> int:
-    """The baseline: all objects at once, for a target of known size, without any check."""
+    """The baseline: all objects at once, for a target of known size; arguments aren't checked."""
     states, size = measured[:, :5].copy(), mean_size[0]
     half = (size - states[:, 3:]) / 2
     before, after = cut[:, ::2] & (half > 0), cut[:, 1::2] & (half > 0)
@@ -72,5 +72,5 @@ def script(
     ids=["native", "reference", "baseline"],
 )
 def bench_match_object(benchmark: Any, match_object: Callable[..., Any]) -> None:
-    """All take the same object, which isn't the first."""
+    """All choose the same object, which isn't the first."""
     assert benchmark(match_object, *ARGUMENTS) == reference.match_object(*ARGUMENTS) > 0

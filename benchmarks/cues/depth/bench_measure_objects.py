@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 Shares = NDArray[np.float32]
 random = np.random.default_rng(0)
 DEPTH, SIZE = random.uniform(2, 6, 8), random.integers(8, 60, (8, 2))
-LOW = (2 - 0.28 * DEPTH) / 0.96 - random.uniform(0, 0.5, 8)  # meters: above the floor below
+LOW = (2 - 0.28 * DEPTH) / 0.96 - random.uniform(0, 0.5, 8)  # meters: lower edges near the floor
 ARGUMENTS = (
     np.column_stack(
         [
@@ -46,7 +46,7 @@ def script(
     feet: float,
     legs: float,
 ) -> Floats:
-    """The baseline: the same without any check, corners first."""
+    """The baseline: the same by way of corners; arguments aren't checked."""
     z = table[:, 5]
     scale = z[:, None] / camera[:2]
     low = (table[:, :2] - 0.5 - camera[2:]) * scale
@@ -76,7 +76,7 @@ def script(
     ids=["native", "reference", "baseline"],
 )
 def bench_measure_objects(benchmark: Any, measure_objects: Callable[..., Any]) -> None:
-    """All measure the same, to the rounding of some ten operations on lengths below 8 m; some stand."""
+    """All measure the same, within the rounding of lengths below 8 m; some objects stand on the floor."""
     measured = benchmark(measure_objects, *ARGUMENTS)
     assert_allclose(measured, reference.measure_objects(*ARGUMENTS), rtol=1e-12, atol=1e-13)
     without = reference.measure_objects(*ARGUMENTS[:5], np.zeros(4), *ARGUMENTS[6:])

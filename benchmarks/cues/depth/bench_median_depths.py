@@ -18,7 +18,7 @@ BOXES = np.array([[90.0 + 2 * i, 60.0 - i, 30.0 + i, 40.0] for i in range(6)])
 
 
 def script(depth: Depth, boxes: Floats, samples: int, expected: float, offset: float, share: float) -> Floats:
-    """The baseline: nearest samples by remap, masks and NumPy's medians; an expected depth is known."""
+    """The baseline: nearest samples by remap, masks and NumPy's medians, near a given expected depth."""
     found = np.full((len(boxes), 3), np.nan)
     halves = 2 * ((np.arange(samples) + 0.5) / samples - 0.5)
     for i, (x, y, width, height) in enumerate(boxes):

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How much of a depth image of 176x144, every other pixel, is on a floor: native, reference, and a script on
-NumPy.
-"""
+"""The share of a depth image of 176x144, every other pixel, on a floor: native, reference, a NumPy script."""
 
 from collections.abc import Callable
 from typing import Any
@@ -18,7 +16,7 @@ TOLERANCE, STEP = 0.04, 2
 
 
 def script(depth: Depth, camera: Floats, plane: Floats, tolerance: float, step: int) -> Floats:
-    """The baseline: back-project the thinned image, one product, two means."""
+    """The baseline: back-projection of the thinned image, one product, two means."""
     fx, fy, cx, cy = camera.astype(np.float32) / step
     thin = depth[::step, ::step]
     v, u = np.indices(thin.shape, np.float32)
@@ -37,7 +35,7 @@ def script(depth: Depth, camera: Floats, plane: Floats, tolerance: float, step: 
 def bench_plane_support(
     benchmark: Any, plane_support: Callable[..., Any], room: Depth, camera: Floats
 ) -> None:
-    """All count the same, but for two of 6000 pixels that float32 may put on the other side of a limit."""
+    """All count the same, except for up to two of 6000 pixels, which rounding moves across a limit."""
     arguments = room, camera, np.array([0.0, -1.0, 0.0, 1.0]), TOLERANCE, STEP
     support = benchmark(plane_support, *arguments)
     assert support[0] > 0.2

@@ -17,7 +17,7 @@ Floats = NDArray[np.float64]
 def script(
     depth: NDArray[np.float32], rectangle: Floats, levels: int, pattern: Floats, reach: float
 ) -> Floats:
-    """The baseline: index, subtract, numpy.histogram."""
+    """The baseline: indexing, a difference and numpy.histogram."""
     x, y, width, height, z = rectangle
     rows = np.clip((y + height / 2 * pattern[:, 1]).astype(int), 0, depth.shape[0] - 1)
     columns = np.clip((x + width / 2 * pattern[:, 0]).astype(int), 0, depth.shape[1] - 1)

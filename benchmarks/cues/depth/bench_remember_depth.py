@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What was last seen beside a target, 176x144: native, reference, and a script on NumPy."""
+"""The last depths that weren't the target's, 176x144: native, reference, and a script on NumPy."""
 
 from collections.abc import Callable
 from typing import Any
@@ -15,7 +15,7 @@ PERSON = (66, 10, 115, 125)
 
 
 def script(depth: Depth, before: Depth, region: tuple[int, int, int, int], z: float, reach: float) -> Depth:
-    """The baseline: a copy, changed in the region alone."""
+    """The baseline: a copy, changed only in the region."""
     x0, y0, x1, y1 = region
     seen = depth.copy()
     inside = seen[y0:y1, x0:x1]

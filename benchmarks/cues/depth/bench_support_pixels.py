@@ -27,7 +27,7 @@ def script(
     draws: Floats,
     tolerance: float,
 ) -> Mask:
-    """The baseline: whole planes in NumPy, all triples at once, and SVD."""
+    """The baseline: NumPy on all triples at once, and an SVD."""
     squares = np.arange(side)
     x, y = (np.floor(start + (squares + 0.5) * step).astype(int) for start in (x0, y0))
     z_of = depth[np.ix_(y.clip(0, depth.shape[0] - 1), x.clip(0, depth.shape[1] - 1))]
@@ -43,7 +43,7 @@ def script(
     votes = votes[np.isfinite(votes[:, 2])]
     p, q, r = votes[(draws * len(votes)).astype(int)].transpose(1, 0, 2)
     normals = np.cross(q - p, r - p)
-    normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-12)[:, None]  # of a pixel that is drawn twice
+    normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-12)[:, None]  # a pixel may be drawn twice
     offsets = -np.sum(normals * p, axis=1)
     heights = votes @ normals.T + offsets
     heights *= np.sign(offsets)
@@ -62,7 +62,7 @@ def script(
     "find", [_core.support_pixels, reference.support_pixels, script], ids=["native", "reference", "baseline"]
 )
 def bench_support_pixels(benchmark: Any, find: Callable[..., Mask], camera: Floats) -> None:
-    """Of a thing on a table, with noise of 2 mm, all find the same table, but for a few pixels."""
+    """All find the same table under an object, with noise of 2 mm, except for a few pixels."""
     rng = np.random.default_rng(0)
     below = 1 + 0.3 * (np.arange(144)[:, None] - 72) / 102
     table = np.repeat(2.0 / below, 176, axis=1) + rng.normal(0, 0.002, (144, 176))

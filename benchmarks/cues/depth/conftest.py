@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A room seen by a depth camera of 176x144 pixels, made before any clock starts."""
+"""A room in a depth camera of 176x144 pixels, made before any clock starts."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 @pytest.fixture(scope="session")
 def camera() -> NDArray[np.float64]:
-    """fx, fy, cx, cy: about 50 by 41 degrees, the horizon above the middle."""
+    """fx, fy, cx, cy: a field of view of about 50 by 41 degrees, with the horizon above the middle."""
     return np.array([190.0, 190.0, 87.5, 40.5])
 
 

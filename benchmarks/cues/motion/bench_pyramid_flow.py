@@ -46,7 +46,7 @@ IMPLEMENTATIONS = {
 @pytest.mark.work(flops32=250 * 160 * 120 * 21 // 16)
 @pytest.mark.parametrize("flow", IMPLEMENTATIONS.values(), ids=list(IMPLEMENTATIONS))
 def bench_pyramid_flow(benchmark: Any, frames: tuple[Image, Image], flow: Callable[..., Flow]) -> None:
-    """Half of the pixels are found within 0.2 px by all, and the kernels agree."""
+    """All are within 0.2 px at half of the pixels, and the kernels agree."""
     u, v = benchmark(flow, *frames)
     assert np.isfinite(u).mean() > 0.9
     assert np.nanmedian(np.hypot(u - 0.6, v + 0.4)) < 0.2

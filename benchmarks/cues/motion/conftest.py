@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Two frames of a texture that moves by a known flow, made before any clock starts."""
+"""Two frames of a moving texture with known flow, made before any clock starts."""
 
 import cv2
 import numpy as np
@@ -12,7 +12,7 @@ FLOW = (0.6, -0.4)
 
 @pytest.fixture(scope="session")
 def frames() -> tuple[Image, Image]:
-    """160x120, between them FLOW, both noisy."""
+    """Two noisy frames of 160x120; the texture moves by FLOW."""
     rng = np.random.default_rng(0)
     texture = cv2.GaussianBlur(rng.normal(0, 1, (160, 200)), (0, 0), 2.0)
     texture = 128 + 45 * texture / texture.std()

@@ -17,14 +17,14 @@ FIRST, LAST, WINDOW = 16, 48, 11
 
 
 def pair() -> tuple[Image, Image]:
-    """320x200 of colored texture 32 pixels apart."""
+    """A pair of 320x200: colored texture with a disparity of 32 pixels."""
     noise = cv2.GaussianBlur(np.random.default_rng(0).normal(0, 1, (200, 400, 3)), (0, 0), 1.2)
     texture = (128 + 45 * noise / noise.std()).clip(0, 255).astype(np.uint8)
     return np.ascontiguousarray(texture[:, 10:330]), np.ascontiguousarray(texture[:, 42:362])
 
 
 def script(left: Image, right: Image, *arguments: Any) -> tuple[float, int, int]:
-    """The baseline: StereoBM over the part of the images that it needs, and NumPy."""
+    """The baseline: StereoBM on the part of the images that it needs, and NumPy."""
     x0, y0, x1, y1 = REGION
     part = np.s_[y0 - 6 : y1 + 6, x0 - 16 - 48 : x1 + 6]
     matcher = cv2.StereoBM_create(48, WINDOW)
@@ -46,7 +46,7 @@ def script(left: Image, right: Image, *arguments: Any) -> tuple[float, int, int]
     ids=["native", "reference", "baseline"],
 )
 def bench_ellipse_disparity(benchmark: Any, ellipse_disparity: Callable[..., Any]) -> None:
-    """All find the same disparity, and nearly all pixels near it."""
+    """All find the same disparity, with nearly all pixels close to it."""
     found = benchmark(ellipse_disparity, *pair(), REGION, FIRST, LAST, WINDOW, 5, True, True, True, 2.4)
     assert abs(found[0] - 32) < 0.1
     assert found[2] > 0.95 * found[1] > 0.9 * np.pi * 30 * 36 * 0.95

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Gradient disparity round a prediction: native, reference, a script on cv2 and NumPy, cv2.StereoBM."""
+"""Gradient disparity near a prediction: native, reference, a script on cv2 and NumPy, cv2.StereoBM."""
 
 from collections.abc import Callable
 from typing import Any
@@ -19,7 +19,7 @@ COUNT = 16  # disparities of StereoBM: those within 8 px of the prediction
 
 
 def pair(height: int) -> tuple[Image, Image]:
-    """Texture 8.4 pixels apart, 4:3, the right image noisy."""
+    """A pair of aspect ratio 4:3: texture with a disparity of 8.4 pixels, and a noisy right image."""
     width = height * 4 // 3
     rng = np.random.default_rng(0)
     texture = cv2.GaussianBlur(rng.normal(0, 1, (height, width + 40)), (0, 0), 1.5)
@@ -31,12 +31,12 @@ def pair(height: int) -> tuple[Image, Image]:
 
 
 def kernel(measure: Callable[..., tuple[Floats, Floats]]) -> Measure:
-    """The disparities of a kernel."""
+    """The disparities that a kernel measures."""
     return lambda left, right: measure(left, right, PREDICTION)[0]
 
 
 def script(left: Image, right: Image) -> Floats:
-    """What one would write: cv2's pyramid, filters and warp, three levels, the same limits."""
+    """The baseline: cv2's pyramid, filters and warp, with three levels and the same limits."""
     lefts, rights = [left.astype(np.float32)], [right.astype(np.float32)]
     for _ in range(2):
         lefts.append(cv2.pyrDown(lefts[-1]))
@@ -86,7 +86,7 @@ IMPLEMENTATIONS = {
 
 
 def check(benchmark: Any, measure: Measure, height: int) -> None:
-    """Nearly all pixels that the right image shows are read, nearly all to a pixel, half of them to 0.15."""
+    """Of the pixels that the right image shows, nearly all are measured within 1 px, half within 0.15 px."""
     left, right = pair(height)
     found = benchmark(measure, left, right)[8:-8, 24:-8]
     errors = abs(found[np.isfinite(found)] - TRUTH)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The cells of a head's search, 60x56 with 9 disparities: native, reference, and the script on OpenCV."""
+"""The cells of a search for a head, 60x56 with 9 disparities: native, reference, and an OpenCV script."""
 
 from collections.abc import Callable
 from typing import Any
@@ -20,14 +20,14 @@ SEARCH = 4, 12, 5, 5, True
 
 
 def pair() -> tuple[Image, Image]:
-    """160x120 of colored texture 8 pixels apart."""
+    """A pair of 160x120: colored texture with a disparity of 8 pixels."""
     noise = cv2.GaussianBlur(np.random.default_rng(0).normal(0, 1, (120, 200, 3)), (0, 0), 1.2)
     texture = (128 + 45 * noise / noise.std()).clip(0, 255).astype(np.uint8)
     return np.ascontiguousarray(texture[:, 10:170]), np.ascontiguousarray(texture[:, 18:178])
 
 
 def script(left: Image, right: Image, *arguments: Any) -> tuple[NDArray[np.uint16], Image]:
-    """The baseline: cv2's gray levels and box filter, and our block matching; StereoBM has no regions."""
+    """The baseline: cv2's gray levels and box filter, and our block matching, as StereoBM has no regions."""
     bins = _core.color_bins(left, REGION, *SPACE, 1)
     gray = cv2.cvtColor(left, cv2.COLOR_BGR2GRAY), cv2.cvtColor(right, cv2.COLOR_BGR2GRAY)
     disparities = _core.sad_disparity(*gray, REGION, False, *SEARCH)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Block matching: native, reference and cv2.StereoBM, over whole images and, as a tracker does, in a head."""
+"""Block matching: native, reference and cv2.StereoBM; in whole images and, as in a tracker, in a head."""
 
 from collections.abc import Callable
 from typing import Any
@@ -20,7 +20,7 @@ HEAD = (70, 40, 100, 76)
 
 
 def pair() -> tuple[Image, Image]:
-    """160x120 of texture 8 pixels apart, the right image noisy."""
+    """A pair of 160x120: texture with a disparity of 8 pixels, and a noisy right image."""
     rng = np.random.default_rng(0)
     texture = cv2.GaussianBlur(rng.normal(0, 1, (120, 200)), (0, 0), 1.2)
     texture = 128 + 45 * texture / texture.std()
@@ -29,7 +29,7 @@ def pair() -> tuple[Image, Image]:
 
 
 def whole(kernel: Callable[..., Disparity]) -> Matcher:
-    """All that StereoBM computes."""
+    """The part of the image that StereoBM computes."""
     return lambda left, right: kernel(left, right, WHOLE, False, 0, COUNT - 1, WINDOW, 15)
 
 
@@ -39,7 +39,7 @@ def head(kernel: Callable[..., Disparity]) -> Matcher:
 
 
 def baseline(region: tuple[int, int, int, int]) -> Matcher:
-    """StereoBM over the whole image, which has no regions, and at least 16 disparities."""
+    """StereoBM on the whole image: it has no regions, and at least 16 disparities."""
     matcher = cv2.StereoBM_create(COUNT, WINDOW)
     x0, y0, x1, y1 = region
 
@@ -54,12 +54,12 @@ IMPLEMENTATIONS = {"native": _core.sad_disparity, "reference": reference.sad_dis
 
 
 def check(benchmark: Any, match: Matcher) -> None:
-    """Nearly all pixels are found, and nearly all of those within a pixel, half of them within 0.15."""
+    """Nearly all pixels are matched, nearly all of these within 1 px, half within 0.15 px."""
     left, right = pair()
     found = benchmark(match, left, right)
     errors = abs(found[np.isfinite(found)] - 8)
     assert errors.size > 0.9 * np.pi / 4 * found.size
-    assert (errors < 1).mean() > 0.98  # not beside the edge
+    assert (errors < 1).mean() > 0.98  # except beside the edge
     assert np.median(errors) < 0.15
 
 
