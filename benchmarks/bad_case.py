@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a case of bad input is; run by bad_input.py."""
+"""A case of bad input; run by bad_input.py."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -8,11 +8,11 @@ import cv2
 import tricue
 from tricue.track.base.track import Tracker
 
-cv2.setNumThreads(0)  # before any work: a process forked from one with a thread pool waits for it forever
+cv2.setNumThreads(0)  # before any work: a forked process would wait forever for its parent's thread pool
 
 
 class Case(NamedTuple):
-    """Init on ``first`` and ``box``, then update on ``second``, whatever they are."""
+    """One ``init`` with ``first`` and ``box``, then one ``update`` with ``second``."""
 
     name: str
     first: Any
@@ -24,21 +24,21 @@ class Case(NamedTuple):
 
 
 class Made(NamedTuple):
-    """Something of ours that may fail while it is made; baselines get its bare image, if it has one."""
+    """A value of tricue's that may fail while it is made; baselines get its bare image, if it has one."""
 
     make: Callable[[], Any]
     bare: Any = None
 
 
 def made(value: Any) -> Any:
-    """What it is, or makes."""
+    """The value itself, or what a Made makes."""
     return value.make() if isinstance(value, Made) else value
 
 
 def with_tracker(
     create: Callable[[Case], Tracker], framed: Callable[[Any], Any] = made
 ) -> Callable[[Case], tricue.Track]:
-    """A tracker of ours on a case. framed: makes its frames of the case's."""
+    """A tricue tracker on a case. framed: makes the tracker's frames from the case's."""
 
     def follow(each: Case) -> tricue.Track:
         tracker = create(each)

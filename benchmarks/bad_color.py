@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Bad color input, and our trackers that take it; run by bad_input.py."""
+"""Bad color input, and tricue's trackers that take color; run by bad_input.py."""
 
 from typing import Any
 
@@ -19,18 +19,18 @@ TINY, HUGE = IMAGE[:1, :1].copy(), np.tile(IMAGE, (13, 13, 1))[:3000, :4000].cop
 
 
 def case(name: str, first: Any = IMAGE, box: Any = BOX, second: Any = NEXT, starts: bool = True) -> Case:
-    """A case in which everything else is valid; the target is in both pictures."""
+    """A case in which everything else is valid; the target is in both images."""
     x, y, width, height = box
     return Case(name, first, box, second, starts, truth=(x + SHIFT, y, width, height))
 
 
 def wrong(name: str, first: Any = IMAGE, box: Any = BOX, second: Any = NEXT, starts: bool = True) -> Case:
-    """A case without a target to follow: only an error or "not found" is right."""
+    """A case without a target to follow, in which only an error or "not found" is right."""
     return Case(name, first, box, second, starts)
 
 
 def gray(image: Any) -> Any:
-    """One channel."""
+    """The image in gray, one channel."""
     return cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
 
 

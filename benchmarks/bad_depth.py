@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Bad depth input, and our trackers that take it; run by bad_input.py."""
+"""Bad depth input, and tricue's trackers that take depth; run by bad_input.py."""
 
 from collections.abc import Callable
 from typing import Any
@@ -42,7 +42,7 @@ def scaled(name: str, image: Any, scale: Any) -> Case:
 
 
 def colored(name: str, change: Callable[[Any], Any]) -> Case:
-    """A case with both depths changed, beside a picture of the unchanged ones."""
+    """A case with both depth images changed, with gray pictures of the unchanged ones as color."""
 
     def frame(meters: Any) -> Made:
         levels = np.nan_to_num(255 / 8 * meters).clip(0, 255).astype(np.uint8)
@@ -137,12 +137,12 @@ CASES = (
 
 
 def framed(value: Any) -> Any:
-    """A frame of depth, or what the case makes instead."""
+    """A frame with depth alone, or what the case makes instead."""
     return made(value) if isinstance(value, Made) else Frame(depth=value)
 
 
 def ours(name: str, **parameters: Any) -> Callable[[Case], tricue.Track]:
-    """Our tracker of that name with the case's camera."""
+    """tricue's tracker of that name with the case's camera."""
     return with_tracker(lambda case: tricue.create(name, intrinsics=case.camera, **parameters), framed)
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""What our trackers and cv2's make of bad input: ``python benchmarks/bad_input.py`` writes docs/bad-input.md.
+"""How tricue's and cv2's trackers handle bad input: ``python benchmarks/bad_input.py`` writes docs/bad-input.md.
 
-Every case runs in a process of its own, so that a crash or a hang is seen for what it is.
+Every case runs in its own process, so that crashes and hangs are noticed.
 """
 
 import argparse
@@ -25,16 +25,16 @@ from tricue.evaluation import metrics
 
 SECONDS = 20.0
 BASELINES = ("CSRT", "KCF", "MIL", "MOSSE", "MedianFlow")
-MIN_OVERLAP = 0.5  # with the true box, of what follows the target
+MIN_OVERLAP = 0.5  # with the true box, for a tracker that follows the target
 PAGE = Path(__file__).parents[1] / "docs" / "bad-input.md"
 Follow = Callable[[Case], str]
 
 NAMING = ("boundingBox", "image is not", "image data type")
-"""What an error of OpenCV's says where it names the argument."""
+"""Texts in OpenCV's errors that name the argument."""
 
 
 def baselines() -> dict[str, Follow]:
-    """OpenCV's trackers; ImportError where the installed cv2 lacks one, as its wheels without contrib do."""
+    """OpenCV's trackers; ImportError if the installed cv2 lacks one, as wheels without contrib do."""
     found: dict[str, Follow] = {}
     for name in BASELINES:
         module = next((m for m in (cv2, getattr(cv2, "legacy", None)) if hasattr(m, f"Tracker{name}")), None)
@@ -47,7 +47,7 @@ def baselines() -> dict[str, Follow]:
 
 
 def follow_with(create: Callable[[], Any]) -> Follow:
-    """What a tracker of cv2's makes of a case, in a word or two; "-" where it can't be shown the frames."""
+    """How a tracker of cv2's handles a case, in a word or two; "-" if it can't take such frames."""
 
     def follow(case: Case) -> str:
         first, second = (each.bare if isinstance(each, Made) else each for each in (case.first, case.second))
@@ -68,14 +68,14 @@ def follow_with(create: Callable[[], Any]) -> Follow:
 
 
 def overlaps(box: Any, truth: Any) -> bool:
-    """Whether a box is the true one, about."""
+    """Whether a box overlaps the true one enough."""
     if truth is None:
         return False
     return bool(metrics.overlaps(np.array([box], float), np.array([truth], float))[0] > MIN_OVERLAP)
 
 
 def answer_of(follow: Callable[[Case], tricue.Track]) -> Follow:
-    """What a tracker of ours makes of a case: its status or its error, and the warnings."""
+    """How a tricue tracker handles a case: its status or error, and the warnings."""
 
     def answered(case: Case) -> str:
         with warnings.catch_warnings(record=True) as caught:
@@ -98,7 +98,7 @@ def send_answer(send: Connection, follow: Follow, case: Case) -> None:
 
 
 def isolated(follow: Follow, case: Case) -> str:
-    """The answer in a process of its own: also "crash" or "hang"."""
+    """The answer of a separate process, or "crash" or "hang"."""
     context = multiprocessing.get_context("fork")
     receive, send = context.Pipe(duplex=False)
     process = context.Process(target=send_answer, args=(send, follow, case))
@@ -145,7 +145,7 @@ The cases of [color](#color) again, with the trackers of OpenCV {cv2.__version__
 
 
 def our_table(cases: ModuleType) -> str:
-    """A row for each answer of our trackers to a module's cases, with the cases that have it."""
+    """A row for each answer of tricue's trackers to a module's cases, with the cases that have it."""
     trackers = {name: answer_of(follow) for name, follow in cases.OURS.items()}
     rows: dict[str, list[str]] = {}
     for case in cases.CASES:
@@ -187,7 +187,7 @@ def main() -> None:
     parser.add_argument("--output", type=Path, default=PAGE)
     output = parser.parse_args().output
     try:
-        baselines()  # that they are there, before the work
+        baselines()  # checks that they are there, before the work
     except ImportError as error:
         parser.error(str(error))
     parts = [part for cases in (bad_color, bad_depth, bad_stereo) for part in (cases.HEAD, our_table(cases))]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Bad stereo pairs, and our trackers that take stereo; run by bad_input.py."""
+"""Bad stereo pairs, and tricue's trackers that take stereo; run by bad_input.py."""
 
 from collections.abc import Callable
 from typing import Any
@@ -54,7 +54,7 @@ def both(name: str, change: Callable[[Any], Any], **others: Any) -> Case:
 
 
 def gray(image: Any) -> Any:
-    """One channel."""
+    """The image in gray, one channel."""
     return cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
 
 
@@ -64,7 +64,7 @@ def darker(image: Any) -> Any:
 
 
 def rig(degrees: float, baseline: float) -> StereoRig:
-    """A rig with this angle of view."""
+    """A rig with this field of view, degrees."""
     return StereoRig(Intrinsics.from_fov(WIDTH, HEIGHT, degrees), baseline)
 
 
@@ -136,7 +136,7 @@ CASES = (
 
 
 def ours(name: str) -> Callable[[Case], tricue.Track]:
-    """Our tracker of that name with the case's rig."""
+    """tricue's tracker of that name with the case's rig."""
     return with_tracker(lambda case: tricue.create(name, rig=case.camera))
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""A frame and samples of typical size, made before any clock starts; OpenCV on one thread; the machine's
-limits beside the times.
+"""Fixtures of the benchmarks: a frame and samples of typical size, made before any clock starts.
+
+OpenCV runs on one thread, and the machine's limits are stored with the times.
 """
 
 from collections.abc import Iterator
@@ -16,18 +17,18 @@ from benchmarks.limits import machine
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Name the marker of a kernel's benchmark that declares its work."""
+    """Register the marker with which a kernel's benchmark declares its work."""
     config.addinivalue_line("markers", "work(why=None, **amounts): what a kernel does, by limits/machine.py")
 
 
 def pytest_benchmark_update_json(output_json: dict[str, Any]) -> None:
-    """Measure the machine's limits in the run that the kernels' times are of."""
+    """Measure the machine's limits in the same run as the kernels' times."""
     output_json["limits"] = machine.measure()
 
 
 @pytest.fixture(autouse=True)
 def declared_work(request: pytest.FixtureRequest) -> None:
-    """Put a benchmark's work beside its times; a native kernel's must be declared."""
+    """Store a benchmark's work with its times; a native kernel's work must be declared."""
     if "benchmark" not in request.fixturenames:
         return
     benchmark, work = request.getfixturevalue("benchmark"), request.node.get_closest_marker("work")
@@ -55,7 +56,7 @@ def frame() -> NDArray[np.uint8]:
 
 @pytest.fixture(scope="session")
 def new_frames() -> list[NDArray[np.uint8]]:
-    """64 of 640x480, 59 MB: taken in turns, each has left the cache when it comes again."""
+    """64 frames of 640x480, 59 MB: used in turns, each has left the cache before it is used again."""
     rng = np.random.default_rng(0)
     return [rng.integers(0, 256, (480, 640, 3), np.uint8) for _ in range(64)]
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The cost of ``tricue evaluate``: time by jobs, memory, size of the report.
+"""The cost of ``tricue evaluate``: time by number of jobs, memory, size of the report.
 
     python benchmarks/evaluation.py
 
-The sequences are made in a temporary folder: a textured square that circles over noise, 160x120.
+The sequences are made in a temporary folder: a textured square that moves in a circle over noise, 160x120.
 """
 
 import os
@@ -39,7 +39,7 @@ def write_sequence(folder: Path, frames: int, seed: int) -> None:
 
 
 def measure_evaluate(data: Path, output: Path, trackers: str, *options: str) -> tuple[float, float]:
-    """Run the command; its seconds, and its peak memory in MB."""
+    """Run the command; returns its time in seconds, and its peak memory in MB."""
     command = [sys.executable, "-m", "tricue", "evaluate", str(data), "--trackers", trackers]
     start = time.monotonic()
     child = subprocess.Popen([*command, "--output", str(output), *options], stdout=subprocess.DEVNULL)

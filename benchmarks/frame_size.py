@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""What an update costs as the frame grows round a target of the same size in pixels.
+"""The cost of an update as the frame grows around a target of constant size in pixels.
 
 python -m benchmarks.frame_size [--rounds 5] [--write]
 
-A scene stands in the middle of larger and larger frames, so that a tracker has the same target to follow in
-all. --write puts the table into docs/benchmarks.md.
+A scene is in the middle of larger and larger frames, so that a tracker follows the same target in all of
+them. --write puts the table into docs/benchmarks.md.
 """
 
 import argparse
@@ -29,7 +29,7 @@ Size = tuple[int, int]
 SIZES: tuple[Size, ...] = ((160, 120), (320, 240), (640, 480), (1280, 720), (1920, 1080))
 SMALL, USUAL = SIZES[0], SIZES[2]
 FRAMES = 24  # all of one size in memory: half a gigabyte
-WALL = 6.0  # meters: as far as the room's own
+WALL = 6.0  # meters: as far away as the wall in the scene
 PAGE = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 HEADING = "## One target in larger frames"
 TEXT = """
@@ -66,7 +66,7 @@ class Case:
 
     @property
     def sizes(self) -> tuple[Size, ...]:
-        """Those of the larger frames."""
+        """The sizes of the larger frames."""
         return SIZES[SIZES.index(self.small) :]
 
     def box(self, index: int, size: Size) -> Box:
@@ -86,14 +86,14 @@ def margins(small: Size, size: Size) -> tuple[int, int]:
 
 
 def widened(camera: Intrinsics, size: Size) -> Intrinsics:
-    """The camera that sees more, in the same scale."""
+    """The camera with a wider view, in the same scale."""
     left, top = margins((camera.width, camera.height), size)
     return Intrinsics(camera.fx, camera.fy, camera.cx + left, camera.cy + top, *size)
 
 
 @cache
 def surround(size: Size, channel: str) -> NDArray[Any]:
-    """What is seen around the small frame: a room of soft clouds, before a wall; a tile of 640x480, repeated."""
+    """The surround of the small frame: smooth noise in color, a wall in depth; a repeated tile of 640x480."""
     rng = np.random.default_rng(0)
     if channel == "depth":
         tile = (WALL + rng.normal(0, 0.02, (480, 640))).astype(np.float32)
@@ -105,8 +105,9 @@ def surround(size: Size, channel: str) -> NDArray[Any]:
 
 
 def embedded(frame: Frame, size: Size, index: int) -> Frame:
-    """A frame of the size with the small one in its middle. Depths around it are others in each, as a sensor's
-    are: the fused tracker looks closely at those that stay the same.
+    """A frame of the size with the small one in its middle.
+
+    Depths around it differ from frame to frame, as a sensor's do: the fused tracker examines repeated ones.
     """
     channels = {}
     for channel in ("color", "depth", "right"):
@@ -124,7 +125,7 @@ def embedded(frame: Frame, size: Size, index: int) -> Frame:
 
 
 def cases(frames: int = FRAMES) -> Iterator[Case]:
-    """Every tracker, by every kind of frames that it takes."""
+    """Every tracker, with each kind of frames that it takes."""
     face = face_over_clutter(0, frames)
     colors = [np.asarray(each.color) for each in face.frames]
     halves = tuple(Frame(cv2.resize(each, SMALL, interpolation=cv2.INTER_AREA)) for each in colors)

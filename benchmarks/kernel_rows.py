@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Rows of kernels for docs/benchmarks.md: pytest-benchmark's times, and how near they are to the limit."""
+"""Rows of kernels for docs/benchmarks.md: pytest-benchmark's times, and how close they are to the limit."""
 
 from typing import Any
 
@@ -9,8 +9,8 @@ from benchmarks.limits import machine as limits
 
 EXPORTED = frozenset(name for name in dir(_core) if not name.startswith("_"))
 SIDES = {"native": "native", "reference": "reference", "baseline": "baseline", "script": "baseline"}
-"""Ids of a kernel's benchmarks, and the columns that they fill; others are not in the table."""
-ENOUGH = 0.1  # of the limit
+"""The columns of the table by the ids of a kernel's benchmarks; other ids aren't in the table."""
+ENOUGH = 0.1  # of the limit; a lower share needs an explanation
 
 
 def kernel_of(group: str) -> str:
@@ -24,7 +24,7 @@ def kernels_of(rows: dict[str, str]) -> set[str]:
 
 
 def kernel_rows(report: dict[str, Any]) -> dict[str, str]:
-    """A row a group of a kernel's benchmarks, by the group's name."""
+    """A row for each group of a kernel's benchmarks, by the group's name."""
     groups: dict[str, dict[str, float]] = {}
     shares: dict[str, str] = {}
     for each in report["benchmarks"]:
@@ -37,13 +37,13 @@ def kernel_rows(report: dict[str, Any]) -> dict[str, str]:
 
 
 def row_of(name: str, native: float, reference: float, baseline: float) -> str:
-    """A kernel's times and what they are of the native one, from seconds."""
+    """A kernel's times, given in seconds, and their ratios to the native one."""
     times = f"{1e6 * native:.1f} | {1e6 * reference:.0f} | {1e6 * baseline:.0f}"
     return f"| {name} | {times} | {reference / native:.1f} | {baseline / native:.1f} |"
 
 
 def share_of_limit(name: str, work: dict[str, Any], machine: limits.Limits, seconds: float) -> str:
-    """How near a kernel comes to the limit, and why not nearer. Ends the program where that can't be so."""
+    """How close a kernel is to the limit, and why not closer; SystemExit if declared work can't be right."""
     least, kind = limits.least_time({key: work[key] for key in work if key != "why"}, machine)
     share = least / seconds
     if share > 1:

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""The memory that trackers take on frames of 7680x4320 pixels.
+"""The memory that trackers need on frames of 7680x4320 pixels.
 
 python -m benchmarks.large_frames [--trackers NAME...]
 
-Each tracker starts and makes some updates in a process of its own, on its scene of benchmarks/frame_size.py
-in the middle of such frames. The table has the most memory that each took beside the frames.
+Each tracker is initialized and updated a few times in its own process, on its scene of
+benchmarks/frame_size.py in the middle of such frames. The table has the peak memory of each in addition to
+the frames.
 """
 
 import argparse
@@ -25,18 +26,18 @@ HEAD = """\
 
 
 def forget_peak() -> None:
-    """Begin to measure the peak anew."""
+    """Reset the process's peak memory."""
     Path("/proc/self/clear_refs").write_text("5")
 
 
 def peak_megabytes() -> float:
-    """Resident memory of this process, at most since its peak was forgotten."""
+    """The peak resident memory of this process since it was reset."""
     lines = Path("/proc/self/status").read_text().splitlines()
     return next(float(line.split()[1]) * 1024 / 1e6 for line in lines if line.startswith("VmHWM"))
 
 
 def measure(case: Case) -> str:
-    """Start and update on one large frame; its line of the table."""
+    """Initialize and update a tracker on large frames; its line of the table."""
     frames = [embedded(frame, LARGE, index) for index, frame in enumerate(case.frames[:2])]
     images = [image for image in (frames[0].color, frames[0].depth, frames[0].right) if image is not None]
     tracker = case.make(LARGE)
@@ -61,7 +62,7 @@ def report(case: Case) -> None:
 
 
 def main() -> None:
-    """A process a tracker, one after the other."""
+    """Measure each tracker in its own process, one after the other."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--trackers", nargs="+", help="names of the table's rows; all")
     options = parser.parse_args()

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""What a frame with 1, 2, 4 and 8 targets costs, with one worker and with two.
+"""The cost of a frame with 1, 2, 4 and 8 targets, with one worker and with two.
 
 ``python benchmarks/many_targets.py`` prints a table for targets of ``fused`` in color, 640x480. A frame's
-time is the least of all rounds, in which the cases take turns; a case's the median over the frames. Whatever
-else runs on a machine of two cores takes one from the second worker.
+time is its minimum over all rounds, in which the cases take turns; a case's time is the median over the
+frames. On a machine with two cores, anything else that runs slows down the second worker.
 """
 
 import argparse
@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 from tricue import imgproc
 
 HEIGHT, WIDTH, FRAMES = 480, 640, 60
-THING = 48, 72  # pixels, of a target
+THING = 48, 72  # pixels: size of a target
 TARGETS, WORKERS = (1, 2, 4, 8), (1, 2)
 
 
 def film(seed: int = 0) -> tuple[list[NDArray[np.uint8]], list[tricue.Box]]:
-    """Frames of textured things that move before blurred noise, and their boxes in the first."""
+    """Frames of textured objects that move over blurred noise, and their boxes in the first frame."""
     rng = np.random.default_rng(seed)
     width, height = THING
     noise = rng.integers(0, 256, (HEIGHT // 16, WIDTH // 16, 3)).astype(np.float32)
@@ -42,7 +42,7 @@ def film(seed: int = 0) -> tuple[list[NDArray[np.uint8]], list[tricue.Box]]:
 
 
 def seconds(frames: list[NDArray[np.uint8]], boxes: list[tricue.Box], workers: int) -> NDArray[np.float64]:
-    """Of each update."""
+    """The time of each update, seconds."""
     with tricue.MultiTracker(workers=workers) as several:
         for box in boxes:
             several.add(frames[0], box)

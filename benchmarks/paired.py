@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""How fast trackers are at two commits, on one machine, in turns.
+"""Compares the speed of trackers at two commits, on one machine, in turns.
 
 python -m benchmarks.paired eed0460 HEAD [--rounds 8]
 
-Both commits are built into build/paired, once each, and see the same frames, rendered by the tricue that is
-installed. Processes of both take turns. Each tracks a scene three times. The time of an update is the least
-of its times in all processes, as others only add time, and a case's time the median over its updates.
+Both commits are built into build/paired, once each, and see the same frames, rendered by the installed
+tricue. Processes of both take turns; each tracks a scene three times. The time of an update is its minimum
+over all processes, because other work only adds time. A case's time is the median over its updates.
 """
 
 import argparse
@@ -28,7 +28,7 @@ FRAMES = 60
 
 
 def cases() -> Iterator[tuple[str, str, Any, str | None]]:
-    """Name, tracker, scene, and the scene's camera that the tracker gets."""
+    """Name, tracker, scene, and the attribute of the scene that is the tracker's camera."""
     from tricue.scenes import face_over_clutter, head, overtaking, walker
     from tricue.scenes.stress.scene import stress_scene
 
@@ -65,7 +65,7 @@ def dump(name: str, tracker: str, scene: Any, camera: str | None) -> Path:
 
 
 def build(commit: str) -> Path:
-    """The folder of a commit's package, which is built where it isn't there."""
+    """The folder of a commit's package, which is built if it isn't there."""
     name = subprocess.run(
         ["git", "rev-parse", "--short", commit], cwd=ROOT, check=True, capture_output=True, text=True
     ).stdout.strip()
@@ -82,7 +82,7 @@ def build(commit: str) -> Path:
 
 
 def measure(site: Path, case: Path) -> NDArray[np.float64]:
-    """Seconds of each update of a case, the least of three runs, in a process of a package."""
+    """The seconds of each update of a case, minimum of three runs, in a process with a package."""
     environment = os.environ | {"PYTHONPATH": str(site)}
     command = [sys.executable, str(WORKER), str(case)]
     done = subprocess.run(command, env=environment, check=True, stdout=subprocess.PIPE, text=True)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Tracks a case of benchmarks/paired.py with the tricue on the path, and prints each update's least seconds.
+"""Tracks a case of benchmarks/paired.py with the tricue on the path; prints each update's minimum time.
 
-It uses only what all versions from 0.1.0 on have.
+It uses only what all versions since 0.1.0 have.
 """
 
 import json

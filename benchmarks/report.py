@@ -120,7 +120,7 @@ small kernel. Two processes have no such limit.
 
 
 def main() -> None:
-    """Put the document together, or put the kernels' rows into it."""
+    """Write the whole page, or the kernels' rows, or the trackers."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("json", type=Path, nargs="?", help="of pytest-benchmark")
     parser.add_argument("--kernels", action="store_true", help="write the rows of these kernels alone")
@@ -139,7 +139,7 @@ def main() -> None:
 
 
 def document(rows: dict[str, str], clock: str) -> str:
-    """The whole page, with the trackers measured now."""
+    """The whole page, with new measurements of the trackers."""
     if missing := EXPORTED - kernels_of(rows):
         raise SystemExit(f"report: no benchmark of {', '.join(sorted(missing))} was run")
     kernels = HEAD.format(machine=machine()), KERNELS.format(run=run_of(rows, clock)) + table(rows)
@@ -147,7 +147,7 @@ def document(rows: dict[str, str], clock: str) -> str:
 
 
 def trackers() -> str:
-    """The page from the trackers on, measured now."""
+    """The page from the trackers on, with new measurements."""
     with one_thread():
         parts = [
             TRACKERS.format(rounds=ROUNDS, machine=machine()).lstrip() + "\n".join(tracker_rows(scene())),
@@ -162,7 +162,7 @@ def trackers() -> str:
 
 
 def with_rows(page: str, rows: dict[str, str], clock: str) -> str:
-    """The page with the rows of these kernels new, and without those of kernels that are gone."""
+    """The page with new rows for these kernels, and without rows of kernels that no longer exist."""
     start, end = page.index(first_line(KERNELS)), page.index(first_line(TRACKERS))
     kept = {
         row.split("|")[1].strip(): row
@@ -174,12 +174,12 @@ def with_rows(page: str, rows: dict[str, str], clock: str) -> str:
 
 
 def first_line(section: str) -> str:
-    """Of a section's text, by which it is found in the page."""
+    """The first line of a section's text, by which the section is found in the page."""
     return section.strip().partition("\n")[0]
 
 
 def run_of(rows: dict[str, str], clock: str) -> str:
-    """The paragraph that tells of these rows' run."""
+    """The paragraph about the run of these rows."""
     names = kernels_of(rows)
     text = (ALL if names >= EXPORTED else LATER).format(
         clock=clock, machine=machine(), names=", ".join(sorted(names))
@@ -193,7 +193,7 @@ def table(rows: dict[str, str]) -> str:
 
 
 def machine() -> str:
-    """What it was measured on."""
+    """The machine and the versions that were measured."""
     lines = Path("/proc/cpuinfo").read_text().splitlines()
     names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
     model = names[0] if names else platform.machine()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Rows of trackers for docs/benchmarks.md: ours, their references and cv2's, measured in turns."""
+"""Rows of trackers for docs/benchmarks.md: tricue's with both sets of kernels, and cv2's, in turns."""
 
 from collections.abc import Callable, Iterator
 from functools import cache, partial
@@ -25,21 +25,21 @@ from tricue.scenes import (
 )
 
 ROUNDS = 12
-DEPTH_FRAMES, FEW = 60, 8  # in depth; of what takes over 50 ms a frame
+DEPTH_FRAMES, FEW = 60, 8  # in depth; for trackers that take over 50 ms per frame
 STEREO_FRAMES = 100
 WALK_FRAMES = 100
-SLOW = 3  # rounds for what takes over 2 ms a frame
+SLOW = 3  # rounds for trackers that take over 2 ms per frame
 Make = Callable[[], AnyTracker]
 
 
 @cache
 def scene() -> Scene:
-    """What all trackers are timed on."""
+    """The scene that color trackers are timed on."""
     return face_over_clutter(seed=0)
 
 
 def tracker_rows(scene: Scene) -> Iterator[str]:
-    """A line a tracker, in turn over the rounds."""
+    """A line per tracker; they take turns in every round."""
     makers = {"color-particle": ours(), "color-particle, reference": ours(kernels="reference")}
     makers["fused"] = partial(tricue.create, "fused")
     makers |= {name: (lambda make=make: make(0)) for name, make in baselines.available().items()}
@@ -60,7 +60,7 @@ def tracker_rows(scene: Scene) -> Iterator[str]:
 
 
 def depth_rows() -> Iterator[str]:
-    """A line a size and tracker in depth."""
+    """A line per size and tracker in depth."""
     for size, camera in (("176x144", "tof"), ("640x480", "rgbd")):
         scene = walker(seed=0, frames=DEPTH_FRAMES, camera=camera)
         runs = depth_runs(scene)
@@ -90,14 +90,14 @@ def depth_runs(scene: DepthScene) -> dict[str, list[Run]]:
 
 
 def stereo_rows() -> Iterator[str]:
-    """A line a size and tracker in stereo."""
+    """A line per size and tracker in stereo."""
     for size in ("160x120", "640x480"):
         scene = head(0, STEREO_FRAMES, size)
         yield from pair_lines(size, scene, "stereo-head", {})
 
 
 def walker_rows() -> Iterator[str]:
-    """A line a size and tracker of a walker."""
+    """A line per size and tracker that follows a walker."""
     alone = {"flow alone": {"cues": ("flow",)}, "disparity alone": {"cues": ("disparity",)}}
     for size in ("160x120", "640x480"):
         scene = overtaking(0, WALK_FRAMES, size)
@@ -107,7 +107,7 @@ def walker_rows() -> Iterator[str]:
 def pair_lines(
     size: str, scene: StereoScene | WalkScene, tracker: str, variants: dict[str, dict[str, Any]]
 ) -> Iterator[str]:
-    """A line a tracker of pairs: ours, its variants, its reference, and OpenCV's."""
+    """A line per tracker of stereo pairs: tricue's, its variants, its reference, and OpenCV's."""
     runs = stereo_runs(scene, tracker, variants)
     best = {name: np.min([each.seconds for each in found], axis=0).mean() for name, found in runs.items()}
     for name, found in runs.items():
@@ -120,7 +120,7 @@ def pair_lines(
 
 
 def off(found: Run, scene: StereoScene | WalkScene) -> str:
-    """The median error of the position as a share of the distance; nothing where there is no position."""
+    """The median error of the position as a share of the distance; "" without positions."""
     if np.isnan(found.positions).any():
         return ""
     truth = scene.positions[: len(found.positions)]
@@ -148,7 +148,7 @@ def stereo_runs(
 
 
 def in_turn(entries: dict[str, tuple[Make, Any, int]], box: Box) -> dict[str, list[Run]]:
-    """Runs of how each is made, on its frames, in as many of the rounds."""
+    """The runs of each entry, (maker, frames, number of rounds), taking turns."""
     runs: dict[str, list[Run]] = {name: [] for name in entries}
     for turn in range(ROUNDS):
         for name, (make, frames, rounds) in entries.items():
@@ -158,12 +158,12 @@ def in_turn(entries: dict[str, tuple[Make, Any, int]], box: Box) -> dict[str, li
 
 
 def ours(**parameters: Any) -> Make:
-    """How to make our tracker."""
+    """A maker of color-particle with these parameters."""
     return lambda: tricue.create("color-particle", **{"seed": 0} | parameters)
 
 
 def size_rows(scene: Scene) -> Iterator[str]:
-    """A line a frame size."""
+    """A line per frame size."""
     for scale in (0.5, 1, 2):
         frames = [cv2.resize(frame.color, None, fx=scale, fy=scale) for frame in scene.frames]
         box = Box(*(scale * number for number in scene.boxes[0]))
@@ -173,6 +173,6 @@ def size_rows(scene: Scene) -> Iterator[str]:
 
 
 def rate(make: Make, frames: Any, box: Box) -> float:
-    """Frames/s from each frame's minimum."""
+    """Frames/s from each frame's minimum time."""
     frames = [tricue.Frame(frame) for frame in frames]
     return float(1 / np.min([run(make(), frames, box).seconds for _ in range(ROUNDS)], axis=0).mean())

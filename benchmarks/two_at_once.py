@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Rows of two trackers at once for docs/benchmarks.md, in threads and in processes."""
+"""Rows for docs/benchmarks.md of two trackers that run at once, in threads and in processes."""
 
 import multiprocessing
 from collections.abc import Iterator
@@ -14,8 +14,8 @@ PAIR_ROUNDS = 30
 
 
 def pair_rows() -> Iterator[str]:
-    """A line a number of particles: two trackers at once, in threads and in processes, against one alone."""
-    scene()  # before a process is forked
+    """A line per number of particles: two trackers at once, in threads and in processes, and one alone."""
+    scene()  # cached before processes are forked
     context = multiprocessing.get_context("fork")
     with (
         ThreadPoolExecutor(1) as alone,
@@ -38,7 +38,7 @@ def rate_in(pool: Executor, count: int, particles: int) -> float:
 
 
 def follow(seed: int, particles: int) -> int:
-    """Three times through the scene; how many updates that are."""
+    """Track three times through the scene; returns the number of updates."""
     tracker = ours(particles=particles, seed=seed)()
     tracker.init(scene().frames[0], scene().boxes[0])
     for frame in 3 * scene().frames:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How fast this machine is at one kind of work, when nothing else holds it up. limits/machine.py compiles this file for the
-// processor that it runs on. Each probe returns operations per second, the best of several short runs, as others only add time.
+// How fast this machine does one kind of work when nothing else limits it. limits/machine.py compiles this file for the
+// processor that it runs on. Each probe returns operations per second: the best of several runs, as other work only adds time.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace {
 
 constexpr int kRuns = 60;
-constexpr int kRegisters = 12;  // independent results, more than any latency needs
+constexpr int kRegisters = 12;  // independent results: enough to hide any latency
 #if defined(__AVX512F__)
 constexpr int kWidth = 64;  // bytes of a register
 #elif defined(__AVX__)
@@ -27,13 +27,13 @@ using Doubles [[gnu::vector_size(kWidth)]] = double;
 
 volatile std::uint64_t sink;
 
-/// Hides from the compiler what is in a variable, so that it can't compute ahead.
+/// Hides a variable's value from the compiler, so that it can't compute results in advance.
 template <typename Value>
 void hide(Value& value) {
     asm volatile("" : "+m"(value));
 }
 
-/// The same of a number in a register.
+/// The same for a number in a register.
 inline void hide_register(std::uint32_t& number) {
     asm volatile("" : "+r"(number));
 }
@@ -57,7 +57,7 @@ void keep(const Vector& vector) {
     sink = word;
 }
 
-/// Steps of registers that don't wait for each other: `step` changes one of them.
+/// The rate of steps on registers that don't depend on each other; `step` changes one register.
 template <typename Vector, typename Step>
 double vector_rate(double operations, int steps, Step step) {
     return rate(operations * kRegisters * steps, [&] {
@@ -76,7 +76,7 @@ double vector_rate(double operations, int steps, Step step) {
 
 extern "C" {
 
-/// Bytes that are read, or read and written, of data of this size: the faster of both.
+/// Bytes read, or read and written, in data of this size, whichever is faster.
 double bytes_per_second(std::size_t size) {
     const std::size_t words = std::max<std::size_t>(size / kWidth / 16 * 16, 16);
     std::vector<Words> data(words, Words{}), other(words / 2, Words{});
@@ -144,7 +144,7 @@ double divs64_per_second() {
     return vector_rate<Doubles>(kWidth / 8, 1000, [&](Doubles& x) { x = dividend / (x + 1.0); });
 }
 
-/// Numbers read at any places of a table of 16 KB, one by one: gathers are no faster where they are done so inside.
+/// Numbers read from random places in a table of 16 KB, one by one; many processors' gathers are no faster.
 double lookups_per_second() {
     constexpr int kCount = 4096;
     std::vector<std::uint32_t> table(4096);
@@ -172,7 +172,7 @@ double lookups_per_second() {
     });
 }
 
-/// Increments of the bins of histograms of 1 KB, spread over eight so that one seldom waits for the last.
+/// Increments of bins in histograms of 1 KB; there are eight of them, so that one increment seldom waits for the last.
 double counts_per_second() {
     constexpr int kCount = 4096;
     std::vector<std::uint32_t> bins(8 * 256);
@@ -193,7 +193,7 @@ double counts_per_second() {
     });
 }
 
-/// Additions of 64 bits, each of which needs the one before.
+/// Additions of 64 bits, each of which needs the previous one.
 double in_turn_per_second() {
     double summand = 0.5;
     hide(summand);

@@ -4,8 +4,8 @@
     python -m benchmarks.quality.ablation --jobs 2
 
 The rows are the tracker with all cues, without each of them, and cv2's CSRT. The first columns and AUROC are
-those of ``color_video``, over all sequences; the last ones are the mean overlap in ``stress_scenes``,
-by channels. CSRT uses color alone, which is the same for all channels, so it runs once.
+those of ``color_video``, over all sequences; the next columns are the mean overlap in ``stress_scenes`` by
+channels. CSRT uses color alone, which is the same for all channels, so it runs once.
 """
 
 import sys
@@ -32,7 +32,7 @@ HEAD = ("", *PROTOCOLS, "AUROC", *CHANNELS, "ms/frame")
 
 
 def ablated() -> list[Variant]:
-    """The tracker with all cues, without each of them where the others are enough, and the baseline."""
+    """The tracker with all cues, without each cue that it can do without, and the baseline."""
     whole, cues = Variant(TRACKER, TrackerSpec(TRACKER)), tracker_class(TRACKER).Params().cues
     found = [whole]
     for cue in cues:
@@ -53,7 +53,7 @@ def _possible(cues: tuple[str, ...]) -> bool:
 
 
 def _with_new_inputs(variants: Sequence[Variant], channels: str) -> list[Variant]:
-    """Those that get more of these channels than of color alone; all of them on color."""
+    """The variants that get more from these channels than from color alone; all variants for color."""
     return [each for each in variants if each.spec.ours or channels == "color"]
 
 

@@ -9,21 +9,22 @@
 There are four protocols, each with the mean success AUC over its runs on a sequence: "forward" and
 "backward", one pass each; "starts", from the frames at 0, 1/4, 1/2 and 3/4 of the sequence to its end, and
 the same on the reversed sequence; "third", one pass over every third frame. A run starts on the first of its
-frames with a true box. Groups have the mean over their sequences; a sequence may be in several.
+frames with a true box. A group's number is the mean over its sequences; a sequence may be in several groups.
 
-Single runs hang on a few pixels. With --draws each run is made several times, from first boxes that are moved
-by a tenth of the true one's size and differ from it by up to a tenth in their sides; with --mirrored left and
-right are exchanged. Both tell what of a difference is chance.
+A single run depends on a few pixels. With --draws, each run is repeated from first boxes that are shifted by
+a tenth of the true box's size and differ from it by up to a tenth in their sides; with --mirrored, left and
+right are exchanged. Both show how much of a difference is chance.
 
 The last three tables pool the frames of all runs, each run once. "Lost": the overlap is under 0.1, or there
 is no target; "on target": above 0.3. AUROC is the chance that a frame on the target scores above a lost one.
-Scores are sorted into ten bins: "deviation" is the largest difference between the mean score and the share on
-the target in a bin with 1 % of the frames, "calibration error" the mean difference. The 95 % bootstrap
-intervals of these numbers, for which recordings are drawn, are wide: few recordings have most lost frames.
+Scores are sorted into ten bins: "deviation" is the largest difference between the mean score and the share of
+frames on the target, over bins with at least 1 % of the frames; "calibration error" is the mean difference.
+The 95 % bootstrap intervals of these numbers are over recordings, and wide: a few recordings have most of the
+lost frames.
 
-With --against, the tables after these have the paired differences to a stored run and their 95 % bootstrap
-interval, for which sequences are drawn. Version 0.1.0's parameters were chosen on the group "tuned", and
-StreetWalker, in "others", is of the recording of one of these.
+With --against, more tables follow, with the paired differences from a stored run and their 95 % bootstrap
+intervals over sequences. Version 0.1.0's parameters were chosen on the group "tuned"; StreetWalker, in
+"others", is from the same recording as one of these.
 """
 
 import sys

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Trackers on recorded color video as a worse camera has it: darker, blurred, smaller, slower, and more.
+"""Trackers on recorded color video as from a worse camera: darker, blurred, smaller, slower, and more.
 
     python -m benchmarks.quality.degraded_video --jobs 2
     python -m benchmarks.quality.degraded_video --trackers fused CSRT --changes gray blur
 
-One pass forward over each sequence, changed in one way at a time (``common/degradations.py``); nothing was
-chosen on these. AUC is the mean over the sequences. "TRACKED of lost" and "not TRACKED of on target" are
-shares of the frames of all sequences with an overlap under 0.1, and above 0.3. After a first box that is too
-large or too small, boxes are judged as if the first had been right: shrunk or grown by the same factor.
+One forward pass over each sequence, degraded in one way at a time (``common/degradations.py``); no parameters
+were chosen on these. AUC is the mean over the sequences. "TRACKED of lost" and "not TRACKED of on target" are
+shares of all sequences' frames with an overlap under 0.1 and above 0.3, respectively. If the first box is too
+large or too small, the boxes are rescaled by the inverse factor before they are compared with the truth.
 """
 
 import sys
@@ -59,8 +59,9 @@ def run_sequence(task: SequenceTask, changes: Sequence[str]) -> list[DegradedRes
 
 
 def run_degraded(variant: Variant, recording: Recording, change: Degradation) -> FrameResults | None:
-    """The tracker on the changed recording, from its first seen frame with a true box; None where fewer than
-    two frames are left.
+    """The tracker on the changed recording, from the first seen frame with a true box on.
+
+    None if fewer than two frames are left.
     """
     opened, frames = recording.opened, recording.frames
     truth, absent = opened.truth(len(frames)), opened.absent(len(frames))
@@ -77,7 +78,7 @@ def run_degraded(variant: Variant, recording: Recording, change: Degradation) ->
 
 
 def _shown(frames: Sequence[Frame], numbers: Iterable[int], change: Degradation) -> Iterator[Frame]:
-    """The changed frames of these numbers, color alone."""
+    """The changed frames with these numbers, color alone."""
     for number in numbers:
         frame = frames[number]
         assert frame.color is not None, "a color sequence"

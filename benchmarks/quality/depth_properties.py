@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""What recorded depth is like: holes, shadows, noise, edges, delay, and how targets' surrounds lie.
+"""Properties of recorded depth: holes, shadows, noise, edges, delay, and the surrounds of targets.
 
     python -m benchmarks.quality.depth_properties --shift 0.035
     python -m benchmarks.quality.depth_properties --rooms table held walker
 
 A column per recording, or per scene of tricue.scenes.rooms. Color is registered to depth as in rgbd_people.
-"shadow": gaps in the depth beside the edges of near things, to the left and to the right of these; the
-baseline is what a gap's width makes of that between the camera and the projector. "flying pixels" lie between
-both surfaces of a step. "noise" is the lower quartile of deviations from a plane over patches of 11x11
-pixels, its "grain" the correlation between neighbors. "edges" are shifts that lay edges of depth on those of
-color, in twelve parts of the image. "same depth": share of the measured pixels on a side of the target, half
-a box wide, that are within 0.1 m or 5 % of its depth. "plane": share of the surround on one plane.
+"shadow": gaps in the depth beside the edges of near objects, to their left and right; "baseline" is the
+distance between camera and projector that a gap's width implies. "flying pixels" lie between both surfaces of
+a step. "noise" is the lower quartile of deviations from a plane over patches of 11x11 pixels; "grain" is the
+correlation of noise between neighbors. "edges": the shifts that align edges of depth with those of color, in
+twelve parts of the image. "same depth": share of the measured pixels on a side of the target, half a box
+wide, that are within 0.1 m or 5 % of its depth. "plane": share of the surround on one plane.
 """
 
 import sys
@@ -35,7 +35,7 @@ from benchmarks.quality.common.parallel import run_parallel
 from benchmarks.quality.common.tables import Cell, markdown, write_csv
 
 SAMPLED_FRAMES = 24
-"""Of a recording, evenly spaced."""
+"""Evenly spaced frames of a recording that are measured."""
 Properties = dict[str, float]
 
 

@@ -7,21 +7,20 @@
     python -m benchmarks.quality.depth_video --shift 0.035 --draws 4 --jobs 2
 
 The protocols, and the first boxes with --draws, are those of ``color_video``. A file such as
-groundtruth_chair.txt beside groundtruth.txt has the true boxes of a further target. Where color isn't
-registered to depth and the true boxes are in the depth image's pixels, color is registered to depth by the
-intrinsics of both cameras and --shift, as in ``rgbd_people``. With "no times", frames have no time stamps, so
-that tricue's trackers assume their default rate; baselines don't use times and run once.
+groundtruth_chair.txt beside groundtruth.txt has the true boxes of another target. If color isn't registered
+to depth and the true boxes are in the depth image's pixels, color is registered to depth by the intrinsics of
+both cameras and --shift, as in ``rgbd_people``. With "no times", frames have no timestamps, so that tricue's
+trackers assume their default rate; baselines don't use times and run once.
 
 The first table has the mean success AUC and the mean overlap. The differences are paired, with 95 % bootstrap
-intervals for which recordings are drawn; of so few recordings they are too narrow.
+intervals over recordings, which are too narrow for so few recordings.
 
 The last two tables pool the frames of all runs, each run once. "Lost" and "on target" are as in
 ``color_video``. Errors are along z, in meters: the median of all frames; then, of the frames that are TRACKED
 on the target, the median, the median with its sign, the median standard deviation by the covariance, and the
-shares of errors within one and two standard deviations; 0.683 and 0.954 would be right. True depths are those
-of position_z_mm.txt. Without that file they are the median depth that is measured in the inner half of the
-true box. Trackers see the same measurements, so errors of the camera don't count, while depth that differs
-over the target does.
+shares of errors within one and two standard deviations; 0.683 and 0.954 would be right. True depths are from
+position_z_mm.txt. Without that file they are the median depth in the inner half of the true box. Trackers see
+the same measurements, so errors of the camera don't count, but differences of depth over the target do.
 """
 
 import sys

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Whether trackers drift: a dozen frames of a face, played to and fro for thousands of updates.
+"""Whether trackers drift: a dozen frames of a face, played forward and backward for thousands of updates.
 
     python -m benchmarks.quality.drift [DATASET] [--trackers fused color-particle] [--seeds 0:5] [--jobs 2]
 
-The frames are those of the sequence David at 160x120, from three starts in steps of 1, 5 and 10. What is in
-them never changes, so whatever overlap is lost from the first pass to the last five is drift. A tracker that
-draws random numbers runs once a seed; its overlaps are means over them.
+The frames are from the sequence David, at 160x120, from three starts in steps of 1, 5 and 10. Their content
+never changes, so any overlap that is lost between the first pass and the last five is drift. A tracker that
+draws random numbers runs once per seed; its overlaps are means over the seeds.
 """
 
 import sys
@@ -26,7 +26,7 @@ from benchmarks.quality.common.parallel import run_parallel
 SIZE = (160, 120)
 STARTS, STEPS = (0, 120, 300), (1, 5, 10)
 LENGTH = 12  # frames
-ORDER = (*range(1, LENGTH), *range(LENGTH - 2, -1, -1))  # of a pass, after the first frame
+ORDER = (*range(1, LENGTH), *range(LENGTH - 2, -1, -1))  # of the frames in a pass, after the first frame
 UPDATES = 3000
 LAST = 5  # passes
 
@@ -41,7 +41,7 @@ class Case(NamedTuple):
 
 
 def cases(sequence: sequences.Sequence) -> Iterator[Case]:
-    """All, of a sequence of at least 411 frames."""
+    """All cases from a sequence of at least 411 frames."""
     first = np.asarray(sequence.frames[0].color)
     scale = np.tile([SIZE[0] / first.shape[1], SIZE[1] / first.shape[0]], 2)
     for start in STARTS:
@@ -63,12 +63,12 @@ def drift(tracker: str, case: Case, updates: int = UPDATES, seed: int = 0) -> tu
 
 
 def drift_by_seed(tracker: str, seeds: Sequence[int], case: Case) -> NDArray[np.float64]:
-    """(2, seeds): the same, of each seed."""
+    """(2, seeds): the overlaps of :func:`drift` for each seed."""
     return np.transpose([drift(tracker, case, seed=seed) for seed in seeds])
 
 
 def main() -> int:
-    """A line a case and tracker."""
+    """Print a line per case and tracker."""
     parser = arguments.bare_parser("drift", __doc__)
     parser.add_argument("--trackers", nargs="+", default=["fused", "color-particle"], metavar="NAME")
     parser.add_argument("--seeds", type=arguments.seeds, default=range(5), metavar="A:B", help="default 0:5")

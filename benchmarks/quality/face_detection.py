@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Frontal faces that are found without a box in video of one color camera: rates, false starts and times.
+"""Detection of frontal faces, without a box, in video of one color camera: rates, false starts and times.
 
     python -m benchmarks.quality.face_detection [--every 5] [DATA]
 
 "found" is the share of frames whose box overlaps the true one by 0.5 or more, "elsewhere" that of boxes
-without any overlap, "overlap" the median where there is some. In sequences without frontal faces, in which at
-most walkers and riders are seen, each box is a false start; so it is in noise. In photographs of people, not
-all of them frontal, a box is right where the inner half is skin by a hand-drawn mask. It uses what is
-installed: cv2 4's cascade, or, without it, scikit-image's. All frames (--every 1) take it half an hour.
+without any overlap, "overlap" the median of overlaps above 0. In noise, and in sequences without frontal
+faces, which show walkers and riders at most, each box is a false start. In photographs of people, not all of
+them frontal, a box is right if at least half of its inner part is skin by a hand-drawn mask. It uses cv2 4's
+cascade, or, if that isn't installed, scikit-image's. All frames (--every 1) take half an hour.
 """
 
 import argparse
@@ -35,7 +35,7 @@ FRONTAL = {
     "Girl": [(0, 76), (122, 160), (260, 300), (340, 418), (470, 499)],
     "Jumping": [(0, 312)],
 }
-"""First and last frames, looked over, in which the target's face is frontal and free."""
+"""First and last frames of ranges, checked by eye, in which the target's face is frontal and unoccluded."""
 OTHER_FACES = {"Football1"}  # behind the helmets' bars
 PHOTOGRAPHS = "photographs"
 MIN_SKIN = 0.5  # share of the inner half of a box on a face
@@ -43,8 +43,9 @@ NOISE = 20  # images
 
 
 class Answer(NamedTuple):
-    """What was found in a frame. overlap: with the true box, 0 where nothing was found, None without a true
-    box.
+    """What was found in a frame.
+
+    overlap: with the true box; 0 if nothing was found, None without a true box.
     """
 
     source: str

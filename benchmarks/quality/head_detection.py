@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""Heads that are found without a box: rates, false starts and times, in stereo pairs and in depth.
+"""Detection of heads, without a box, in stereo pairs and in depth: rates, false starts and times.
 
     python -m benchmarks.quality.head_detection [DATA]
 
-"a box" is the share of frames in which one is found, "on the head" that of boxes that overlap the true one by
-0.5 or more, "overlap" the mean of those. Rendered heads are visible by at least 95 %; "facing" ones show the
-face, others their side or hair alone; "gray" ones are all of these without colors.
+"a box" is the share of frames in which a head is found, "on the head" that of boxes that overlap the true one
+by 0.5 or more, "overlap" the mean of these overlaps. At least 95 % of a rendered head is visible; "facing"
+ones show the face, "turned" ones only their side or hair; "gray" ones are all of these without color.
 
-"nobody": what is left of these frames beside the person, rooms with things on tables, and recordings. There
-each box is a false start. Middlebury's pairs and the conveyor's have no known baseline. Of recorded people no
-true head is known: all boxes were looked at.
+"nobody": the parts of these frames beside the person, rooms with objects on tables, and recordings. There,
+each box is a false start. The baselines of Middlebury's pairs and of the conveyor's aren't known. The true
+heads of recorded people aren't known: all boxes were checked by eye.
 """
 
 import argparse
@@ -37,16 +37,16 @@ from benchmarks.quality.common.tables import markdown
 
 MIN_OVERLAP, MIN_VISIBLE = 0.5, 0.95
 MAX_FACING = 1.0  # radians
-OFTEN, EVERY, FEW = 3, 20, 40  # frames
+OFTEN, EVERY, FEW = 3, 20, 40  # frames from one that is measured to the next
 UNKNOWN_BASELINE = 0.12  # meters
-BESIDE = 3  # times the head's width from its middle: where the person ends
-MIN_SHARE = 0.4  # of the width, that has to be left beside the person
+BESIDE = 3  # head widths from the head's middle, beyond which a frame doesn't show the person
+MIN_SHARE = 0.4  # of the frame's width, that a part beside the person needs
 NOBODY = "kitchen-mug", "paper-cup", "yellow-dragon"  # recordings with registered depth
 PEOPLE = "walk-away", "queue-first", "queue-second"  # recordings whose depth has to be registered
 
 
 class Answer(NamedTuple):
-    """What was found in a frame. overlap: with the true box; NaN without one, or where nothing was found."""
+    """What was found in a frame. overlap: with the true box; NaN without one, or if nothing was found."""
 
     source: str
     found: bool
@@ -109,7 +109,7 @@ def _gray(frame: Frame) -> Frame:
 
 
 def _beside(frame: Frame, true: Box) -> Iterator[Frame]:
-    """The parts of a pair left and right of the person, where they are wide enough."""
+    """The parts of a pair left and right of the person, if they are wide enough."""
     assert frame.color is not None
     assert frame.right is not None
     width, (x, _) = frame.color.shape[1], true.center

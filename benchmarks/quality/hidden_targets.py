@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: MIT
-"""Trackers on recorded color video in which the target is covered by what is beside it.
+"""Trackers on recorded color video in which the target is covered by a copy of what is beside it.
 
     python -m benchmarks.quality.hidden_targets --jobs 2
     python -m benchmarks.quality.hidden_targets --set fused.min_score=0.3 --only David Girl
 
-The target is seen for 60 frames, or half of a shorter sequence, then hidden for 30, 100 or 300, forward and
-backward; sequences that are too short are played to and fro. "covered": the video goes on while the target
-is covered where it moves; "empty": one frame with the target covered is repeated.
+The target is visible for 60 frames, or half of a shorter sequence, then hidden for 30, 100 or 300, forward
+and backward; sequences that are too short are repeated in alternating directions. "covered": the video
+continues while the moving target is covered; "empty": one frame with the target covered is repeated.
 
-"runs" are those in which the overlap was 0.5 or more when the target got hidden; others don't count. "taken
-up": the share in which the target was TRACKED with an overlap above 0.3 within 30 frames after it was seen
-again. "wrong": the share in which something else was TRACKED for more than 5 frames in a row while it was
-hidden.
+"runs": the number of runs in which the overlap was 0.5 or more when the target was hidden; others don't
+count. "taken up": the share of runs in which the target was TRACKED with an overlap above 0.3 within 30
+frames after it became visible again. "wrong": the share of runs in which something else was TRACKED for more
+than 5 frames in a row while it was hidden.
 """
 
 import sys

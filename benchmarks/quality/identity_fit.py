@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""The fused tracker's weights of identity: fitted on recorded color video, and how well they do.
+"""The fused tracker's identity weights: a fit on recorded color video, and how well the weights work.
 
     python -m benchmarks.quality.identity_fit --jobs 2
 
 The first lines are the weights fitted on all sequences, in the form of tricue/track/fused/identity.py.
-Features whose weight is 0 there are left out. A logistic regression tells good frames, overlap above 0.3,
-from covered, lost and other places; each sequence counts the same.
+Features whose weight is 0 there are left out. A logistic regression separates good frames, with an overlap
+above 0.3, from covered, lost and other places; each sequence counts the same.
 
-The table is of weights that were fitted without the recording they judge. "AUROC": the chance that a good
-frame has a higher score than the target's place while it is covered, a tracked place with an overlap under
-0.1, or a place that a search of the whole frame finds elsewhere. "above": the share of these that is above
-the threshold that 3 % of the good frames miss.
+The table is for weights that were fitted without the recording that they are tested on. "AUROC": the chance
+that a good frame has a higher score than the target's place while it is covered, than a tracked place with an
+overlap under 0.1, or than a place that a search of the whole frame finds elsewhere. "above": the share of
+these places above the threshold that 3 % of the good frames miss.
 """
 
 import sys
@@ -31,11 +31,11 @@ from benchmarks.quality.common.tables import Cell, markdown, write_csv
 
 FITTED: Mapping[str, Weights] = {"APPEARANCE": APPEARANCE, "STRUCTURE": STRUCTURE}
 COUNTS: Mapping[Kind, float] = {Kind.GOOD: 2.0, Kind.COVERED: 1.0, Kind.LOST: 1.0, Kind.ELSEWHERE: 0.3}
-"""How much a sequence's samples of a kind count together."""
+"""The total weight of a sequence's samples by their kind."""
 MIN_LOST = 50
-"""Lost samples of a sequence, of which fewer count less: they are of few moments."""
+"""If a sequence has fewer lost samples, these have less weight, as they are from few moments."""
 MISSED_SHARE = 0.03
-"""Of the good frames."""
+"""Share of the good frames that miss the threshold."""
 OTHERS = (Kind.COVERED, Kind.LOST, Kind.ELSEWHERE)
 HEAD = (
     "weights",
@@ -45,7 +45,7 @@ HEAD = (
 
 
 def sample_weights(kinds: NDArray[np.intp], sequences: NDArray[np.str_]) -> Array:
-    """(N,) how much each sample counts; kinds, sequences: (N,) those of the samples."""
+    """(N,) the weights of samples; kinds, sequences: (N,) the samples' kinds and sequences."""
     weights: Array = np.zeros(len(kinds))
     for sequence in np.unique(sequences):
         for kind, count in COUNTS.items():
@@ -57,9 +57,9 @@ def sample_weights(kinds: NDArray[np.intp], sequences: NDArray[np.str_]) -> Arra
 
 
 def fit(samples: Samples, weights: Array, used: Weights) -> Array:
-    """(9,) log-odds per unit of the features and of their change, and the offset.
+    """(9,) log-odds per unit of the features and of their changes, and the offset.
 
-    weights: (N,) how much each sample counts. used: weights that are 0 for what stays 0.
+    weights: (N,) of the samples. used: where these weights are 0, the fitted ones stay 0.
     """
     columns = np.flatnonzero([*used.features, *used.change])
     found = logistic_regression.fit(samples.features[:, columns], samples.kinds == Kind.GOOD, weights)
@@ -69,7 +69,7 @@ def fit(samples: Samples, weights: Array, used: Weights) -> Array:
 
 
 def judge(samples: Samples, weights: Array, sequences: Sequence[str], used: Weights) -> Array:
-    """(N,) probability of each sample by a fit without its recording. ValueError for a single recording."""
+    """(N,) the samples' probabilities by fits without their recording. ValueError for a single recording."""
     scores: Array = np.zeros(len(samples.kinds))
     for fold in leave_one_out(sequences):
         part = Samples(samples.kinds[fold.fit], samples.features[fold.fit])
@@ -79,7 +79,7 @@ def judge(samples: Samples, weights: Array, sequences: Sequence[str], used: Weig
 
 
 def numbers_of(kinds: NDArray[np.intp], scores: Array) -> list[float]:
-    """HEAD but for its first column, of scores in [0, 1]; NaN for a kind without samples."""
+    """The columns of HEAD after the first, for scores in [0, 1]; NaN for a kind without samples."""
     good = scores[kinds == Kind.GOOD]
     threshold = np.quantile(good, MISSED_SHARE) if good.size else float("nan")
     others = [scores[kinds == kind] for kind in OTHERS]
@@ -91,7 +91,7 @@ def numbers_of(kinds: NDArray[np.intp], scores: Array) -> list[float]:
 
 
 def source_line(name: str, found: Array) -> str:
-    """The line of identity.py that has these weights, (9,)."""
+    """The line of identity.py with these weights, (9,)."""
     values = (found.round(1) + 0.0).tolist()  # not -0.0
     return f"{name} = Weights({tuple(values[:4])}, {tuple(values[4:8])}, {values[8]})"
 

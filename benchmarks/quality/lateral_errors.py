@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: MIT
-"""How far the fused tracker's positions are off to the right and down, and whether its covariance says so.
+"""The fused tracker's lateral position errors, to the right and down, and whether its covariance fits them.
 
     python -m benchmarks.quality.lateral_errors --shift 0.035 --jobs 2
 
-Frames count that are TRACKED with an overlap above 0.5. Scenes have the true middle of the target. Of
-recordings it is taken to be the middle of the true box, which has to be whole in the image, at the depth that
-was tracked; they are in the depth image's pixels, as in ``depth_video``.
+Only frames that are TRACKED with an overlap above 0.5 count. The true center of a scene's target is known. In
+recordings, it is assumed to be the center of the true box, which must be entirely in the image, at the
+tracked depth; true boxes are in the depth image's pixels, as in ``depth_video``.
 
-All columns have pairs, to the right and down. "error" is the root mean square, "deviation" the median
-standard deviation. Then come the errors within two standard deviations if the covariance had no share of the
-side of the track's box (position_filter.py), those within one and within two with the share in use, and with
-the one that is most likely for the other targets, each of which counts the same. 0.683 and 0.954 would be
-right. Targets of one recording are left out together; seeds of one kind of scene are one target.
+All columns have two numbers, to the right and down. "error" is the root mean square, "deviation" the median
+standard deviation. "without" is the share of errors within two standard deviations if the covariance had no
+term proportional to the side of the track's box (SHARED_LATERAL_ERROR in position_filter.py). "in use" and
+"left out" are the shares within one and within two standard deviations, with the factor of that term in use,
+and with the factor that is most likely for the other targets, each of which counts the same; "share" is that
+factor. 0.683 and 0.954 would be right. Targets of one recording are left out together; seeds of one kind of
+scene are one target.
 """
 
 import sys
@@ -45,15 +47,17 @@ PEOPLE: dict[str, Callable[..., scenes.DepthScene]] = {
     "crossing": scenes.crossing,
 }
 MIN_FRAMES = 10
-"""Targets with fewer tell nothing."""
+"""Targets with fewer frames are left out."""
 SHARES = np.geomspace(0.002, 1.0, 400)
-"""Among which the most likely one is looked for."""
+"""Candidates for the most likely share."""
 HEAD = ("target", "frames", "error, mm", "deviation, mm", "without", "in use", "left out", "share")
 
 
 class Errors(NamedTuple):
-    """Of a target's N frames, to the right and down. off: (N, 2) meters. variance: (N, 2) m², without that of
-    the share. unit: (N, 2) m², of a share of 1.
+    """A target's errors in N frames, to the right and down.
+
+    off: (N, 2) meters. variance: (N, 2) m², without the share's term. unit: (N, 2) m², that term for a share
+    of 1.
     """
 
     target: str
@@ -62,7 +66,7 @@ class Errors(NamedTuple):
     unit: Array
 
     def deviations(self, share: float) -> Array:
-        """(N, 2) meters, the standard deviations with such a share."""
+        """(N, 2) meters, the standard deviations with this share."""
         return np.sqrt(self.variance + share**2 * self.unit)
 
     def within(self, share: float, times: float) -> Array:
@@ -70,13 +74,13 @@ class Errors(NamedTuple):
         return np.asarray(np.mean(np.abs(self.off) <= times * self.deviations(share), axis=0))
 
     def surprise(self, share: float) -> float:
-        """The mean negative log-likelihood, but for a constant."""
+        """The mean negative log-likelihood, up to a constant factor and offset."""
         variance = self.deviations(share) ** 2
         return float(np.mean(np.log(variance) + self.off**2 / variance))
 
 
 def pool(targets: Sequence[Errors]) -> list[Errors]:
-    """Those of one name as one; those with too few frames are left out."""
+    """Targets with the same name as one; those with too few frames are left out."""
     found: list[Errors] = []
     for name in dict.fromkeys(each.target for each in targets):
         same = [each for each in targets if each.target == name]
@@ -86,7 +90,7 @@ def pool(targets: Sequence[Errors]) -> list[Errors]:
 
 
 def most_likely_share(targets: Sequence[Errors]) -> float:
-    """The share under which the errors of the targets, which count the same, are most likely."""
+    """The share for which the targets' errors are most likely; each target counts the same."""
     return float(min(SHARES, key=lambda share: np.mean([each.surprise(share) for each in targets])))
 
 
@@ -97,8 +101,9 @@ def measure(
     camera: Intrinsics,
     positions: Array | None,
 ) -> Errors:
-    """The errors of the tracker that starts on the first true box. positions: (N, 3) meters; None where they
-    are those of the boxes' middles.
+    """The errors of the tracker, which starts on the first true box.
+
+    positions: (N, 3) the true ones, meters; None to use the boxes' centers.
     """
     tracker = FusedTracker(intrinsics=camera)
     found: list[tuple[Array, Array, Array]] = []
@@ -120,7 +125,7 @@ def measure(
 
 
 def _counts(track: Track, true: Box, camera: Intrinsics, whole: bool) -> bool:
-    """Whether the track is on the target, and, if it matters, the true box whole in the image."""
+    """Whether the track is on the target, and, with ``whole``, the true box is entirely in the image."""
     if not np.isfinite(true).all() or track.status is not Status.TRACKED or track.position is None:
         return False
     inside = true.clip(camera.width, camera.height).area > 0.999 * true.area if whole else True
@@ -139,7 +144,7 @@ def measure_recording(task: SequenceTask, shift: float) -> Errors | None:
 
 
 def measure_people(scene: tuple[str, int]) -> Errors:
-    """A rendered person before a time-of-flight camera, by the scene's kind and seed."""
+    """A rendered person in front of a time-of-flight camera, by the scene's kind and seed."""
     kind, seed = scene
     made = PEOPLE[kind](seed)
     return measure(f"scene, {kind}", made.frames, np.array(made.boxes), made.intrinsics, made.positions)
@@ -153,7 +158,7 @@ def measure_room(scene: tuple[str, int]) -> Errors:
 
 
 def rows(targets: Sequence[Errors]) -> list[list[Cell]]:
-    """A line per target, and one of their means."""
+    """A line per target, and one with their means."""
     lines: list[list[Cell]] = []
     numbers: list[Array] = []
     for fold in leave_one_out([each.target for each in targets]):
@@ -167,7 +172,7 @@ def rows(targets: Sequence[Errors]) -> list[list[Cell]]:
 
 
 def _numbers(target: Errors, left_out: float) -> Array:
-    """(7, 2) as the columns have them, to the right and down."""
+    """(7, 2) the numbers of the columns, to the right and down."""
     used = SHARED_LATERAL_ERROR
     return np.array(
         [

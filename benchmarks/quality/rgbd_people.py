@@ -3,9 +3,9 @@
 
     python -m benchmarks.quality.rgbd_people [DATASET]
 
-Each tracker starts ten times on the first true box, its corner and sides jittered by up to 5 % of the sides.
+Each tracker starts ten times on the first true box, with corner and sides jittered by up to 5 % of the sides.
 True boxes are in the depth image's pixels. Color is registered to these by the intrinsics of both cameras and
---shift, meters from the color to the depth camera, to the right; by default both cameras are in one place. In
+--shift, meters to the right from the color to the depth camera; by default both cameras are in one place. In
 the recordings of TRICUE_DATA, depth edges of near objects match the strongest color gradients at a shift of
 0.03 to 0.04. "at the end": share of the runs whose overlap is above 0.3 in the last frame with a true box.
 """
@@ -57,7 +57,7 @@ class PeopleResult(NamedTuple):
 
 
 def run_seeds(task: PeopleTask) -> list[PeopleResult]:
-    """Decode the sequence once and run the tracker from each box; nothing where it lacks a channel."""
+    """Decode the sequence once, and run the tracker from each box; no runs if a channel is missing."""
     opened = task.entry.open()
     camera = color_camera(opened)
     channels = ("depth",) if camera is None else ("color", "depth")

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Trackers in rendered rooms, tricue.scenes.rooms, whose targets, surrounds and sensors are as real ones.
+"""Trackers in rendered rooms, tricue.scenes.rooms, with realistic targets, surrounds and sensors.
 
     python -m benchmarks.quality.room_scenes --jobs 2
     python -m benchmarks.quality.room_scenes --channels stereo --trackers fused:color fused CSRT
 
 Mean AUC by kind of scene, over frames in which at least half of the target is visible. Each scene counts the
-same in its kind, and each kind in "mean". "difference" is the mean over scenes less that of the first tracker
-on the same scenes, with its 95 % bootstrap interval. "recovered": share of the scenes "returning" in which
-the overlap is above 0.5 within 10 frames with the target wholly visible again.
+same in its kind, and each kind in "mean". "difference" is the mean over scenes minus that of the first
+tracker on the same scenes, with its 95 % bootstrap interval. "recovered": share of the scenes "returning" in
+which the overlap is above 0.5 within the first 10 frames with the target fully visible again.
 """
 
 import sys
@@ -29,7 +29,7 @@ CSV_COLUMNS = ("kind", "seed", "tracker", "AUC", "recovered")
 
 
 def run_room(task: SceneTask) -> list[SceneResult]:
-    """Render the room once and run all trackers that have their channels in it."""
+    """Render the room once, and run all trackers that can use its channels."""
     inputs = Inputs(channels_of(task.channels))
     able = [each for each in task.variants if not each.unsupported(inputs)]
     if not able:

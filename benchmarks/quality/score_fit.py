@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""The line from the fused tracker's log-odds to its score: fitted on its own tracks, and how well it does.
+"""The line from the fused tracker's log-odds to its score: a fit on its own tracks, and how well it works.
 
     python -m benchmarks.quality.score_fit --jobs 2
 
-The first line is fitted on all sequences, in the form of tricue/track/fused/identity.py: a logistic
-regression of "the overlap is above 0.3" on the log-odds, each frame of all runs counting the same (Platt
-1999). The table is of the scores in use, and of those by lines that were fitted without the recording they
-judge: of all runs, and of those of each protocol.
+The printed line is fitted on all sequences, in the form of tricue/track/fused/identity.py: a logistic
+regression of "the overlap is above 0.3" on the log-odds, in which each frame of all runs counts the same
+(Platt 1999). The table is for the scores in use, and for scores by lines that were fitted without the
+recording that they are tested on; for all runs, and for those of each protocol.
 
-The tracks depend on the log-odds alone, so that they stay what they are if the thresholds move with the line.
+The tracks depend on the log-odds alone, so they stay the same if the thresholds move with the line.
 """
 
 import sys
@@ -32,7 +32,7 @@ HEAD = ("scores", "runs", "deviation", "calibration error", "AUROC")
 
 
 def log_odds(scores: Array) -> Array:
-    """(N, 1) those by the features of scores, (N,) in [0, 1]."""
+    """(N, 1) the log-odds that give these scores, (N,) in [0, 1]."""
     return np.array([log_odds_of(float(score)) for score in scores])[:, None]
 
 
@@ -51,7 +51,7 @@ def judge(features: Array, on_target: Array, sequences: Sequence[str]) -> Array:
 
 
 def rows(name: str, frames: FrameResults, protocols: Mapping[str, Flags]) -> list[list[Cell]]:
-    """Rows of the table: of all frames, and of those of each protocol that has some."""
+    """Rows of the table: for all frames, and for those of each protocol that has any."""
     parts = {
         "all": frames,
         **{each: select(frames, flags) for each, flags in protocols.items() if flags.any()},
@@ -61,7 +61,7 @@ def rows(name: str, frames: FrameResults, protocols: Mapping[str, Flags]) -> lis
 
 
 def known(frames: FrameResults) -> FrameResults:
-    """The frames after the first of their runs, whose truth is known or without target."""
+    """The frames with known truth, or known to be without the target, but the first of each run."""
     return select(frames, ~np.isnan(frames.seconds) & (frames.absent | ~np.isnan(frames.overlaps)))
 
 
@@ -71,7 +71,7 @@ def select(frames: FrameResults, chosen: Flags) -> FrameResults:
 
 
 def by_protocol(results: Sequence[SequenceResult], runs: Sequence[FrameResults]) -> dict[str, Flags]:
-    """Of the frames of all runs, which belong to a protocol; runs: of the results, in their order."""
+    """Which frames of all runs belong to each protocol; runs: those of the results, in their order."""
     orders = [order for each in results for order in each.runs]
     counts = [len(run.scores) for run in runs]
     return {name: np.repeat([belongs(order, name) for order in orders], counts) for name in PROTOCOLS}

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""Trackers that run for a long time, and are disturbed: memory, latency, drift.
+"""Trackers that run for a long time, with disturbances: memory, latency, drift.
 
     python -m benchmarks.quality.soak [--updates 1000000] [--trackers NAME...] [--jobs 2] [--write]
 
-Each tracker goes through its scene of benchmarks/frame_size.py, forward and backward, in its own process;
-the frames are in memory. In one of a hundred passes something covers the target for some frames; in another,
-frames are blank; before another the tracker gets what is no frame, which it has to refuse; before another it
-is pickled, and goes on as the copy. A tracker that is lost at the end of a pass, or follows something else,
-starts again. Any other error ends the run. What a run has shown is kept in build/soak; --write makes of it
-the section of docs/reliability.md.
+Each tracker runs through its scene of benchmarks/frame_size.py, forward and backward, in its own process; the
+frames are in memory. Of every hundred passes, one has the target covered for some frames, and one has blank
+frames; before one pass the tracker gets an invalid frame, which it must refuse, and before one it is pickled
+and continues as the copy. A tracker that is lost at the end of a pass, or follows something else, is started
+again. Any other error ends the run. The results of a run are stored in build/soak; --write makes the section
+of docs/reliability.md from them.
 """
 
 import argparse
@@ -36,8 +36,8 @@ ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "build" / "soak"
 PAGE = ROOT / "docs" / "reliability.md"
 PERIOD = 100  # passes
-COVERED, BLANK, REFUSED, PICKLED = range(4)  # passes of a period in which something happens
-HIDDEN = slice(8, 16)  # frames of a pass
+COVERED, BLANK, REFUSED, PICKLED = range(4)  # passes of a period with a disturbance
+HIDDEN = slice(8, 16)  # frames of a pass in which the target is covered or frames are blank
 ASTRAY = 0.1  # overlap
 MEASUREMENTS = 1000  # of memory
 PARTS = 10  # of a run, whose overlaps are compared
@@ -64,7 +64,7 @@ The mean overlap with the true box in undisturbed passes, by tenths of the run:
 
 
 class Soaked(NamedTuple):
-    """What a run of one tracker showed; memory in MB, from a tenth of the run on; latencies in ms."""
+    """The results of one tracker's run; memory in MB, from a tenth of the run on; latencies in ms."""
 
     name: str
     updates: int
@@ -80,7 +80,7 @@ class Soaked(NamedTuple):
 
 
 def resident_megabytes() -> float:
-    """Of this process, now."""
+    """The current resident memory of this process."""
     pages = int(Path("/proc/self/statm").read_text().split()[1])
     return pages * resource.getpagesize() / 1e6
 
@@ -88,7 +88,7 @@ def resident_megabytes() -> float:
 def soak(case: Case, updates: int) -> Soaked:
     """Run a tracker for so many updates."""
     passes, run = Passes(case), Run(case, updates)
-    # Filled, so that what the run itself keeps is in memory from the start.
+    # Filled, so that the memory of the run itself is resident from the start.
     overlaps = np.full(updates // (len(passes.frames) - 1) + 1, np.nan)
     refused = restarted = 0
     run.start(passes.frames[0])
@@ -103,7 +103,7 @@ def soak(case: Case, updates: int) -> Soaked:
             boxes[index] = run.update(frame, passes.boxes[index])
         if run.done == updates:
             break
-        if kind > PICKLED + 1:  # not just after something happened
+        if kind > PICKLED + 1:  # not directly after a disturbance
             overlaps[number] = passes.overlap(boxes)
         if run.track.status is Status.LOST or is_astray(run.track, passes.boxes[0]):
             restarted += 1
@@ -112,7 +112,7 @@ def soak(case: Case, updates: int) -> Soaked:
 
 
 class Run:
-    """A tracker, and what its updates showed so far."""
+    """A tracker, and the results of its updates so far."""
 
     track: Track
 
@@ -122,14 +122,14 @@ class Run:
         self._case = case
         self._lost = self._found = 0
         self._memory = Memory()
-        self._latencies = np.full(updates, -1, np.int32)  # filled, as the overlaps
+        self._latencies = np.full(updates, -1, np.int32)  # filled like the overlaps
 
     def start(self, frame: Frame) -> None:
         """Start, or start again, on the first frame."""
         self.track = self.tracker.init(frame, self._case.box(0, self._case.small))
 
     def update(self, frame: Frame, box: NDArray[np.float64]) -> Box:
-        """The box that the tracker finds; box: the true one."""
+        """Update the tracker; returns the box that it finds. box: the true one."""
         was_lost = self.track.status is Status.LOST
         start = perf_counter_ns()
         self.track = self.tracker.update(frame)
@@ -143,7 +143,7 @@ class Run:
         return self.track.box
 
     def summary(self, refused: int, restarted: int, overlaps: NDArray[np.float64]) -> Soaked:
-        """What the whole run showed; overlaps: a pass each."""
+        """The results of the whole run; overlaps: one per pass."""
         parts = np.array_split(overlaps, min(PARTS, len(overlaps))) if len(overlaps) else []
         times = [*np.percentile(self._latencies, (50, 99, 99.9)), self._latencies.max()]
         return Soaked(
@@ -160,19 +160,19 @@ class Run:
 
 
 class Memory:
-    """The resident memory of this process, in the course of a run."""
+    """The resident memory of this process over the course of a run."""
 
     def __init__(self) -> None:
         self._updates: list[int] = []
         self._megabytes: list[float] = []
 
     def measure(self, updates: int) -> None:
-        """After so many updates."""
+        """Measure the memory after so many updates."""
         self._updates.append(updates)
         self._megabytes.append(resident_megabytes())
 
     def summary(self) -> tuple[float, float, float]:
-        """MB after a tenth of the run and at its end; kB that are added in 100,000 updates between them."""
+        """MB after a tenth of the run and at its end; growth between them in kB per 100,000 updates."""
         tenth = len(self._updates) // 10
         updates, megabytes = np.array(self._updates[tenth:]), np.array(self._megabytes[tenth:])
         slope = np.polyfit(updates - updates.mean(), megabytes, 1)[0] if len(updates) > 1 else 0.0
@@ -193,7 +193,7 @@ class Passes:
             self._blank[index] = blank(self.frames[index])
 
     def of(self, kind: int) -> list[tuple[int, Frame]]:
-        """The numbers and frames of a pass; the first frame is its last, as the tracker has just seen it."""
+        """The numbers and frames of a pass; the first frame comes last, as the tracker has just seen it."""
         frames = {COVERED: self._covered, BLANK: self._blank}.get(kind, self.frames)
         return [*list(enumerate(frames))[1:], (0, frames[0])]
 
@@ -203,12 +203,12 @@ class Passes:
 
 
 def is_astray(track: Track, box: NDArray[np.float64]) -> bool:
-    """Whether a track hardly touches the target's box."""
+    """Whether a track hardly overlaps the target's box."""
     return float(metrics.overlaps([track.box], box[None])[0]) < ASTRAY
 
 
 def covered(frame: Frame, box: Sequence[float]) -> Frame:
-    """The frame with noise, half a meter nearer, before the target."""
+    """The frame with the target covered by noise, half a meter nearer."""
     x, y, width, height = (round(value) for value in box)
     rows, columns = slice(max(y, 0), max(y + height, 0)), slice(max(x, 0), max(x + width, 0))
     random = np.random.default_rng(0)
@@ -236,7 +236,7 @@ def blank(frame: Frame) -> Frame:
 
 
 def _refuses(tracker: Any) -> int:
-    """Give the tracker what is no frame; ValueError where it takes it."""
+    """Give the tracker an invalid frame; ValueError if it accepts it."""
     try:
         tracker.update("no frame")
     except TypeError:
@@ -262,7 +262,7 @@ def overlap_row(run: Soaked) -> str:
 
 
 def section(runs: Sequence[Soaked]) -> str:
-    """The page's section of these runs."""
+    """The page's section on these runs."""
     return TEXT.format(
         frames=FRAMES,
         astray=ASTRAY,
@@ -279,7 +279,7 @@ def kept(name: str) -> Path:
 
 
 def soaked_row(name: str, updates: int) -> str:
-    """Run the case of that name on one thread, keep what it shows, and give its line."""
+    """Run the case with that name on one thread, and store its results; returns its line of the table."""
     case = next(case for case in cases() if case.name == name)
     with one_thread():
         run = soak(case, updates)
@@ -289,7 +289,7 @@ def soaked_row(name: str, updates: int) -> str:
 
 
 def main() -> int:
-    """A process a tracker."""
+    """Run each tracker in its own process."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""The stereo trackers on recorded stereo pairs, beside cv2's trackers on the left images.
+"""The stereo trackers on recorded stereo pairs, compared with cv2's trackers on the left images.
 
     python -m benchmarks.quality.stereo_trackers [FOLDER]
 
-The stereo head tracker searches between the distances at which the disparity is a quarter of the image's
-width and 4 pixels. Its other parameters are the defaults, or those of --params.
+The stereo head tracker searches between the distances with disparities of a quarter of the image's width and
+of 4 pixels. Its other parameters are the defaults, or those of --params.
 """
 
 import sys
@@ -57,8 +57,8 @@ class Row(NamedTuple):
 
 
 def makers(params: StereoHeadParams | None = None) -> dict[str, Maker]:
-    """The stereo head tracker with ``params`` or its defaults, flow-depth, also by one cue, and the baselines
-    that the installed cv2 has.
+    """The stereo head tracker with ``params`` or its defaults, flow-depth with both cues and each alone, and
+    the baselines that the installed cv2 has.
     """
     known = baselines.available()
     found: dict[str, Maker] = {

@@ -4,12 +4,12 @@
     python -m benchmarks.quality.stress_scenes --trackers fused CSRT
     python -m benchmarks.quality.stress_scenes --trackers fused CSRT --kinds leaving hidden --away 300
 
-Overlap and position count in frames in which at least half of the target is visible. "recovered": share of
-the absences and occlusions after which the overlap is above 0.5 within 10 frames with the target wholly
-visible; "faithful": share of the scenes with look-alikes, or without the target for a while, in which
+Overlap and position are over frames in which at least half of the target is visible. "recovered": share of
+the absences and occlusions after which the overlap is above 0.5 within the first 10 frames with the target
+fully visible; "faithful": share of the scenes with look-alikes, or without the target for a while, in which
 nothing else was TRACKED for more than 5 frames in a row; "LOST reported": share of the scenes with black or
-unrelated images in which LOST was reported within 3 frames of them. AUROC is over the frames of all scenes
-of the row; frames without any visible part of the target count as lost.
+unrelated images in which LOST was reported within 3 such frames. AUROC is over the frames of all scenes in
+the row; frames without any visible part of the target count as lost.
 """
 
 import sys
@@ -38,7 +38,7 @@ CSV_COLUMNS = (
     *("found again", "faithful", "LOST told", "AUROC", "ms/frame"),
 )
 ALL_KINDS = "mean"
-"""The kind of the rows over all kinds."""
+"""The kind in rows over all kinds."""
 
 
 def tasks(

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""Trackers on the depth of recorded walkers who pass each other: from several starts, forward and backward.
+"""Trackers on recorded depth of walkers who pass each other: from several starts, forward and backward.
 
     python -m benchmarks.quality.walkers [DATASET]
 
-Eight ways through each recording (`common/protocols.py`, "starts"), each from the true box with its corner
-and sides jittered by up to 5 % of the sides, once for each of --seeds, which is the tracker's seed, too.
-Numbers leave out the frame of the start, whose box is given.
+Eight runs on each recording (`common/protocols.py`, "starts"), each from the true box with its corner and
+sides jittered by up to 5 % of the sides, once for each of --seeds, which is also the tracker's seed. The
+first frame of a run, whose box is given, doesn't count.
 
-A crossing is a run of frames in which something before the person covers more than 5 % of the true box; it
-lasts at least one frame after the start, and what comes within two frames after it belongs to it. "right
-after crossings": of the crossings that end, the share after which the overlap is above 0.3. "right": the
-share of all frames in which it is.
+In a crossing, something in front of the person covers more than 5 % of the true box. It lasts at least one
+frame after the start; one that follows within two frames belongs to it. "right after crossings": of the
+crossings that end, the share after which the overlap is above 0.3. "right": the share of all frames in which
+the overlap is above 0.3.
 """
 
 import sys
@@ -40,7 +40,7 @@ Flags = NDArray[np.bool_]
 
 TRACKERS = ("depth-particle", "fused:depth", "flow-depth:depth")
 MIN_NEARER = 0.3
-"""Meters, of what is before a person."""
+"""Meters, by which something in front of a person is nearer."""
 MIN_COVERED = 0.05
 """Share of the true box that is covered in a crossing."""
 MAX_PAUSE = 2
@@ -48,7 +48,7 @@ MAX_PAUSE = 2
 
 
 class WalkersTask(NamedTuple):
-    """One tracker on one recording, by all orders and seeds."""
+    """One tracker on one recording, in all orders and with all seeds."""
 
     variant: Variant
     entry: Entry
@@ -56,8 +56,10 @@ class WalkersTask(NamedTuple):
 
 
 class WalkersResult(NamedTuple):
-    """A run. start, way: of its order. iou, right: means over its frames. after: share of the crossings after
-    which it is right, NaN without any. position_error: median, meters.
+    """The results of a run.
+
+    start, way: of its order. iou, right: means over its frames. after: share of the crossings after which it
+    is right; NaN without any. position_error: median, meters.
     """
 
     tracker: str
@@ -73,7 +75,7 @@ class WalkersResult(NamedTuple):
 
 
 def run_recording(task: WalkersTask) -> list[WalkersResult]:
-    """Decode the recording once and run the tracker by each order from each seed."""
+    """Decode the recording once, and run the tracker in each order with each seed."""
     opened = task.entry.open()
     inputs = Inputs(("depth",), opened.intrinsics)
     if task.variant.unsupported(inputs):
@@ -98,7 +100,7 @@ def known_from_start(numbers: NDArray[np.intp], opened: OpenedSequence, count: i
 
 
 def in_order(frames: Sequence[Frame], numbers: NDArray[np.intp]) -> list[Frame]:
-    """The frames of these numbers, with times that increase whichever way they go."""
+    """The frames with these numbers; times increase, also if the numbers decrease."""
     first = frames[numbers[0]].timestamp
     seen = [frames[number] for number in numbers]
     if first is None:
@@ -107,9 +109,9 @@ def in_order(frames: Sequence[Frame], numbers: NDArray[np.intp]) -> list[Frame]:
 
 
 def covered_shares(frames: Sequence[Frame], truth: Floats, positions: Floats) -> Floats:
-    """(M,) the share of each true box that is nearer than the person; NaN where either isn't known.
+    """(M,) the share of each true box that is nearer than the person; NaN if box or distance aren't known.
 
-    Where no distance was measured it is the median depth in the middle half of the box.
+    If the person's true distance isn't known, it is the median depth in the middle half of the box.
     """
     shares = np.full(len(frames), np.nan)
     for i, frame in enumerate(frames):
@@ -130,7 +132,7 @@ def _pixels(start: float, length: float) -> slice:
 
 
 def crossings(covered: Floats) -> list[int]:
-    """The frames after crossings: of each crossing that ends, the first frame in which it has ended."""
+    """The first frame after each crossing that ends."""
     during = np.nan_to_num(covered) > MIN_COVERED
     ends = []
     for i in range(2, len(during)):
@@ -173,7 +175,7 @@ def run(
 
 
 def table(results: Sequence[WalkersResult]) -> str:
-    """Markdown: a line per tracker, recording and way, and for all recordings together."""
+    """Markdown: a line per tracker, recording and way, and one for all recordings together."""
     trackers, names = ([*dict.fromkeys(each[i] for each in results)] for i in (0, 1))
     lines: list[list[Cell]] = []
     for tracker in trackers:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Every tracker, one update a frame: native, reference, and what a user would take instead."""
+"""Every tracker, one update per frame: native, reference, and the alternatives that a user has."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -33,20 +33,20 @@ def scene(make: Callable[..., Any], *arguments: Any) -> Any:
 
 @dataclass(frozen=True, kw_only=True)
 class Case:
-    """A tracker on a scene, as it comes in one group of the benchmarks."""
+    """A tracker on a scene: one group of the benchmarks."""
 
     tracker: str
     size: str
-    scene: tuple[Any, ...]  # what makes it, and its arguments
+    scene: tuple[Any, ...]  # the function that makes it, and its arguments
     ours: dict[str, dict[str, Any]] = field(default_factory=BOTH.copy)  # parameters, by variant
     baselines: Sequence[str] = ("KCF", "CSRT")
     camera: str | None = None  # the scene's attribute that the tracker needs
-    others: dict[str, tuple[Any, ...]] = field(default_factory=dict)  # of variants that see another scene
-    cameras: dict[str, str] = field(default_factory=dict)  # and need another attribute
+    others: dict[str, tuple[Any, ...]] = field(default_factory=dict)  # for variants that see another scene
+    cameras: dict[str, str] = field(default_factory=dict)  # for variants that need another attribute
     frames: int = USUAL
-    slow: int  # frames of the reference, which takes long
+    slow: int  # number of frames for the reference, which is slow
     within: float  # pixels by which both sets of kernels may differ
-    depth: bool = False  # cv2's trackers see the depth as a picture
+    depth: bool = False  # whether cv2's trackers see depth as a picture
 
     def __str__(self) -> str:
         return f"{self.tracker}-{self.size}"
@@ -56,11 +56,11 @@ class Case:
         return f"{self.tracker}, {self.size}, one update"
 
     def scene_of(self, name: str) -> Any:
-        """What a variant or a baseline sees."""
+        """The scene that a variant or a baseline sees."""
         return scene(*self.others.get(name, self.scene))
 
     def frames_of(self, name: str) -> list[Frame]:
-        """The frames for it."""
+        """The frames that a variant or a baseline sees."""
         frames = self.scene_of(name).frames[: self.slow if name == "reference" else self.frames]
         return list(map(depth_as_picture(), frames)) if self.depth and name not in self.ours else list(frames)
 
@@ -133,7 +133,7 @@ FUSED = Case(
     },
     cameras=SEES,
     slow=8,
-    within=0.1,  # a sample that is rounded to another level of 255 changes what is learned
+    within=0.1,  # a sample that is rounded to another gray level changes what is learned
 )
 RUNS = [
     pytest.param(case, name, id=f"{case}-{name}")
@@ -143,14 +143,14 @@ RUNS = [
 
 
 def boxes_of(case: Case, name: str) -> np.ndarray:
-    """The track's boxes after the first frame."""
+    """The boxes of a track after the first frame."""
     tracker = case.started(name)
     return np.array([tracker.update(frame).box for frame in case.frames_of(name)[1:]])
 
 
 @pytest.mark.parametrize(("case", "name"), RUNS)
 def bench_update(benchmark: Any, case: Case, name: str) -> None:
-    """A round is a frame; init is left out. Both sets of kernels give one track, as near as the case says."""
+    """A round is a frame; init isn't measured. Both sets of kernels agree within the case's tolerance."""
     benchmark.group = case.group
     boxes = []
     tracker = case.started(name)
@@ -169,11 +169,12 @@ def bench_update(benchmark: Any, case: Case, name: str) -> None:
 
 @pytest.mark.benchmark(group=FUSED.group)
 def bench_fused_lost(benchmark: Any) -> None:
-    """A round is a frame in which the tracker, on color, looks for its target everywhere: another room, in
-    which the target isn't. It stays lost.
+    """A round is a frame in which the tracker, on color, searches the whole frame for its lost target.
+
+    The frames show another room without the target, so that it stays lost.
     """
     tracker = FUSED.started("native")
-    for frame in FUSED.frames_of("native")[1:11]:  # until it knows how sure it usually is
+    for frame in FUSED.frames_of("native")[1:11]:  # until it knows its typical features
         tracker.update(frame)
     make, kind, _, *others = FUSED.scene
     feed = iter(scene(make, kind, 1, *others).frames[:USUAL])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Command line arguments that several scripts share."""
+"""Command-line arguments that several scripts share."""
 
 import argparse
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ PACKAGE = "benchmarks.quality"
 
 
 def parser(script: str, about: str | None, trackers: Sequence[str]) -> argparse.ArgumentParser:
-    """Trackers, their parameters, processes and a CSV. trackers: those of a run without --trackers."""
+    """A parser for trackers, their parameters, processes and a CSV. trackers: the default of --trackers."""
     made = bare_parser(script, about)
     made.add_argument(
         "--trackers",
@@ -29,7 +29,7 @@ def parser(script: str, about: str | None, trackers: Sequence[str]) -> argparse.
 
 
 def bare_parser(script: str, about: str | None) -> argparse.ArgumentParser:
-    """No arguments; the help of a script starts with its docstring."""
+    """A parser without arguments; a script's help starts with its docstring."""
     return argparse.ArgumentParser(
         prog=f"python -m {PACKAGE}.{script}",
         description=about,
@@ -38,13 +38,13 @@ def bare_parser(script: str, about: str | None) -> argparse.ArgumentParser:
 
 
 def add_output(made: argparse.ArgumentParser) -> None:
-    """The number of processes, and a file for the numbers."""
+    """Add the number of processes, and a file for the numbers."""
     made.add_argument("--jobs", type=count, default=1, metavar="N", help="processes, default %(default)s")
     made.add_argument("--csv", type=Path, metavar="FILE", help="also write the numbers to this file")
 
 
 def add_dataset(made: argparse.ArgumentParser, folder: str = "color") -> None:
-    """The folder of sequences, by default one of the recorded data."""
+    """Add the folder of sequences; the default is in the recorded data."""
     made.add_argument(
         "dataset",
         type=Path,
@@ -56,7 +56,7 @@ def add_dataset(made: argparse.ArgumentParser, folder: str = "color") -> None:
 
 
 def add_runs(made: argparse.ArgumentParser) -> None:
-    """Which sequences, from which first boxes, and files to store the numbers in and to compare them with."""
+    """Add the choice of sequences and first boxes, and files to store the numbers in and to compare with."""
     made.add_argument(
         "--draws", type=draws, default=TRUE_BOX, metavar="N", help="first boxes a run, beside the true one"
     )
@@ -66,7 +66,7 @@ def add_runs(made: argparse.ArgumentParser) -> None:
 
 
 def draws(text: str) -> Sequence[int]:
-    """The draws of first boxes, from their number."""
+    """The draws of first boxes, given their number."""
     return range(1, count(text) + 1)
 
 

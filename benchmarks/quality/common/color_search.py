@@ -17,11 +17,11 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SearchParams:
-    """Of the search in two dimensions; there is no depth in it, and the ellipse keeps its size."""
+    """The parameters of the search in two dimensions, without depth; the ellipse keeps its size."""
 
     bins: tuple[int, int, int] = (32, 32, 4)  # of B - G, G - R, B + G + R
-    chroma: int = 64  # levels, where the axes of B - G and G - R end
-    search_range: tuple[float, float] = (0.3, 0.25)  # to each side, up and down; of the box's width, height
+    chroma: int = 64  # levels at which the axes of B - G and G - R end
+    search_range: tuple[float, float] = (0.3, 0.25)  # shares of the box's width and height
     gradient_weight: float = 0.35  # of the outline's gradient; the histogram intersection has weight 1
     blur: float = 1.0  # pixels, standard deviation, before the gradient
     learning_rate: float = 0.1  # a of (2)
@@ -64,7 +64,7 @@ class ColorSearch:
         return self._track(float(similarity[row, col]))
 
     def _grid(self) -> tuple[int, int]:
-        """Rows and columns of candidate positions: odd numbers, the ellipse in the middle."""
+        """Rows and columns of candidate positions; odd numbers, so that the ellipse is in the middle."""
         across, down = (
             max(round(2 * share * half), 2)
             for share, half in zip(self.params.search_range, self._ellipse[2:].tolist(), strict=True)
@@ -95,10 +95,10 @@ class ColorSearch:
 def _outline_gradient(
     gray: NDArray[np.uint8], ellipse: Floats, grid: tuple[int, int], outline: Floats
 ) -> Floats:
-    """Mean |n . grad I| along an ellipse's outline at each place of a grid around its own, a pixel apart.
+    """Mean |n . grad I| along an ellipse's outline, at each place of a grid of pixels around its own place.
 
     Birchfield (1998), equation (2), with the ellipse's normal n. grid: rows and columns. outline: (n, 2)
-    points of the unit circle. Points outside of the image are left out; 0 where all are.
+    points of the unit circle. Points outside the image are left out; 0 if all are.
     """
     height, width = gray.shape
     padded = np.pad(gray.astype(np.float64), 1, "edge")
@@ -118,6 +118,6 @@ def _outline_gradient(
 
 
 def _scaled(values: Floats) -> Floats:
-    """Linearly to [0, 1]."""
+    """The values scaled linearly to [0, 1]."""
     low = values.min()
     return np.asarray((values - low) / max(float(values.max() - low), 1e-9))

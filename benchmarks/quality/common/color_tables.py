@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tables of trackers on recorded color sequences: by group, by sequence, and of all frames together."""
+"""Tables of trackers on recorded color sequences: by group, by sequence, and over all frames together."""
 
 from collections.abc import Iterable, Mapping, Sequence
 
@@ -27,7 +27,7 @@ def tables(results: Sequence[SequenceResult]) -> str:
 
 
 def group_table(found: Mapping[str, Sequence[SequenceResult]]) -> str:
-    """The mean AUC by tracker, protocol and group; the head counts each group's sequences."""
+    """The mean AUC by tracker, protocol and group; the head has each group's number of sequences."""
     groups = members(dict.fromkeys(each.sequence for own in found.values() for each in own))
     rows: list[list[Cell]] = [
         [
@@ -50,7 +50,7 @@ def sequence_table(found: Mapping[str, Sequence[SequenceResult]]) -> str:
 
 
 def frame_table(found: Mapping[str, Sequence[SequenceResult]]) -> str:
-    """By tracker, of the frames of all runs and of each protocol's: how good score and status are, times."""
+    """By tracker, over all frames and those of each protocol: the quality of score and status, times."""
     rows: list[list[Cell]] = []
     for tracker, own in found.items():
         parts = {"all": pool(own)}
@@ -63,7 +63,7 @@ def frame_table(found: Mapping[str, Sequence[SequenceResult]]) -> str:
 
 
 def reliability_table(found: Mapping[str, Sequence[SequenceResult]]) -> str:
-    """How often all frames of a tracker with about the same score are on target."""
+    """By tracker, the share of frames on target in each bin of the score."""
     rows: list[list[Cell]] = []
     for tracker, own in found.items():
         line = reliability(pool(own))
@@ -74,7 +74,7 @@ def reliability_table(found: Mapping[str, Sequence[SequenceResult]]) -> str:
 
 
 def interval_table(found: Mapping[str, Sequence[SequenceResult]]) -> str:
-    """Between which ends the summary of all frames lies, had other recordings been drawn."""
+    """The bootstrap intervals, over recordings, of the summary of all frames."""
     rows: list[list[Cell]] = []
     for tracker, own in found.items():
         names = dict.fromkeys(recording(each.sequence) for each in own)
@@ -87,7 +87,7 @@ def interval_table(found: Mapping[str, Sequence[SequenceResult]]) -> str:
 
 
 def times(frames: FrameResults) -> list[float]:
-    """TIMES: milliseconds of the updates that end TRACKED, and of all others."""
+    """TIMES: milliseconds of the updates that return TRACKED, and of all others."""
     return [
         float(1e3 * percentile)
         for status in (frames.tracked, ~frames.tracked)
@@ -101,7 +101,7 @@ def _percentiles(frames: FrameResults, chosen: Flags) -> Sequence[float]:
 
 
 def csv_rows(results: Iterable[SequenceResult]) -> list[list[Cell]]:
-    """CSV_COLUMNS: a line a tracker, sequence and protocol."""
+    """CSV_COLUMNS for each tracker, sequence and protocol."""
     rows: list[list[Cell]] = []
     for each in results:
         for protocol in PROTOCOLS:

@@ -13,11 +13,11 @@ from benchmarks.quality.common.sequence_runs import SequenceResult, by_tracker
 from benchmarks.quality.common.tables import Cell, markdown, mean
 
 MOST = 8
-"""Sequences that changed most."""
+"""Number of sequences in the table of those that changed most."""
 
 
 def differences(now: Aucs, before: Aucs, protocol: str) -> dict[str, float]:
-    """Now minus before, by sequence, where both have the protocol."""
+    """Now minus before, by sequence, if both have the protocol."""
     return {
         name: now[name][protocol] - before[name][protocol]
         for name in now
@@ -26,7 +26,7 @@ def differences(now: Aucs, before: Aucs, protocol: str) -> dict[str, float]:
 
 
 def group_intervals(now: Aucs, before: Aucs, protocol: str) -> dict[str, Interval]:
-    """The mean difference by group, and its interval; sequences of one recording are drawn together."""
+    """The mean difference by group, and its bootstrap interval, for which recordings are drawn."""
     found = differences(now, before, protocol)
     return {
         group: mean_interval([found[name] for name in own], [recording(name) for name in own], least=2)
@@ -35,7 +35,7 @@ def group_intervals(now: Aucs, before: Aucs, protocol: str) -> dict[str, Interva
 
 
 def changed_most(now: Aucs, before: Aucs) -> list[list[Cell]]:
-    """Sequence, the mean difference over protocols, and each protocol's, largest change first."""
+    """Rows: sequence, mean difference over protocols, and each protocol's difference; largest first."""
     by_protocol = [differences(now, before, protocol) for protocol in PROTOCOLS]
     names = dict.fromkeys(name for each in by_protocol for name in each)
     rows = [(name, [each.get(name, float("nan")) for each in by_protocol]) for name in names]
@@ -44,7 +44,7 @@ def changed_most(now: Aucs, before: Aucs) -> list[list[Cell]]:
 
 
 def against_stored(results: Sequence[SequenceResult], before: Mapping[str, Aucs]) -> str:
-    """The tables of each tracker that is stored; sequences that aren't are named on stderr."""
+    """The tables of each stored tracker; sequences that aren't stored are named on stderr."""
     parts = []
     for tracker, own in by_tracker(results).items():
         now, stored = aucs(own), before.get(tracker, {})
@@ -63,7 +63,7 @@ def tables(tracker: str, now: Aucs, before: Aucs) -> str:
 
 
 def interval_table(about: str, now: Aucs, before: Aucs) -> str:
-    """Markdown: the difference by group and protocol with its interval. about: what it is of."""
+    """Markdown: the difference by group and protocol with its interval. about: the table's title."""
     intervals = {protocol: group_intervals(now, before, protocol) for protocol in PROTOCOLS}
     groups = dict.fromkeys(group for found in intervals.values() for group in found)
     rows = [

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""How much a summary of scores and statuses hangs on which recordings there are.
+"""How much a summary of scores and statuses depends on the choice of recordings.
 
-Lost frames come in long runs of few recordings, so that another recording more, or one less, changes what is
-told of all frames by more than most changes of a tracker do.
+Lost frames come in long runs in a few recordings, so one recording more or less changes the summary of all
+frames by more than most changes of a tracker do.
 """
 
 import math
@@ -18,8 +18,9 @@ DRAWS, SEED = 300, 0
 
 
 def summary_intervals(recordings: Mapping[str, FrameResults]) -> list[Interval]:
-    """Each number of the summary of all frames, with the ends of its LEVEL percentile interval, for which
-    whole recordings are drawn; the same for the same frames. With fewer than two recordings there are none.
+    """Each number of the summary of all frames, with its bootstrap percentile interval of level LEVEL.
+
+    Whole recordings are drawn, always with the same seed. With fewer than two recordings, intervals are NaN.
     """
     names, rng = list(recordings), np.random.default_rng(SEED)
     found = summarize(FrameResults.pooled(list(recordings.values())))
@@ -30,7 +31,7 @@ def summary_intervals(recordings: Mapping[str, FrameResults]) -> list[Interval]:
 
 
 def _ends(drawn: Array) -> tuple[float, float]:
-    """Of the numbers that are known: a draw may have no lost frame."""
+    """The interval of the numbers that aren't NaN: a draw may have no lost frame."""
     known = drawn[~np.isnan(drawn)]
     if not known.size:
         return math.nan, math.nan

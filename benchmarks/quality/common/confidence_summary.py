@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How well score and status tell frames on the target from lost ones, and whether the score is a
+"""How well score and status separate frames on the target from lost ones, and whether the score is a
 probability.
 """
 
@@ -14,9 +14,9 @@ from benchmarks.quality.common.frame_results import Array, Flags, FrameResults
 ON_TARGET_OVERLAP = 0.3
 """Above this overlap a frame is on the target; under 0.1 it is lost, and between them it is neither."""
 BINS = 10
-"""Of the score, equally wide."""
+"""Bins of the score, equally wide."""
 MIN_BIN_SHARE = 0.01
-"""Share of the frames that a bin needs to count for the largest deviation."""
+"""Share of the frames that a bin needs, to count for the largest deviation."""
 
 
 class ConfidenceSummary(NamedTuple):
@@ -33,7 +33,7 @@ class ConfidenceSummary(NamedTuple):
     deviation: float
     """The largest difference between mean score and share on the target, over bins of enough frames."""
     calibration_error: float
-    """The mean of that difference over all bins, weighed by their frames (expected calibration error)."""
+    """The mean of that difference over all bins, weighted by their frames (expected calibration error)."""
 
 
 def summarize(frames: FrameResults) -> ConfidenceSummary:
@@ -56,7 +56,7 @@ def summarize(frames: FrameResults) -> ConfidenceSummary:
 
 
 def reliability(frames: FrameResults) -> Reliability:
-    """By score: frames, mean score, and as "overlaps" the share of frames on the target."""
+    """By bin of the score: frames, mean score, and, as "overlaps", the share of frames on the target."""
     hits: Array = np.where(np.isnan(frames.overlaps), np.nan, _on_target(frames))
     return confidence.reliability(hits, frames.scores, frames.absent, BINS)
 

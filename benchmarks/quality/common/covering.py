@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Frames in which the target is covered by what is beside it."""
+"""Frames in which the target is covered by a copy of what is beside it."""
 
 import math
 
@@ -9,7 +9,7 @@ from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 
 MARGIN = 0.15
-"""Of the box's width and height, that is covered on each side, too: true boxes don't always hold all."""
+"""Share of the box's width and height that is also covered on each side, as true boxes may be too small."""
 
 Image = NDArray[np.uint8]
 
@@ -17,8 +17,8 @@ Image = NDArray[np.uint8]
 def cover(image: Image, box: Box) -> Image:
     """A copy of an image, (H, W) or (H, W, 3), with a box and a margin around it covered.
 
-    The cover is the part of the image, as large, to the right, left, below or above, the first of these that
-    is in the image; where none is, the mean color.
+    The cover is an equally large part of the image to the right, left, below or above: the first of these
+    that is in the image, or else the mean color.
     """
     height, width = image.shape[:2]
     left, right = _span(box.x, box.width, width)
@@ -35,13 +35,13 @@ def cover(image: Image, box: Box) -> Image:
 
 
 def cover_target(frame: Frame, box: NDArray[np.float64]) -> Frame:
-    """The frame's color alone, with a true box, (4,), covered."""
+    """A frame with the color alone, in which a true box, (4,), is covered."""
     assert frame.color is not None, "the frame has color"
     return Frame(cover(frame.color, Box(*box.tolist())))
 
 
 def _span(start: float, length: float, limit: int) -> tuple[int, int]:
-    """The first pixel of a side with its margins, and the one after the last, in the image."""
+    """The first pixel of a side with its margins, and the one after the last, clipped to the image."""
     margin = MARGIN * length
     first = max(math.floor(start - margin), 0)
     return first, max(min(math.ceil(start + length + margin), limit), first)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a recorded color sequence looks like to a worse camera, at a worse rate, or from a worse first box."""
+"""Degradations of a recorded color sequence: a worse camera, a lower rate, or a worse first box."""
 
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
@@ -13,27 +13,27 @@ Image = NDArray[np.uint8]
 
 
 def as_recorded(image: Image, number: int) -> Image:
-    """The image."""
+    """The image, unchanged."""
     return image
 
 
 def gray(image: Image, number: int) -> Image:
-    """Without its colors."""
+    """The image in gray."""
     return image if image.ndim == 2 else _image(cv2.cvtColor(image, cv2.COLOR_BGR2GRAY))
 
 
 def dark(image: Image, number: int) -> Image:
-    """At a fifth of the light, with a sensor's noise of 3 levels."""
+    """The image with a fifth of the light, and sensor noise of 3 levels."""
     return noisy(_clipped(image * np.float32(0.2)), number, 3)
 
 
 def flickering(image: Image, number: int) -> Image:
-    """Brighter and darker by 35 %, with a period of 7 frames."""
+    """Brightness that varies by ±35 %, with a period of 7 frames."""
     return _clipped(image * np.float32(1 + 0.35 * np.sin(0.9 * number)))
 
 
 def tinted(image: Image, number: int) -> Image:
-    """Each channel brighter and darker by 30 %, one after the other, with a period of 314 frames."""
+    """Channels that vary by ±30 %, out of phase, with a period of 314 frames."""
     if image.ndim == 2:
         return image
     gains = 1 + 0.3 * np.sin(0.02 * number + 2 * np.pi / 3 * np.arange(3))
@@ -41,18 +41,18 @@ def tinted(image: Image, number: int) -> Image:
 
 
 def noisy(image: Image, number: int, levels: float = 20) -> Image:
-    """With normal noise of so many gray levels in each value."""
+    """The image with normal noise; levels: its standard deviation, gray levels."""
     noise = np.random.default_rng(number).normal(0, levels, image.shape)
     return _clipped(image + noise)
 
 
 def blurred(image: Image, number: int) -> Image:
-    """Out of focus: a Gaussian of 2.5 pixels."""
+    """The image out of focus: blurred by a Gaussian of 2.5 pixels."""
     return _image(cv2.GaussianBlur(image, (0, 0), 2.5))
 
 
 def compressed(image: Image, number: int) -> Image:
-    """As a JPEG file of quality 12."""
+    """The image compressed as JPEG, quality 12."""
     _, packed = cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, 12])
     unpacked = cv2.imdecode(packed, cv2.IMREAD_UNCHANGED)
     assert unpacked is not None, "what was just packed"
@@ -60,10 +60,10 @@ def compressed(image: Image, number: int) -> Image:
 
 
 class Degradation(NamedTuple):
-    """What is changed of a recording.
+    """How a recording is changed.
 
-    image: an image, by its number. scale: of the images' sides, at most 1. box: of the first box's sides,
-    around its middle. step: between the frames that are seen.
+    image: changes an image, given its number. scale: factor of the images' sides, at most 1. box: factor of
+    the first box's sides, around its center. step: from one frame that is seen to the next.
     """
 
     image: Callable[[Image, int], Image] = as_recorded
@@ -98,7 +98,7 @@ DEGRADATIONS: Mapping[str, Degradation] = {
 
 
 def scale_box(box: Box, factor: float) -> Box:
-    """The box with sides so many times as long, around the same middle."""
+    """The box with its sides multiplied by a factor, around the same center."""
     (x, y), (width, height) = box.center, (factor * box.width, factor * box.height)
     return Box(x - width / 2, y - height / 2, width, height)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How far edges of depth lie from edges of color, in pixels and in frames."""
+"""How far edges of depth are from edges of color, in pixels and in frames."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -12,9 +12,9 @@ from benchmarks.quality.common.depth_holes import MIN_STEP, fill_holes
 
 Array = NDArray[np.float64]
 MAX_SHIFT = 8
-"""Pixels along x and y at which edges of color are looked for."""
+"""Largest shift along x and y, pixels."""
 BLOCKS = 3, 4
-"""Rows and columns of parts of an image, each with a shift of its own."""
+"""Rows and columns of the parts of an image, each of which has its own shift."""
 MIN_EDGE_PIXELS = 120
 MIN_PEAK = 1.5
 """The gradient at the best shift, as a multiple of the mean over all shifts; noise reaches 1.3."""
@@ -32,14 +32,14 @@ class Edges(NamedTuple):
 
 
 def gradient(gray: NDArray[np.uint8]) -> Array:
-    """The color's gradient (H, W), levels per pixel, with the strongest ones compressed."""
+    """The magnitude of the gradient (H, W), gray levels per pixel, limited to 20."""
     smooth = cv2.GaussianBlur(gray.astype(np.float32), (0, 0), 1.0)
     along = [cv2.Sobel(smooth, cv2.CV_32F, dx, dy, scale=1 / 8) for dx, dy in ((1, 0), (0, 1))]
     return np.asarray(np.minimum(np.hypot(*along), 20), np.float64)
 
 
 def find_edges(depth: Array) -> Edges:
-    """The pixels on both sides of the depth's steps, holes filled from the farther side."""
+    """The pixels on both sides of steps in depth; holes are first filled from the farther side."""
     filled = fill_holes(depth)
     square = np.ones((3, 3), np.uint8)
     clean = np.where(np.isfinite(filled), filled, 0.0)
@@ -51,13 +51,13 @@ def find_edges(depth: Array) -> Edges:
 
 
 def scores(edges: Edges, slopes: Array) -> Array:
-    """The mean gradient (2 MAX_SHIFT + 1, 2 MAX_SHIFT + 1) at edges after each shift along y and x."""
+    """The mean gradient at the edges after each shift along y and x, (2 MAX_SHIFT + 1, 2 MAX_SHIFT + 1)."""
     span = range(-MAX_SHIFT, MAX_SHIFT + 1)
     return np.array([[slopes[edges.rows + dy, edges.columns + dx].mean() for dx in span] for dy in span])
 
 
 def shifts(edges: Edges, slopes: Array) -> Array:
-    """The shift (n, 2), x and y, from depth to color in each part of an image whose edges match."""
+    """The shifts (n, 2) from depth to color, x and y, in the parts of an image in which edges match."""
     rows, columns = (
         np.minimum(place * count // size, count - 1)
         for place, count, size in zip(edges, BLOCKS, slopes.shape, strict=True)
@@ -76,10 +76,10 @@ def shifts(edges: Edges, slopes: Array) -> Array:
 
 
 def delay(edges: Sequence[Edges], slopes: Sequence[Array]) -> float:
-    """By how many frames depth is later than color, to a share of a frame; NaN where the lag isn't clear.
+    """By how many frames, and fractions of a frame, depth is later than color; NaN if the lag isn't clear.
 
-    Each frame's edges of depth are laid on the color of MAX_LAG frames before to MAX_LAG after. The lag is
-    where the largest mean gradient, over small shifts, is highest.
+    Each frame's edges of depth are compared with the color of the frames from MAX_LAG before to MAX_LAG
+    after. The lag is the one with the highest peak of the mean gradient over shifts.
     """
     lags = range(-MAX_LAG, MAX_LAG + 1)
     at = [index for index in range(MAX_LAG, len(edges) - MAX_LAG) if len(edges[index]) >= MIN_EDGE_PIXELS]

@@ -9,19 +9,19 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 MIN_STEP = 0.1
-"""Between two depths at an edge, as a share of the nearer."""
+"""The smallest difference between two depths at an edge, as a share of the nearer one."""
 MAX_DARK, MIN_BRIGHT = 60, 200
-"""Levels of 255."""
+"""Gray levels of 255."""
 MIN_FIELD_SHARE = 0.1
-"""Of a row or column of pixels has depth inside of the depth camera's field of view."""
+"""Share of a row or column that has depth, if it is in the depth camera's field of view."""
 MIN_PARALLAX = 80.0
-"""Pixels of disparity per meter of baseline between both surfaces; noise makes smaller steps far away."""
+"""Pixels of disparity per meter of baseline between both surfaces; far away, noise makes smaller steps."""
 MAX_GAP = 60
 """Pixels without depth between two surfaces; longer ones have other causes than an edge."""
 
 
 class HoleShares(NamedTuple):
-    """Shares of pixels without depth: of all in the field of view, and of the dark, medium, bright ones."""
+    """Shares of pixels without depth: of all in the field of view, and of dark, medium and bright ones."""
 
     all: float
     dark: float
@@ -32,7 +32,8 @@ class HoleShares(NamedTuple):
 class Steps(NamedTuple):
     """Places (n,) where depth jumps between neighbors in a row, or across a gap in it.
 
-    gap: pixels without depth between them. near_left: whether the nearer surface is left. near, far: meters.
+    gap: pixels without depth between them. near_left: whether the nearer surface is on the left. near, far:
+    meters.
     """
 
     gap: NDArray[np.intp]
@@ -42,11 +43,11 @@ class Steps(NamedTuple):
 
 
 class Shadow(NamedTuple):
-    """Holes beside near things, at their left or right edges.
+    """Holes beside near objects, at their left or right edges.
 
-    steps: how many. share: of them with a gap of two pixels or more. width: its median, pixels. baseline:
-    median of gap / (fx (1/near - 1/far)), meters: that of the camera and the projector (or second camera)
-    whose view the thing blocks.
+    steps: their number. share: of the steps, those with a gap of two pixels or more. width: the gaps' median
+    width, pixels. baseline: median of gap / (fx (1/near - 1/far)), meters: that between the camera and the
+    projector (or second camera) whose view the object blocks.
     """
 
     steps: int
@@ -56,7 +57,7 @@ class Shadow(NamedTuple):
 
 
 def field_of_view(measured: Mask) -> tuple[slice, slice]:
-    """Rows and columns between the first and the last with depth. measured: (N, H, W)."""
+    """The rows and columns from the first to the last with enough depth. measured: (N, H, W)."""
     often = measured.mean(axis=0)
     spans = []
     for axis in (1, 0):
@@ -66,7 +67,7 @@ def field_of_view(measured: Mask) -> tuple[slice, slice]:
 
 
 def hole_shares(measured: Mask, gray: NDArray[np.uint8]) -> HoleShares:
-    """By brightness; NaN where there are no pixels. measured, gray: of any one shape."""
+    """The shares by brightness; NaN without such pixels. measured, gray: of the same shape."""
     dark, bright = gray < MAX_DARK, gray > MIN_BRIGHT
     return HoleShares(*(_share(~measured[kept]) for kept in (gray >= 0, dark, ~dark & ~bright, bright)))
 
@@ -88,7 +89,7 @@ def pool_steps(parts: list[Steps]) -> Steps:
 
 
 def measure_shadow(steps: Steps, at_left: bool, fx: float) -> Shadow:
-    """The shadow at near things' left edges, or at their right ones."""
+    """The shadow at the left or the right edges of near objects."""
     own = (steps.near_left != at_left) & (fx * (1 / steps.near - 1 / steps.far) > MIN_PARALLAX)
     gap, near, far = steps.gap[own], steps.near[own], steps.far[own]
     if not len(gap):
@@ -100,7 +101,7 @@ def measure_shadow(steps: Steps, at_left: bool, fx: float) -> Shadow:
 
 
 def fill_holes(depth: Array) -> Array:
-    """The depth with holes filled along rows by the farther of both neighbors, as shadows lie on it."""
+    """The depth with holes filled along rows by the farther neighbor, as the background is in the shadow."""
     known = np.isfinite(depth)
     columns = np.arange(depth.shape[1])
     before = np.maximum.accumulate(np.where(known, columns, -1), axis=1)

@@ -11,16 +11,16 @@ from benchmarks.quality.common.depth_holes import MIN_STEP
 
 Array = NDArray[np.float64]
 DISTANCES = (0.5, 1.0, 2.0, 3.0, 4.0)
-"""Meters, at which noise and quantization are told, each within a fifth."""
+"""Meters: distances at which noise and quantization are measured, each within a fifth."""
 PATCH = 11
-"""Pixels along each side of a patch that is taken for flat."""
+"""Side of a patch that is assumed to be flat, pixels."""
 FLAT_PERCENTILE = 25
-"""Of the patches' deviations from a plane: most patches have edges or are curved."""
+"""Quantile of the patches' deviations from a plane that is used, as most patches are curved or have edges."""
 MIN_PATCHES = 30
 MIN_LEVEL_COUNT = 20
-"""Pixels with a depth in whole millimeters, for it to be a level of the sensor."""
+"""Pixels that a depth in whole millimeters needs, to count as a level of the sensor."""
 FLYING_MARGIN = 0.2
-"""Of the step: what lies within it of a surface belongs to that surface."""
+"""Share of a step: depths that close to a surface belong to that surface."""
 
 
 class FlatNoise(NamedTuple):
@@ -31,7 +31,7 @@ class FlatNoise(NamedTuple):
 
 
 def quantization(depths: Array, distance: float) -> float:
-    """The median difference between the levels that depths (n,) near a distance have, meters.
+    """The median difference between the levels of depths (n,) near a distance, meters.
 
     NaN with fewer than three levels. Depths are taken as whole millimeters, as files have them.
     """
@@ -42,7 +42,7 @@ def quantization(depths: Array, distance: float) -> float:
 
 
 def flat_patches(depth: Array) -> Array:
-    """The patches (n, PATCH, PATCH) of a grid over a depth image that are measured in every pixel."""
+    """The patches (n, PATCH, PATCH) of a grid over a depth image in which every pixel has depth."""
     rows, columns = (side // PATCH * PATCH for side in depth.shape)
     grid = depth[:rows, :columns].reshape(rows // PATCH, PATCH, columns // PATCH, PATCH).swapaxes(1, 2)
     patches = grid.reshape(-1, PATCH, PATCH)
@@ -50,7 +50,7 @@ def flat_patches(depth: Array) -> Array:
 
 
 def flat_noise(patches: Array, distance: float) -> FlatNoise:
-    """The noise of patches (n, PATCH, PATCH) near a distance about their planes; NaN where they are few."""
+    """The noise of patches (n, PATCH, PATCH) near a distance, around their planes; NaN if they are few."""
     middle = np.median(patches, axis=(1, 2))
     near = patches[np.abs(middle - distance) < 0.2 * distance]
     if len(near) < MIN_PATCHES:
@@ -68,7 +68,7 @@ def flat_noise(patches: Array, distance: float) -> FlatNoise:
 
 
 def flying_pixels(depth: Array) -> tuple[int, int]:
-    """How many steps without a gap a depth image (H, W) has along its rows, and how many pixels lie between.
+    """The number of steps without a gap along a depth image's rows (H, W), and of pixels between their sides.
 
     A step is between two pixels four columns apart with all between them measured.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Recorded color and depth: every target of a sequence, color and depth in the same pixels, true depths."""
+"""Recorded color and depth: all targets of a sequence, color registered to depth, true depths."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -18,25 +18,26 @@ from benchmarks.quality.common.registered_frames import color_camera, registered
 from benchmarks.quality.common.variants import Inputs
 
 FURTHER_TRUTH = "groundtruth_*.txt"
-"""The true boxes of a further target, beside VOT_TRUTH; the name of the target is where the star is."""
+"""Files with the true boxes of another target, beside VOT_TRUTH; the star stands for the target's name."""
 
 
 @dataclass(frozen=True)
 class FurtherTarget(Entry):
-    """A sequence's target whose true boxes are in a file of their own."""
+    """Another target of a sequence, whose true boxes are in a separate file."""
 
     truth_file: Path = Path(VOT_TRUTH)
 
     def open(self) -> OpenedSequence:
-        """With the boxes of that file. ValueError or OSError names the file that can't be read."""
+        """The sequence with the boxes in that file. ValueError or OSError names a file that can't be read."""
         opened, truth = super().open(), read_truth_file(self.truth_file)
         source = replace(opened.source, truth=truth.boxes, absent=truth.absent, positions=truth.positions)
         return OpenedSequence(self, source)
 
 
 def find_targets(root: Path) -> list[Entry]:
-    """The sequences at or under a folder, as ``find_entries`` finds them, and their further targets, such as
-    "mug chair" of mug/groundtruth_chair.txt. ValueError where there is none.
+    """The sequences at or under a folder, as from ``find_entries``, and their other targets.
+
+    "mug chair", for example, is from mug/groundtruth_chair.txt. ValueError if there is no sequence.
     """
     return [each for entry in find_entries(root) for each in (entry, *_further_targets(entry))]
 
@@ -54,15 +55,15 @@ def _further_targets(entry: Entry) -> list[FurtherTarget]:
 class DepthRecording(Recording):
     """A sequence with color and depth in the same pixels.
 
-    shift: meters to the right from the color to the depth camera, where the two aren't registered; then color
-    is registered to the depth, in whose pixels the true boxes are.
+    shift: meters to the right from the color to the depth camera. It is used if the two aren't registered:
+    then color is registered to depth, in whose pixels the true boxes are.
     """
 
     shift: float = 0.0
 
     @cached_property
     def inputs(self) -> SequenceInfo:
-        """As they are after the registration."""
+        """Channels and cameras after the registration."""
         opened = self.opened
         return Inputs(opened.channels, opened.intrinsics) if self._unregistered else opened
 
@@ -76,7 +77,7 @@ class DepthRecording(Recording):
 
     @cached_property
     def depths(self) -> Array:
-        """(N,) meters: those beside the true boxes; without any, the depths measured in the boxes."""
+        """(N,) meters: the recorded true depths, or else the depths measured in the true boxes."""
         opened, count = self.opened, len(self.frames)
         known = opened.positions(count)[:, 2]
         return measured_depths(self.frames, opened.truth(count)) if np.isnan(known).all() else known
@@ -90,8 +91,8 @@ class DepthRecording(Recording):
 def measured_depths(frames: Sequence[Frame], boxes: Array) -> Array:
     """(N,) the median depth in the inner half of each box (N, 4) along both sides, meters.
 
-    NaN where the box is unknown or nothing in it was measured. It is the depth of whatever is seen there: of
-    what covers the target, too.
+    NaN if the box is unknown or nothing in it was measured. This is the depth of whatever is visible there,
+    also of an occluder.
     """
     return np.array([_inner_depth(frame, box) for frame, box in zip(frames, boxes, strict=True)])
 
@@ -107,6 +108,6 @@ def _inner_depth(frame: Frame, box: Array) -> float:
 
 
 def _inner_pixels(start: float, length: float) -> slice:
-    """The inner half of a side, a pixel or more."""
+    """The inner half of a side, at least one pixel."""
     first = max(round(start + length / 4), 0)
     return slice(first, max(round(start + length * 3 / 4), first + 1))

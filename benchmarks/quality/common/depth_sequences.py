@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Recordings with color and depth in the same pixels, as depth_properties measures them."""
+"""Recordings with color and depth in the same pixels, for depth_properties."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -20,8 +20,9 @@ Array = NDArray[np.float64]
 
 
 class DepthSequence(NamedTuple):
-    """N frames with ``color`` and ``depth`` of the same pixels, and the boxes (N, 4) of each target, NaN
-    where it isn't seen. rate: frames per second, NaN where unknown.
+    """N frames with ``color`` and ``depth`` in the same pixels.
+
+    targets: the boxes (N, 4) of each, NaN where it isn't visible. rate: frames per second, NaN if unknown.
     """
 
     name: str
@@ -31,7 +32,7 @@ class DepthSequence(NamedTuple):
     rate: float
 
     def every(self, count: int) -> list[int]:
-        """At most ``count`` frames' numbers, evenly spaced."""
+        """The numbers of at most ``count`` frames, evenly spaced."""
         last = len(self.frames) - 1
         spread = np.linspace(0, last, min(count, last + 1)).round()
         return [int(number) for number in np.unique(spread)]
@@ -70,7 +71,7 @@ def rendered(kind: str, seed: int) -> DepthSequence:
 
 
 def _targets(entry: Entry, count: int) -> tuple[Array, ...]:
-    """The boxes of the entry's target, and of others whose truth lies beside it."""
+    """The boxes of the entry's target, and of others whose files are beside its own."""
     place = entry.place if entry.place.is_dir() else entry.place.parent
     files = [place / VOT_TRUTH, *sorted(place.glob(f"{Path(VOT_TRUTH).stem}_*.txt"))]
     tables = [np.loadtxt(file, delimiter=",", ndmin=2)[:count] for file in files]

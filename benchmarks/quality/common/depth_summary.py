@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How far positions are off along z, and whether their covariance says so."""
+"""The errors of positions along z, and whether their covariance fits these errors."""
 
 from typing import NamedTuple
 
@@ -10,20 +10,20 @@ from benchmarks.quality.common.frame_results import Array, FrameResults
 
 
 class DepthSummary(NamedTuple):
-    """Of pooled frames whose true depth is known and that have a position; NaN where there is none."""
+    """Statistics of pooled frames with a position and a known true depth; NaN without such frames."""
 
     error: float
-    """Median, meters, of all of them."""
+    """Median error of all these frames, meters."""
     error_on_target: float
-    """Median, meters, of those that are TRACKED on the target, as all numbers below."""
+    """Median error of those that are TRACKED on the target, meters; so are all numbers below."""
     bias: float
     """Median of the found minus the true z, meters."""
     sigma: float
-    """Median standard deviation, meters, that the covariance has."""
+    """Median standard deviation by the covariance, meters."""
     within_one: float
     """Share with an error of at most one standard deviation; 0.683 for a calibrated normal distribution."""
     within_two: float
-    """Share with an error of at most two; 0.954 for that."""
+    """Share with an error of at most two; 0.954 for such a distribution."""
 
 
 def summarize_depth(frames: FrameResults) -> DepthSummary:

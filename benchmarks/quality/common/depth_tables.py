@@ -32,7 +32,7 @@ def tables(variants: Sequence[Variant], results: Sequence[SequenceResult]) -> st
 
 
 def target_table(found: Found) -> str:
-    """The AUC and the mean overlap by tracker, target and protocol, and their means over each group."""
+    """The AUC and the mean overlap by tracker, target and protocol, and their means over groups."""
     rows: list[list[Cell]] = []
     for tracker, own in found.items():
         rows += [[tracker, each.sequence, *_both([each])] for each in own]
@@ -42,7 +42,7 @@ def target_table(found: Found) -> str:
 
 
 def _both(some: Sequence[SequenceResult]) -> list[float]:
-    """The mean over some targets of the AUC by each protocol, and that of the mean overlap."""
+    """For each protocol, the mean AUC and the mean overlap over some targets."""
     means = [[mean([of(each, name) for each in some]) for name in PROTOCOLS] for of in _MEASURES]
     return [number for numbers in means for number in numbers]
 
@@ -65,8 +65,9 @@ def difference_tables(variants: Sequence[Variant], found: Found) -> list[str]:
 
 
 def pairs(variants: Sequence[Variant]) -> list[tuple[str, str]]:
-    """The labels of variants that are compared: each with the same tracker on color alone, and without times
-    with the same one with times.
+    """The labels of variants that are compared.
+
+    Each is compared with the same tracker on color alone; one without times, with the same one with times.
     """
     made = []
     for each in variants:
@@ -80,7 +81,7 @@ def pairs(variants: Sequence[Variant]) -> list[tuple[str, str]]:
 
 
 def frame_tables(found: Found) -> list[str]:
-    """Of all frames of a tracker in a group: the summary of score and status with times, and of depths."""
+    """For all frames of a tracker in a group: the summary of score and status, times, and that of depths."""
     pooled = [(tracker, name, pool(some)) for tracker, own in found.items() for name, some in _grouped(own)]
     first: list[list[Cell]] = [
         [tracker, name, len(frames.overlaps), *summarize(frames), *times(frames)]
@@ -98,7 +99,7 @@ def frame_tables(found: Found) -> list[str]:
 
 
 def csv_rows(results: Iterable[SequenceResult]) -> list[list[Cell]]:
-    """CSV_COLUMNS: a line a tracker, target and protocol."""
+    """CSV_COLUMNS for each tracker, target and protocol."""
     rows: list[list[Cell]] = []
     for each in results:
         for protocol in PROTOCOLS:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Cross-validation by whole sequences: what is fitted on some recordings is judged on another one."""
+"""Cross-validation by recordings: what is fitted on some recordings is tested on another."""
 
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
@@ -11,7 +11,7 @@ from benchmarks.quality.common.groups import recording
 
 
 class Fold(NamedTuple):
-    """N samples, of which some are fitted on and the others, of one recording, judged."""
+    """N samples: some to fit on, the others, which are from one recording, to test on."""
 
     recording: str
     fit: Flags
@@ -23,8 +23,8 @@ class Fold(NamedTuple):
 def leave_one_out(sequences: Sequence[str]) -> Iterator[Fold]:
     """A fold for each recording, in the order of their first samples.
 
-    sequences: (N,) the name of the sequence that each sample is from; sequences of one recording are left
-    out together. ValueError where all samples are of one recording.
+    sequences: (N,) the name of each sample's sequence; sequences of one recording are left out together.
+    ValueError if all samples are from one recording.
     """
     recordings = np.array([recording(each) for each in sequences])
     names = list(dict.fromkeys(recordings.tolist()))

@@ -20,18 +20,18 @@ Flags = NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FrameResults:
-    """N frames of one or several runs, with the first of each, whose box is given."""
+    """N frames of one or several runs, including the first of each, whose box is given."""
 
     overlaps: Array
-    """(N,) NaN where the truth is unknown."""
+    """(N,) overlaps with the true boxes, NaN where these are unknown."""
     absent: Flags
     """(N,) whether nothing of the target is visible; such frames count as lost, whatever the overlap."""
     scores: Array
-    """(N,)"""
+    """(N,) the tracks' scores."""
     tracked: Flags
     """(N,) whether the status is TRACKED."""
     seconds: Array
-    """(N,) of the update, NaN in the first frame of a run."""
+    """(N,) times of the updates, NaN in the first frame of a run."""
     depth_errors: Array
     """(N,) meters, the position's z minus the true one; NaN where either is unknown."""
     depth_sigmas: Array
@@ -41,8 +41,8 @@ class FrameResults:
     def of(
         cls, run: Run, boxes: Array, truth: Array, absent: Flags, depths: Array | None = None
     ) -> "FrameResults":
-        """The frames of a run. boxes: the run's, in the form in which they are compared with the truth.
-        depths: (N,) the target's true z, meters, NaN where unknown; None where all are.
+        """The frames of a run. boxes: the run's, in the form that is compared with the truth.
+        depths: (N,) the target's true z, meters, NaN where unknown; None if all are.
         """
         tracked = np.array([status is Status.TRACKED for status in run.statuses], np.bool_)
         seconds = np.concatenate([[np.nan], run.seconds])
@@ -62,7 +62,7 @@ class FrameResults:
 
     @property
     def mean_overlap(self) -> float:
-        """Over the frames with known truth."""
+        """The mean overlap over the frames with known truth."""
         return mean(self.overlaps)
 
     @property
@@ -72,5 +72,5 @@ class FrameResults:
 
     @property
     def milliseconds(self) -> float:
-        """Mean of an update."""
+        """The mean time of an update."""
         return float(1e3 * np.nanmean(self.seconds))

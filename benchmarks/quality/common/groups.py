@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The recorded sequences by what they show, and which of them are of one recording."""
+"""The recorded sequences by what they show, and which of them are from the same recording."""
 
 from collections.abc import Iterable, Mapping
 
@@ -27,8 +27,8 @@ GROUPS: Mapping[str, frozenset[str]] = {
     "others": frozenset(COLOR) - frozenset(TUNED),
     "OTB": frozenset((*TUNED, *OTB_REST)),
     "gray": frozenset(("Car1", "FaceOcc2", "Jumping")),
-    "drones": frozenset(DRONES),  # from the air: one, of a car, perhaps from a helicopter
-    "people": frozenset(PEOPLE),  # whole, also those who ride
+    "drones": frozenset(DRONES),  # from the air; one, of a car, perhaps from a helicopter
+    "people": frozenset(PEOPLE),  # whole bodies, also of riders
     "faces": frozenset(FACES),  # and heads
     "cars": frozenset(CARS),
     "animals": frozenset(ANIMALS),
@@ -36,18 +36,18 @@ GROUPS: Mapping[str, frozenset[str]] = {
     "registered": frozenset(REGISTERED),  # with depth, which is registered to color
     "walkers": frozenset(WALKERS),  # with depth, in whose pixels the true boxes are
 }
-"""A sequence may be in several."""
+"""A sequence may be in several groups."""
 RECORDINGS: Mapping[str, str] = {
     "StreetWalker": "Couple",
     "kitchen-mug chair": "kitchen-mug",
     "queue-second": "queue-first",
     "walker-purple": "queue-first",
 }
-"""Of sequences that show the same recording as another one, that other one."""
+"""The sequence whose recording a sequence shares, for those that share one."""
 
 
 def members(sequences: Iterable[str]) -> dict[str, list[str]]:
-    """The sequences of each group that has any: of ALL, of GROUPS, and of UNLISTED those in none of these."""
+    """The sequences by group: ALL, those of GROUPS that have any, and UNLISTED for all others."""
     names = list(sequences)
     listed = frozenset[str]().union(*GROUPS.values())
     found = {ALL: names}

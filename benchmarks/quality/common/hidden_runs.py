@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Trackers on one recorded sequence whose target gets hidden: what they do meanwhile and after it.
+"""Trackers on one recorded sequence in which the target is hidden for a while: their behavior then and after.
 
-A run starts on the first frame, sees the target for a while, then hidden, then again. Sequences that are too
-short are played to and fro.
+In a run, the target is first visible, then hidden, then visible again. Sequences that are too short are
+repeated in alternating directions.
 """
 
 from collections.abc import Iterable, Sequence
@@ -25,18 +25,18 @@ from benchmarks.quality.common.sequence_runs import SequenceTask
 from benchmarks.quality.common.variants import Inputs, Variant
 
 LENGTHS = 30, 100, 300
-"""Frames in which the target is hidden."""
+"""Numbers of frames in which the target is hidden."""
 COVERED, EMPTY = "covered", "empty"
-"""The video goes on while the target is covered where it moves; or one frame with it covered is repeated."""
+"""The video continues while the moving target is covered; or one frame with it covered is repeated."""
 MAX_SEEN_FRAMES = 60
-"""In which the target is seen before it is hidden; half of the sequence, where that is less."""
+"""Frames in which the target is visible before it is hidden; half of the sequence, if that is less."""
 MAX_RECOVERY_FRAMES = 30
-"""In which it has to be taken up again once it is seen."""
+"""Frames within which a visible target must be found again."""
 COLOR = Inputs(("color",))
 
 
 class Hiding(NamedTuple):
-    """How a target is hidden: COVERED or EMPTY, for so many frames, of the sequence or of its reverse."""
+    """How a target is hidden: COVERED or EMPTY, for how many frames, in the sequence or its reverse."""
 
     kind: str
     frames: int
@@ -47,7 +47,7 @@ class HiddenResult(NamedTuple):
     """One tracker on a sequence with a hidden target.
 
     taken_up: whether it was TRACKED, with an overlap above 0.3, in one of the first frames after it was
-    hidden. wrong_frames: the most in a row in which something else was TRACKED while it was hidden.
+    hidden. wrong_frames: the longest run of frames in which something else was TRACKED while it was hidden.
     """
 
     tracker: str
@@ -61,7 +61,7 @@ HIDINGS = tuple(Hiding(*each) for each in product((COVERED, EMPTY), LENGTHS, (Fa
 
 
 def run_sequence(task: SequenceTask) -> list[HiddenResult]:
-    """All trackers that can use color, in all ways of hiding; without the runs that lost the target before.
+    """All trackers that can use color, with all ways of hiding; without runs that lost the target before.
 
     Frames without a true box are left out of the sequence.
     """
@@ -84,9 +84,7 @@ def run_sequence(task: SequenceTask) -> list[HiddenResult]:
 def run_hidden(
     variant: Variant, opened: OpenedSequence, frames: Sequence[Frame], truth: Array, hiding: Hiding
 ) -> HiddenResult | None:
-    """One tracker through N frames and their true boxes, (N, 4); None if it lost the target before it is
-    hidden.
-    """
+    """One tracker on N frames with true boxes, (N, 4); None if it lost the target before this was hidden."""
     seen = min(MAX_SEEN_FRAMES, len(frames) // 2)
     numbers = to_and_fro(len(frames), seen + hiding.frames + MAX_RECOVERY_FRAMES, hiding.backward)
     before, hidden, after = np.split(numbers, [seen, seen + hiding.frames])
@@ -104,7 +102,7 @@ def run_hidden(
 
 
 def to_and_fro(frames: int, count: int, backward: bool) -> NDArray[np.intp]:
-    """(count,) numbers of the frames of a sequence that is played again and again, turning at its ends."""
+    """(count,) frame numbers of a sequence that is repeated, turning around at its ends."""
     way = np.arange(frames)[:: -1 if backward else 1]
     return np.resize(np.concatenate([way, way[-2:0:-1]]), count)
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The identity features of the fused tracker on a recorded sequence, at the target and at other places.
 
-The tracker follows whatever it finds, so that it gets lost, and learns it. Meanwhile the target is covered at
-random for some frames, which a copy of the tracker sees; the tracker itself doesn't see them.
+The tracker follows and learns whatever it finds, so that it also loses the target. At random, a copy of the
+tracker is shown some frames in which the target is covered; the tracker itself doesn't see these.
 """
 
 import copy
@@ -39,18 +39,20 @@ FRAMES_BEFORE_COVER = 15
 COVER_CHANCE = 1 / 50
 """Per frame."""
 COVERED_FRAMES = 3, 25
-"""The fewest, and one more than the most."""
+"""The minimum, and one more than the maximum."""
 ELSEWHERE_EVERY, COVERED_ELSEWHERE_EVERY = 8, 3
-"""Frames, between two in which places elsewhere are measured."""
+"""Frames from one in which places elsewhere are measured to the next."""
 ELSEWHERE_PLACES = 3
-"""Per frame: those with most evidence."""
+"""Per frame: those with the most evidence."""
 MISSED_FRAMES = 10
 """Of the search that proposes places elsewhere."""
 
 
 class Kind(IntEnum):
-    """What a sample shows. GOOD: the target where it was tracked; COVERED: the same place while the target is
-    covered; LOST: a tracked place without the target; ELSEWHERE: places without it that a search finds.
+    """What a sample shows.
+
+    GOOD: the target, where it was tracked. COVERED: the same place while the target is covered. LOST: a
+    tracked place without the target. ELSEWHERE: a place without the target that a search finds.
     """
 
     GOOD = 0
@@ -62,7 +64,7 @@ class Kind(IntEnum):
 class Samples(NamedTuple):
     """N samples of one sequence.
 
-    features: (N, 8) the IdentityFeatures, and their change against the running means over good frames.
+    features: (N, 8) the IdentityFeatures, and their differences from the running means over good frames.
     """
 
     kinds: NDArray[np.intp]
@@ -76,7 +78,7 @@ class _Sample(NamedTuple):
 
 
 def collect(task: SequenceTask) -> Samples:
-    """The samples of all runs on a sequence of color video. Frames without a true box are left out."""
+    """The samples of all runs on a color sequence. Frames without a true box are left out."""
     opened = task.entry.open()
     decoded = list(opened.source)
     truth = opened.truth(len(decoded))
@@ -125,7 +127,7 @@ def _run(frames: list[Frame], truth: Array, rng: np.random.Generator) -> Iterato
 
 
 def _elsewhere(tracker: FusedTracker, frame: Frame, step: int, rng: np.random.Generator) -> list[Match]:
-    """The places with most evidence in a random window and in those that a search of the frame proposes."""
+    """The places with the most evidence, in a random window and in those that a search proposes."""
     state, p = _state(tracker), tracker.params
     k = kernels.load(tracker.kernels)
     observed = observe_frame(frame, state.shape, (None, None), False)
@@ -148,6 +150,6 @@ def _state(tracker: FusedTracker) -> State:
 
 
 def _kind(box: Box, truth: Array) -> Kind | None:
-    """Of a tracked place; None between good and lost."""
+    """The kind of a tracked place; None between good and lost."""
     overlap = metrics.overlaps(np.array([box]), truth[None])[0]
     return Kind.GOOD if overlap > ON_TARGET_OVERLAP else Kind.LOST if overlap < LOST_OVERLAP else None

@@ -6,17 +6,17 @@ import numpy as np
 from benchmarks.quality.common.frame_results import Array, Flags
 
 PENALTY = 1e-3
-"""On the squared weights of the features, in their standard deviations, per weight of the samples."""
+"""Regularization of the squared weights of standardized features, per total weight of the samples."""
 STEPS = 30
-"""Of Newton's method."""
+"""Steps of Newton's method."""
 MAX_LOG_ODDS = 30.0
-"""Beyond it a probability doesn't change."""
+"""Beyond this the probability doesn't change."""
 
 
 def fit(features: Array, labels: Flags, weights: Array) -> Array:
     """(F + 1,) log-odds per unit of each feature, and their offset.
 
-    features: (N, F). labels: (N,). weights: (N,) how much each sample counts.
+    features: (N, F). labels: (N,). weights: (N,) of the samples.
     """
     mean, spread = np.average(features, axis=0, weights=weights), features.std(axis=0) + 1e-9
     inputs = np.column_stack([(features - mean) / spread, np.ones(len(features))])

@@ -15,9 +15,9 @@ Floats = NDArray[np.float32]
 Image = NDArray[np.uint8]
 
 PAIRS = {"tsukuba": (16, 16), "venus": (8, 32), "sawtooth": (8, 32), "bull": (8, 32), "cones": (4, 64)}
-"""Gray levels of the truth per pixel of disparity, and D, the number of disparities that are searched."""
+"""Gray levels of the truth per pixel of disparity, and D, the number of disparities to search."""
 STEREO_BM_FRACTION = 16
-"""Parts of a pixel in the fixed-point disparities of cv2.StereoBM."""
+"""Units per pixel in the fixed-point disparities of cv2.StereoBM."""
 
 
 class StereoPair(NamedTuple):
@@ -31,7 +31,7 @@ class StereoPair(NamedTuple):
 
 
 def load(folder: Path, name: str) -> StereoPair:
-    """Read ``folder/name``: im2.png, im6.png and disp2.png. OSError where one is missing."""
+    """Read im2.png, im6.png and disp2.png in ``folder/name``. OSError if one is missing."""
     images = [
         cv2.imread(str(folder / name / file), cv2.IMREAD_GRAYSCALE)
         for file in ("im2.png", "im6.png", "disp2.png")
@@ -45,13 +45,13 @@ def load(folder: Path, name: str) -> StereoPair:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The folder of the pairs, and how often each matcher is timed."""
+    """Add the folder of the pairs, and the number of rounds in which each matcher is timed."""
     parser.add_argument("folder", type=Path, nargs="?", help="of the stereo pairs; default in TRICUE_DATA")
     parser.add_argument("--rounds", type=int, default=25, help="of timing, default %(default)s")
 
 
 def load_all(parser: argparse.ArgumentParser, options: argparse.Namespace) -> list[StereoPair]:
-    """The pairs in the folder of the options; an error of the parser where there are none."""
+    """The pairs in the folder of the options; an error of the parser if there are none."""
     folder = options.folder or data_folder() / "disparity"
     names = [name for name in PAIRS if (folder / name).is_dir()]
     if not names:

@@ -21,10 +21,10 @@ def moving_waves(
 ) -> tuple[Image, Image, Floats]:
     """Previous and current frame (H, W), uint8, and the true flow (H, W, 2), pixels, at the previous one.
 
-    The texture has wavelengths of 4 to 40 pixels with the amplitudes of real surfaces. Its contrast varies
-    between one sixth and full over the frame. Between the frames it rotates about the center by ``degrees``,
-    is scaled by ``growth``, and shifts by ``shift`` pixels in a random direction. noise: standard deviation
-    in gray levels, independent in both frames.
+    The texture has wavelengths of 4 to 40 pixels, with amplitudes like those of real surfaces. Its contrast
+    varies between one sixth and full over the frame. Between the frames, it rotates about the center by
+    ``degrees``, is scaled by ``growth``, and shifts by ``shift`` pixels in a random direction. noise:
+    standard deviation in gray levels, independent in both frames.
     """
     height, width = shape
     y, x = np.mgrid[:height, :width].astype(float)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""OpenCV's optical flows as functions of two gray frames (H, W), which return (H, W, 2) pixels."""
+"""OpenCV's optical flows, as functions of two gray frames (H, W) that return (H, W, 2) in pixels."""
 
 from collections.abc import Callable
 
@@ -13,7 +13,7 @@ DenseFlow = Callable[[Image, Image], Floats]
 
 
 def farneback() -> DenseFlow:
-    """cv2's polynomial expansion, with the parameters of OpenCV's samples."""
+    """cv2's Farneback flow, by polynomial expansion, with the parameters of OpenCV's samples."""
 
     def calc(previous: Image, current: Image) -> Floats:
         flow = cv2.calcOpticalFlowFarneback(previous, current, None, 0.5, 3, 15, 3, 5, 1.2, 0)  # type: ignore[call-overload]
@@ -23,7 +23,7 @@ def farneback() -> DenseFlow:
 
 
 def dis(preset: int) -> DenseFlow:
-    """cv2's dense inverse search, which keeps its buffers from call to call."""
+    """cv2's dense inverse search; its buffers are kept between calls."""
     search = cv2.DISOpticalFlow.create(preset)
 
     def calc(previous: Image, current: Image) -> Floats:
@@ -33,7 +33,7 @@ def dis(preset: int) -> DenseFlow:
 
 
 def lucas_kanade(previous: Image, current: Image, pixels: NDArray[np.bool_]) -> Floats:
-    """cv2's pyramidal Lucas-Kanade of the given pixels, (H, W, 2), 0 elsewhere and where it loses them."""
+    """cv2's pyramidal Lucas-Kanade at the given pixels, (H, W, 2); 0 elsewhere, and for lost pixels."""
     points = np.argwhere(pixels)[:, None, ::-1].astype(np.float32)
     moved, status, _ = cv2.calcOpticalFlowPyrLK(previous, current, points, None)  # type: ignore[call-overload]
     flow = np.zeros((*pixels.shape, 2), np.float32)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Trackers on recorded color sequences, each from the first true box and six that differ a little from it.
+"""Trackers on recorded color sequences, each from the first true box and from six slightly different ones.
 
 The six are shifted by 8 % of the box's width or height, or smaller or larger by 6 %.
 """
@@ -21,7 +21,7 @@ SHIFT, SCALE = 0.08, 0.06
 
 
 def starts(box: Box) -> list[Box]:
-    """The true box, and the six around it."""
+    """The true box, and the six that differ from it."""
     (x, y), (width, height) = box.center, box[2:]
     shifts = [(0.0, 0.0), (SHIFT, 0.0), (-SHIFT, 0.0), (0.0, SHIFT), (0.0, -SHIFT)]
     shifted = [Box(box.x + right * width, box.y + down * height, width, height) for right, down in shifts]
@@ -37,7 +37,7 @@ def measure(make: Maker, sequence: sequences.Sequence) -> tuple[list[metrics.Sco
 
 
 def table(trackers: Mapping[str, Maker], found: Sequence[sequences.Sequence]) -> str:
-    """Markdown, a line per tracker: per sequence ``AUC (least-most)/precision frames/s`` over the starts."""
+    """Markdown, a line per tracker; per sequence ``AUC (least-most)/precision frames/s`` over the starts."""
     lines = []
     for name, make in trackers.items():
         cells = []
@@ -57,7 +57,7 @@ def main(
     trackers: Mapping[str, Maker],
     arguments: Sequence[str] | None,
 ) -> int:
-    """The main of a script with these trackers: parse the arguments and print the table; the exit code.
+    """The main function of a script with these trackers: print the table; returns the exit code.
 
     names: the sequences of a run without --sequences.
     """

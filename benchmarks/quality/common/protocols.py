@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Protocols on recorded video: in which orders a tracker sees the frames of a sequence.
+"""Protocols on recorded video: the orders in which a tracker sees the frames of a sequence.
 
 "forward" and "backward" are one pass each over the whole sequence; "starts" are eight runs, from 0, 1/4, 1/2
 and 3/4 of the sequence to its end and the same on the reversed sequence; "third" is one pass over every third
-frame. A run starts on the first of its frames with a true box, or on boxes beside it. Times increase, also
-backward.
+frame. A run starts on the first of its frames with a true box, on that box or on perturbed ones. Times
+increase, also backward.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -29,11 +29,11 @@ PROTOCOLS: Mapping[str, tuple[Order, ...]] = {
 ORDERS = tuple(dict.fromkeys(order for orders in PROTOCOLS.values() for order in orders))
 """Each order once: a run may belong to several protocols."""
 TRUE_BOX = (0,)
-"""The draws of runs that start on the true first box alone."""
+"""The draws of runs that start only on the true first box."""
 
 
 def belongs(order: Order, protocol: str) -> bool:
-    """Whether a run in this order, on the true first box or beside it, is one of the protocol's."""
+    """Whether a run in this order, on the true first box or a perturbed one, is one of the protocol's."""
     return order._replace(noise=0) in PROTOCOLS[protocol]
 
 
@@ -42,8 +42,8 @@ def run_orders(
 ) -> Mapping[Order, FrameResults]:
     """The tracker's runs in all orders that leave two frames or more from the first true box on.
 
-    frames: the recording's, as the tracker gets them. draws: a run each, on the box of that draw beside the
-    true one, 0 on the true one.
+    frames: the recording's, as the tracker gets them. draws: one run each, on the perturbed box of that draw;
+    0 is the true box.
     """
     found = {
         order._replace(noise=draw): run_order(variant, recording, frames, order.numbers(len(frames)), draw)
@@ -60,8 +60,9 @@ def run_order(
     numbers: NDArray[np.intp],
     draw: int = 0,
 ) -> FrameResults | None:
-    """Track through the frames of these numbers, from the first with a true box; None where fewer than two
-    are left. draw: of the first box, as :func:`run_orders` has it.
+    """Track through the frames with these numbers, from the first with a true box on.
+
+    None if fewer than two are left. draw: of the first box, as in :func:`run_orders`.
     """
     opened = recording.opened
     truth, absent = recording.truth[: len(frames)], opened.absent(len(frames))
@@ -77,6 +78,6 @@ def run_order(
 
 
 def in_order(frames: Sequence[Frame], numbers: NDArray[np.intp]) -> Iterator[Frame]:
-    """The frames of these numbers; where they go backward, their times are the seconds since the first."""
+    """The frames with these numbers; if they go backward, times are the seconds since the first frame."""
     ordered = (frames[number] for number in numbers)
     return forward_times(ordered) if numbers[-1] < numbers[0] else ordered

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A recorded sequence for trackers: its truth, its frames, and what trackers are told of it."""
+"""A recorded sequence for trackers: its truth, its frames, its channels and cameras."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -15,7 +15,7 @@ from benchmarks.quality.common.frame_results import Array
 
 @dataclass(frozen=True)
 class Recording:
-    """A sequence as its files have it; its N frames are decoded once, when they are asked for."""
+    """A sequence as recorded; its N frames are decoded once, at first use."""
 
     opened: OpenedSequence
 
@@ -43,13 +43,13 @@ class Recording:
 class MirroredRecording(Recording):
     """The color of a sequence with left and right exchanged.
 
-    It is as hard as the sequence, but other pixels decide what hangs on a few of them. So it tells how much
-    of what was chosen on the sequence is chance.
+    It is as hard as the sequence itself, but results that depend on a few pixels come out differently. So it
+    shows how much of what was chosen on the sequence is chance.
     """
 
     @cached_property
     def frames(self) -> Sequence[Frame]:
-        """All frames, in memory, of color alone."""
+        """All frames, in memory, with color alone."""
         return [_mirrored(frame) for frame in self.opened.source]
 
     @cached_property

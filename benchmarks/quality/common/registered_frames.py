@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Recorded frames with the color in the depth image's pixels."""
+"""Recorded frames with color registered to depth."""
 
 from dataclasses import replace
 
@@ -12,7 +12,7 @@ from tricue.evaluation.dataset import OpenedSequence
 
 
 def color_camera(opened: OpenedSequence) -> Intrinsics | None:
-    """The color camera, where it and the depth camera are calibrated."""
+    """The color camera, if both it and the depth camera are calibrated."""
     source = opened.source
     if source.calibration is None or "color" not in source.channels or opened.intrinsics is None:
         return None
@@ -20,7 +20,7 @@ def color_camera(opened: OpenedSequence) -> Intrinsics | None:
 
 
 def registered(opened: OpenedSequence, camera: Intrinsics | None, shift: float = 0.0) -> list[Frame]:
-    """The frames with the color in the depth image's pixels; without a color camera depth alone."""
+    """The frames with color registered to depth; without a color camera, with depth alone."""
     depth_camera = opened.intrinsics
     if camera is None or depth_camera is None:
         return [Frame(depth=frame.depth, timestamp=frame.timestamp) for frame in opened.source]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The numbers of runs on recorded sequences in a JSON file, which later runs are compared with."""
+"""The numbers of runs on recorded sequences in a JSON file, with which later runs are compared."""
 
 import json
 import math
@@ -14,13 +14,13 @@ from benchmarks.quality.common.tables import mean
 from benchmarks.quality.common.variants import Variant
 
 Aucs = Mapping[str, Mapping[str, float]]
-"""Of one tracker: by sequence and protocol."""
+"""The AUC of one tracker, by sequence and protocol."""
 
 
 def save(path: Path, variants: Sequence[Variant], results: Iterable[SequenceResult]) -> None:
-    """Write what the trackers are, with their parameters, and the numbers of each run; unknown ones are null.
+    """Write the trackers, with their parameters, and the numbers of each run; unknown ones are null.
 
-    A run that belongs to several protocols is there for each of them.
+    A run that belongs to several protocols is written for each of them.
     """
     trackers = {each.label: json.loads(each.spec.description) for each in variants}
     runs = [run for each in results for run in _runs(each)]
@@ -30,8 +30,9 @@ def save(path: Path, variants: Sequence[Variant], results: Iterable[SequenceResu
 
 
 def load(path: Path) -> dict[str, Aucs]:
-    """The AUC by tracker, sequence and protocol, the mean over a protocol's runs. ValueError for another
-    file.
+    """The AUC by tracker, sequence and protocol: the mean over a protocol's runs.
+
+    ValueError for any other file.
     """
     found: dict[str, dict[str, dict[str, list[float]]]] = {}
     try:
@@ -50,7 +51,7 @@ def load(path: Path) -> dict[str, Aucs]:
 
 
 def aucs(results: Iterable[SequenceResult]) -> Aucs:
-    """The same of one tracker's results."""
+    """The AUC of one tracker's results, by sequence and protocol."""
     return {
         each.sequence: {name: each.auc(name) for name in PROTOCOLS if each.runs_of(name)} for each in results
     }

@@ -16,17 +16,17 @@ from benchmarks.quality.common.frame_results import GOOD_OVERLAP, Array, Flags, 
 from benchmarks.quality.common.variants import Inputs, Variant
 
 MIN_COUNTED_VISIBLE = 0.5
-"""Share of the target's pixels from which a frame counts for overlaps and positions."""
+"""Smallest visible share of the target with which a frame counts for overlaps and positions."""
 MIN_WHOLE_VISIBLE = 0.95
-"""Share from which the target is wholly visible, but for pixels at its border."""
+"""Smallest visible share with which the target counts as fully visible, apart from border pixels."""
 MAX_RECOVERY_FRAMES = 10
-"""Frames in which a target that is wholly visible again has to be found."""
+"""Frames within which a target that is fully visible again must be found."""
 MAX_LOST_DELAY = 3
-"""Frames without the target in which LOST has to be reported."""
+"""Frames without the target within which LOST must be reported."""
 MAX_WRONG_FRAMES = 5
 """Frames in a row in which TRACKED on something else is tolerated."""
 MIN_LOOKALIKE_OVERLAP, MAX_TARGET_OVERLAP = 0.3, 0.1
-"""A box is on a look-alike above this overlap with it and below that with the target."""
+"""A box is on a look-alike if its overlap with it is above this, and that with the target below this."""
 
 
 class SceneTask(NamedTuple):
@@ -36,17 +36,17 @@ class SceneTask(NamedTuple):
     seed: int
     channels: str
     variants: Sequence[Variant]
-    away: int | None = None  # frames, as stress_scene has it
+    away: int | None = None  # frames, as in stress_scene
 
 
 class SceneResult(NamedTuple):
     """One tracker on a scene with N frames. Numbers of events that the scene doesn't have are NaN.
 
-    errors: (N,) meters between the positions, NaN where one is unknown. counted: (N,) whether at least half
-    of the target is visible. recovered: share of the absences and occlusions after which the target was found
-    again. faithful: 1 where nothing but the target was TRACKED for long, else 0. reported_lost: 1 where LOST
-    was reported in time when the image got black or showed another scene, else 0. trouble: the error that
-    ended the tracker, or "".
+    errors: (N,) distances between tracked and true positions, meters, NaN where one is unknown. counted: (N,)
+    whether at least half of the target is visible. recovered: share of the absences and occlusions after
+    which the target was found again. faithful: 1 if nothing but the target was TRACKED for long, else 0.
+    reported_lost: 1 if LOST was reported in time when images were black or showed another scene, else 0.
+    trouble: the error that ended the tracker, or "".
     """
 
     tracker: str
@@ -63,7 +63,7 @@ class SceneResult(NamedTuple):
 
 
 def run_scene(task: SceneTask) -> list[SceneResult]:
-    """Render the scene once and run all trackers that have their channels in it."""
+    """Render the scene once, and run all trackers that can use its channels."""
     inputs = Inputs(channels_of(task.channels))
     able = [each for each in task.variants if not each.unsupported(inputs)]
     if not able:
@@ -99,8 +99,9 @@ def run_variant(variant: Variant, scene: StressScene | RoomScene, channels: str)
 
 
 def recovered(run: Run, scene: StressScene | RoomScene) -> float:
-    """Share of the events "leaving" and "hidden" after which the overlap is above 0.5 in one of the first
-    MAX_RECOVERY_FRAMES with the target wholly visible; NaN without such an event.
+    """The share of the events "leaving" and "hidden" after which the target is recovered; NaN without any.
+
+    Recovered: the overlap is above 0.5 in one of the first MAX_RECOVERY_FRAMES with the target fully visible.
     """
     overlaps = metrics.overlaps(run.boxes, scene.boxes)
     answers = []
@@ -112,7 +113,7 @@ def recovered(run: Run, scene: StressScene | RoomScene) -> float:
 
 
 def _first_whole(scene: StressScene | RoomScene, event: str) -> int | None:
-    """The first frame with the whole target after an event's last one without it; None where none is."""
+    """The first frame with the whole target after an event's last frame without it; None if there is none."""
     gone = _absent(scene, event)
     if not gone:
         return None
@@ -121,8 +122,10 @@ def _first_whole(scene: StressScene | RoomScene, event: str) -> int | None:
 
 
 def faithful(run: Run, scene: StressScene | RoomScene) -> float:
-    """1 where no look-alike, and nothing while the target wasn't visible, was TRACKED for more than
-    MAX_WRONG_FRAMES in a row, else 0; NaN where there is no look-alike and the target is always visible.
+    """1 if nothing wrong was TRACKED for more than MAX_WRONG_FRAMES in a row, else 0.
+
+    Wrong: a look-alike, or anything while the target isn't visible. NaN if there is no look-alike and the
+    target is always visible.
     """
     wrong = scene.visible <= 0
     if "lookalike" in scene.spans:
@@ -136,7 +139,7 @@ def faithful(run: Run, scene: StressScene | RoomScene) -> float:
 
 
 def longest_run(flags: Flags) -> int:
-    """The most flags in a row."""
+    """The largest number of set flags in a row."""
     most = length = 0
     for flag in flags.tolist():
         length = length + 1 if flag else 0
@@ -145,7 +148,7 @@ def longest_run(flags: Flags) -> int:
 
 
 def reported_lost(run: Run, scene: StressScene | RoomScene) -> float:
-    """1 where LOST was reported in one of the first MAX_LOST_DELAY frames of the event "blank" without the
+    """1 if LOST was reported in one of the first MAX_LOST_DELAY frames of the event "blank" without the
     target, else 0; NaN without the event.
     """
     gone = _absent(scene, "blank")

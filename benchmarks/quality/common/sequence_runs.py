@@ -29,7 +29,7 @@ class SequenceTask(NamedTuple):
 
 
 class SequenceResult(NamedTuple):
-    """One tracker on a sequence: its runs. unsupported: why there are none, or ""."""
+    """The runs of one tracker on a sequence. unsupported: why there are none, or ""."""
 
     tracker: str
     sequence: str
@@ -37,15 +37,15 @@ class SequenceResult(NamedTuple):
     unsupported: str = ""
 
     def runs_of(self, protocol: str) -> list[FrameResults]:
-        """The runs of a protocol, as far as the sequence is long enough for them."""
+        """The runs of a protocol for which the sequence is long enough."""
         return [run for order, run in self.runs.items() if belongs(order, protocol)]
 
     def auc(self, protocol: str) -> float:
-        """The mean over the runs of a protocol; NaN without one."""
+        """The mean AUC over the runs of a protocol; NaN without one."""
         return mean([run.auc for run in self.runs_of(protocol)])
 
     def overlap(self, protocol: str) -> float:
-        """The mean over the runs of a protocol of their mean overlaps; NaN without one."""
+        """The mean of the mean overlaps of a protocol's runs; NaN without one."""
         return mean([run.mean_overlap for run in self.runs_of(protocol)])
 
 
@@ -55,7 +55,7 @@ def find_tasks(
     only: Sequence[str] = (),
     find: Callable[[Path], Sequence[Entry]] = find_entries,
 ) -> list[SequenceTask]:
-    """The sequences at or under a folder, all or some, by name. ValueError for a name that isn't there."""
+    """Tasks for sequences at or under a folder, all or by name. ValueError for an unknown name."""
     entries = find(root)
     names = [each.name for each in entries]
     if unknown := [name for name in only if name not in names]:
@@ -66,8 +66,9 @@ def find_tasks(
 def run_longest_first(
     run: Callable[[SequenceTask], Result], tasks: Sequence[SequenceTask], jobs: int
 ) -> list[Result]:
-    """The results in the order of the tasks. The longest sequences run first, so that all processes end
-    together.
+    """The results in the order of the tasks.
+
+    The longest sequences run first, so that all processes end at about the same time.
     """
     lengths = [len(task.entry.open().boxes) for task in tasks]
     longest_first = sorted(range(len(tasks)), key=lambda index: -lengths[index])
@@ -82,7 +83,7 @@ def run_sequences(
     recording: MakeRecording = Recording,
     draws: Sequence[int] = TRUE_BOX,
 ) -> list[SequenceResult]:
-    """The results in the order of the tasks. What can't run is named on stderr."""
+    """The results in the order of the tasks. Trackers that can't run are named on stderr."""
     run = partial(run_sequence, recording=recording, draws=draws)
     results = [each for several in run_longest_first(run, tasks, jobs) for each in several]
     for each in results:
@@ -94,7 +95,7 @@ def run_sequences(
 def run_sequence(
     task: SequenceTask, recording: MakeRecording = Recording, draws: Sequence[int] = TRUE_BOX
 ) -> list[SequenceResult]:
-    """Decode a sequence, unless no tracker supports it, and run all trackers by all protocols."""
+    """Decode a sequence, unless no tracker supports it, and run all trackers with all protocols."""
     found = recording(task.entry.open())
     results = []
     for variant in task.variants:
@@ -117,7 +118,7 @@ def by_tracker(results: Iterable[SequenceResult]) -> dict[str, list[SequenceResu
 
 
 def mean_auc(results: Iterable[SequenceResult], protocol: str) -> float:
-    """The mean of a protocol over sequences; NaN where none has a run of it."""
+    """The mean AUC of a protocol over sequences; NaN if none has a run of it."""
     return mean([each.auc(protocol) for each in results])
 
 

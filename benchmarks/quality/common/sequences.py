@@ -32,7 +32,7 @@ def find(root: Path) -> list[Path]:
 
 
 def load(folder: Path) -> Sequence:
-    """Decode a whole sequence into memory. ValueError where it has no true box in its first frame."""
+    """Decode a whole sequence into memory. ValueError if its first frame has no true box."""
     source = open_source(folder)
     if source.truth is None or source.first_box is None:
         raise ValueError(f"{folder}: expected a true box in the first frame")

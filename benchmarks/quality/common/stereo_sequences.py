@@ -19,7 +19,7 @@ from tricue.data.open_source import Source, open_source
 from tricue.data.truth import read_truth_file
 
 RIGHT, CALIBRATION = "groundtruth_right.txt", "calibration.yml"
-KITTI_RATE = 10.0  # frames/s of its cameras (Geiger et al. 2013), not in its folders
+KITTI_RATE = 10.0  # frames/s of KITTI's cameras (Geiger et al. 2013), not stored in its folders
 MIN_KITTI_FRAMES = 10
 MIN_KITTI_SIDE = 20.0  # pixels of a labeled target in its first frame
 Array = NDArray[np.float64]
@@ -36,7 +36,7 @@ class StereoSequence(NamedTuple):
 
 
 def find(root: Path) -> list[Path]:
-    """The folders that hold such sequences, by name: ``root`` itself, and those directly under it."""
+    """The folders that hold such sequences, by name: ``root`` itself, and folders directly under it."""
     folders = [root, *sorted(path for path in root.glob("*") if path.is_dir())]
     return [folder for folder in folders if (folder / RIGHT).is_file() or _labels(folder) is not None]
 
@@ -44,7 +44,7 @@ def find(root: Path) -> list[Path]:
 def load(folder: Path, unit: float = 1.0) -> Iterator[StereoSequence]:
     """Decode a folder's sequences. unit: meters, of the baseline in its OpenCV calibration.
 
-    ValueError where right images, boxes or calibration are missing or don't fit together.
+    ValueError if right images, boxes or calibration are missing or don't match.
     """
     labels = _labels(folder)
     source = open_source(folder, fps=None if labels is None else KITTI_RATE)

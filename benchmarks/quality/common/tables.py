@@ -12,13 +12,13 @@ Cell = str | float
 
 
 def markdown(head: Sequence[str], rows: Iterable[Sequence[Cell]], digits: int = 3) -> str:
-    """A table; numbers with so many digits after the point, NaN as "-"."""
+    """A table; digits: after the decimal point. NaN is "-"."""
     lines = [list(head), ["---"] * len(head), *([_text(cell, digits) for cell in row] for row in rows)]
     return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
 
 
 def write_csv(path: Path | None, head: Sequence[str], rows: Iterable[Sequence[Cell]]) -> None:
-    """All digits of the numbers, NaN empty; nothing where there is no path."""
+    """Write a CSV with all digits of the numbers, and NaN as an empty cell; without a path, do nothing."""
     if path is None:
         return
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -29,7 +29,7 @@ def write_csv(path: Path | None, head: Sequence[str], rows: Iterable[Sequence[Ce
 
 
 def mean(values: ArrayLike) -> float:
-    """Over the values that aren't NaN; NaN where all are."""
+    """The mean of the values that aren't NaN; NaN if all are."""
     known = np.asarray(values, np.float64)
     known = known[~np.isnan(known)]
     return float(known.mean()) if known.size else float("nan")

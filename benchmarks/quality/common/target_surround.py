@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How the surround of a target lies: what is as far away as the target, and the plane it stands on."""
+"""The surround of a target: what is at the same depth as the target, and the plane that it stands on."""
 
 from typing import NamedTuple
 
@@ -10,9 +10,9 @@ from tricue.camera.rig import Intrinsics
 Array = NDArray[np.float64]
 SIDES = ("left", "right", "above", "below")
 MIN_TOLERANCE, TOLERANCE = 0.1, 0.05
-"""What lies within so many meters, or such a share of the distance, is as far away as the target."""
+"""Meters, or share of the distance, within which something is at the same depth as the target."""
 PLANE_TOLERANCE = 0.015
-"""Of the distance: what lies so near to a plane belongs to it."""
+"""Share of the distance, within which points belong to a plane."""
 PLANE_TRIES = 150
 MIN_POINTS = 60
 
@@ -20,8 +20,8 @@ MIN_POINTS = 60
 class Surround(NamedTuple):
     """What is around a target in a frame.
 
-    same: shares of the measured pixels left, right, above and below, half a box wide, that are as far away as
-    the target. unmeasured: share of the surround without depth. plane: share of the surround on its best
+    same: shares of the measured pixels left, right, above and below, half a box wide, that are at the
+    target's depth. unmeasured: share of the surround without depth. plane: share of the surround on its best
     plane. height: median distance of the target from that plane, meters.
     """
 
@@ -32,7 +32,7 @@ class Surround(NamedTuple):
 
 
 def look_around(depth: Array, box: Array, camera: Intrinsics) -> Surround | None:
-    """The surround of a box (4,) in a depth image (H, W); None where the target's depth is unknown."""
+    """The surround of a box (4,) in a depth image (H, W); None if the target's depth is unknown."""
     x, y, width, height = box.tolist()
     inner = _part(depth, x + width / 4, y + height / 4, width / 2, height / 2)
     known = inner[np.isfinite(inner)]
@@ -69,7 +69,7 @@ def motion(boxes: Array) -> Array:
 
 
 def _plane(depth: Array, box: Array, camera: Intrinsics) -> tuple[float, float]:
-    """The share of the surround on the plane that holds most of it, and the target's distance from it."""
+    """The share of the surround on the plane with the most points, and the target's distance from it."""
     x, y, width, height = box.tolist()
     v, u = np.indices(depth.shape)
     across, down = np.abs(u - x - width / 2) / width, np.abs(v - y - height / 2) / height

@@ -20,7 +20,7 @@ CHANNELS = ("color", "depth", "right")
 
 @dataclass(frozen=True)
 class Inputs:
-    """What a sequence has for trackers: channels and cameras, as the protocol ``SequenceInfo`` has them."""
+    """A sequence's channels and cameras, as in the protocol ``SequenceInfo``."""
 
     channels: tuple[str, ...]
     intrinsics: Intrinsics | None = None
@@ -29,14 +29,15 @@ class Inputs:
 
     @property
     def channel(self) -> str:
-        """The one whose pixels the boxes count; depth only where there is no color."""
+        """The channel in whose pixels boxes are: color, or else depth."""
         return "color" if "color" in self.channels else "depth"
 
 
 @dataclass(frozen=True)
 class Variant:
-    """A tracker spec with a label. only: the channels that it gets, None for all that it can use. timed:
-    whether its frames have their times.
+    """A tracker spec with a label.
+
+    only: the channels that it gets; None for all that it can use. timed: whether its frames have timestamps.
     """
 
     label: str
@@ -45,7 +46,7 @@ class Variant:
     timed: bool = True
 
     def unsupported(self, inputs: SequenceInfo) -> str:
-        """Why it can't run on such inputs, "" where it can."""
+        """Why the variant can't run on such inputs; "" if it can."""
         missing = [name for name in self.only or () if name not in inputs.channels]
         return f"no {missing[0]}" if missing else self.spec.unsupported_reason(self._limited(inputs))
 
@@ -54,7 +55,7 @@ class Variant:
         return self.spec.make(self._limited(inputs), seed)
 
     def view(self, inputs: SequenceInfo) -> FrameView:
-        """What it gets of a frame."""
+        """The function that turns a frame into what the variant gets of it."""
         only, view = self.only, self.spec.view(self._limited(inputs))
         if only is None and self.timed:
             return view
@@ -80,8 +81,8 @@ class Variant:
 def parse_variants(words: Sequence[str], settings: Sequence[str] = ()) -> list[Variant]:
     """From names such as CSRT, fused, or fused:color and fused:color+depth, which get these channels only.
 
-    settings: "name.parameter=value", for tricue's trackers. What the installed cv2 lacks of its trackers is
-    left out and named on stderr. ValueError for what is unknown, and where nothing is left.
+    settings: "name.parameter=value", for tricue's trackers. Trackers that the installed cv2 lacks are left
+    out and named on stderr. ValueError for unknown names, and if no tracker is left.
     """
     words = _installed(words)
     names = [word.partition(":")[0] for word in words]
@@ -115,13 +116,13 @@ def parse_settings(settings: Sequence[str]) -> dict[str, dict[str, Any]]:
 
 
 def with_settings(variant: Variant, label: str, values: Mapping[str, Any]) -> Variant:
-    """The same tracker under another label with further parameters."""
+    """The same tracker with another label and more parameters."""
     settings = dict(variant.spec.settings) | dict(values)
     return replace(variant, label=label, spec=replace(variant.spec, settings=tuple(settings.items())))
 
 
 def without_times(variant: Variant) -> Variant:
-    """The same tracker, which isn't told when its frames were taken."""
+    """The same tracker, with frames without timestamps."""
     return replace(variant, label=f"{variant.label}, no times", timed=False)
 
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The stereo head tracker's color search alone, in two dimensions, beside cv2's trackers.
+"""The stereo head tracker's color search alone, in two dimensions, compared with cv2's trackers.
 
     python -m benchmarks.quality.cues.color_tracking [FOLDER]
 
-Each tracker starts on the first true box and on six that differ a little from it.
+Each tracker starts on the first true box and on six slightly different ones.
 """
 
 import sys
@@ -20,7 +20,7 @@ BASELINES = ("CamShift", "meanShift", "KCF")
 
 
 def makers() -> dict[str, Maker]:
-    """The search, also without the gradient, and the baselines that the installed cv2 has."""
+    """The search with and without the gradient, and the baselines that the installed cv2 has."""
     known = baselines.available()
     return {
         "color search": lambda seed: ColorSearch(),

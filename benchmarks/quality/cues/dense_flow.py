@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""gradient_flow and pyramid_flow beside cv2's dense flows and Lucas-Kanade.
+"""gradient_flow and pyramid_flow, compared with cv2's dense flows and Lucas-Kanade.
 
     python -m benchmarks.quality.cues.dense_flow
 
-Errors are average endpoint errors in pixels, of all methods over the same pixels: of those with a true flow,
-the half that tricue's reliabilities rank first, by angle^2 contrast. The root of that is about the smaller
-singular value of equation (4), so its inverse bounds the flow's error; on synthetic frames the errors of one
-level fall nearly with these powers (``fit``). Pixels without a flow rank last. Times are the fastest of some
-rounds, on one thread; Lucas-Kanade's is for the half. "kept" pixels reach a tracker's minimum reliabilities.
+Errors are average endpoint errors in pixels. All methods are measured over the same pixels: the half of those
+with a true flow that rank first by tricue's reliabilities, angle^2 contrast. The square root of that is about
+the smaller singular value of equation (4), so its inverse bounds the flow's error; on synthetic frames, the
+errors of one level fall with nearly these powers (``fit``). Pixels without a flow rank last. Times are the
+fastest of some rounds, on one thread; Lucas-Kanade's is for that half. "kept" pixels have a tracker's minimum
+reliabilities.
 """
 
 import sys
@@ -29,7 +30,7 @@ from benchmarks.quality.common.tables import markdown
 from benchmarks.quality.common.timing import fastest
 
 SIGMA, PYRAMID_SIGMA, LEVELS = 2.0, 1.0, 3
-MIN_ANGLE, MIN_CONTRAST = 0.1, 1.0  # of the flow that a tracker keeps
+MIN_ANGLE, MIN_CONTRAST = 0.1, 1.0  # reliabilities of flow that a tracker keeps
 MIN_FIT_ANGLE = 0.3
 SHIFTS = (0.5, 1, 2, 3, 4, 6)  # px
 BASELINES = ("Farneback", "DIS ultrafast", "DIS medium", "Lucas-Kanade")
@@ -63,7 +64,7 @@ class RatedFlow(NamedTuple):
 
 
 class Result(NamedTuple):
-    """One of METHODS: percent kept at the minima; errors and seconds, its own first, then the BASELINES'."""
+    """One of METHODS: percent of pixels kept; errors and seconds, first its own, then the BASELINES'."""
 
     kept: float
     errors: tuple[float, ...]
@@ -71,7 +72,7 @@ class Result(NamedTuple):
 
 
 class FlowMethod(NamedTuple):
-    """A kernel: u, v, angle, contrast of two frames; and the sign of u, v in the first one's pixels."""
+    """A kernel: u, v, angle, contrast from two frames; and the sign of u, v for the first frame's pixels."""
 
     kernel: Callable[[Image, Image], tuple[Floats, Floats, Floats, Floats]]
     sign: int
@@ -83,12 +84,12 @@ class FlowMethod(NamedTuple):
 
 
 def one_level(sigma: float = SIGMA) -> FlowMethod:
-    """gradient_flow, which is that of halfway between the frames."""
+    """gradient_flow, whose flow is for the time halfway between the frames."""
     return FlowMethod(lambda previous, current: _core.gradient_flow(previous, current, sigma, 0, 0), 1)
 
 
 def pyramid(sigma: float = PYRAMID_SIGMA) -> FlowMethod:
-    """pyramid_flow, whose flow is that of the second frame's pixels: so the frames are exchanged."""
+    """pyramid_flow; its flow is for the second frame's pixels, so the frames are exchanged."""
     return FlowMethod(
         lambda previous, current: _core.pyramid_flow(current, previous, sigma, LEVELS, 0, 0), -1
     )
@@ -98,7 +99,7 @@ METHODS = {"one level": one_level(), "pyramid": pyramid()}
 
 
 def load(folder: Path) -> Frames:
-    """``NAME1.png``, ``NAME2.png`` and ``NAME.flo`` of a folder NAME. OSError where one is missing."""
+    """``NAME1.png``, ``NAME2.png`` and ``NAME.flo`` in a folder NAME. OSError if one is missing."""
     paths = [folder / f"{folder.name}{end}" for end in ("1.png", "2.png", ".flo")]
     if not all(path.is_file() for path in paths):
         raise OSError(f"folder: expected {', '.join(path.name for path in paths)} in {folder}")
@@ -122,7 +123,7 @@ def synthetic(seed: int = 0) -> list[Frames]:
 
 
 def reliable_half(found: RatedFlow, known: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """(H, W): the half of the known pixels that angle^2 contrast ranks first, those without flow last."""
+    """(H, W): the half of the known pixels that rank first by angle^2 contrast; without flow, last."""
     rank = np.where(np.isfinite(found.flow[..., 0]), found.angle**2 * found.contrast, -1)
     order = np.argsort(-rank[known], kind="stable")[: max(1, int(known.sum()) // 2)]
     half = np.zeros(known.shape, np.bool_)

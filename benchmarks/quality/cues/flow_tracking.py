@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The flow and depth tracker by flow alone, without any depth, beside cv2's trackers.
+"""The flow-depth tracker by flow alone, without depth, compared with cv2's trackers.
 
     python -m benchmarks.quality.cues.flow_tracking [FOLDER]
 
-Each tracker starts on the first true box and on six that differ a little from it.
+Each tracker starts on the first true box and on six slightly different ones.
 """
 
 import sys

@@ -1,21 +1,22 @@
 # SPDX-License-Identifier: MIT
-"""gradient_disparity around predicted disparities, on Middlebury's stereo pairs.
+"""gradient_disparity near predicted disparities, on Middlebury's stereo pairs.
 
     python -m benchmarks.quality.cues.gradient_disparity
 
-The prediction goes through the pair's disparities in steps of a pixel. For each, the whole image is measured
-around the prediction, as a tracker does around its target's. Pixels whose match is in the right image are
+The prediction is varied over the pair's disparities in steps of a pixel. For each prediction, the whole image
+is measured near it, as a tracker does near its target's disparity. Pixels whose match is in the right image
+are
 
 - near, with a true disparity within 2 px of the prediction: the median error of those that get a disparity,
   and their share ("read");
 - far, 4 px or more from it: the share with a disparity within 1 px of the prediction, which a tracker would
   take for its target, of all far pixels and of those that get a disparity;
-- nearer, by 4 to 6 px, as what passes in front of a target: the share that gets a disparity, and the median
-  error.
+- nearer, by 4 to 6 px, like an object that passes in front of a target: the share that gets a disparity, and
+  the median error.
 
-The default of three levels is compared with the paper's one level without windows, and with cv2.StereoBM,
-5x5, over the 16 disparities around the prediction. Times are of whole images, the fastest of some rounds, on
-one thread.
+The default, three levels, is compared with the paper's one level without windows, and with cv2.StereoBM, 5x5,
+over the 16 disparities around the prediction. Times are for whole images, the fastest of some rounds, on one
+thread.
 """
 
 import sys
@@ -41,7 +42,7 @@ Method = Callable[[Image, Image, float], Floats]
 MAX_NEAR, MIN_FAR, MAX_NEARER = 2.0, 4.0, 6.0
 """Pixels between the true disparity and the prediction."""
 MAX_ON_TARGET = 1.0
-"""Pixels between a measured disparity and the prediction, within which it is taken for the target's."""
+"""Pixels between a measured disparity and the prediction, within which it counts as the target's."""
 STEREO_BM_DISPARITIES = 16
 COLUMNS = (
     *("pair", "method", "median px", "read %", "far as near %", "of those read %"),
@@ -50,7 +51,7 @@ COLUMNS = (
 
 
 class Result(NamedTuple):
-    """One method on one pair; shares in percent, NaN where there is no such pixel."""
+    """One method on one pair; shares in percent, NaN without such pixels."""
 
     median: float  # px, of the errors of near pixels
     read: float  # of the near pixels
@@ -67,12 +68,12 @@ def three_levels(left: Image, right: Image, prediction: float) -> Floats:
 
 
 def one_level(left: Image, right: Image, prediction: float) -> Floats:
-    """The paper's: one level, each pixel alone."""
+    """The paper's method: one level, each pixel alone."""
     return _core.gradient_disparity(left, right, prediction, levels=1, sigma=2.0, radius=0, max_step=2.0)[0]
 
 
 def block_matching(left: Image, right: Image, prediction: float) -> Floats:
-    """StereoBM over the same range, with its own rejection of 15 %."""
+    """StereoBM over the same range, with its own uniqueness check of 15 %."""
     first = round(prediction) - STEREO_BM_DISPARITIES // 2
     matcher = cv2.StereoBM.create(STEREO_BM_DISPARITIES, 5)
     matcher.setMinDisparity(first)
@@ -89,12 +90,12 @@ METHODS: dict[str, Method] = {
 
 
 def predictions(pair: StereoPair) -> list[float]:
-    """A pixel apart, through all disparities of the pair, between whole numbers as well as on them."""
+    """Predictions a pixel apart, over all disparities of the pair, not only at whole numbers."""
     return list(np.arange(float(np.nanmin(pair.truth)), float(np.nanmax(pair.truth)) + 0.01, 1.0))
 
 
 def measure(pair: StereoPair, method: Method, rounds: int = 5) -> Result:
-    """All predictions' pixels together."""
+    """Measure a method; the pixels of all predictions are pooled."""
     columns = np.arange(pair.left.shape[1], dtype=np.float32)
     matched = pair.truth <= columns  # NaN isn't
     counts = np.zeros(6)  # near, read of them; far, read, taken for the target; nearer

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""sad_disparity beside cv2.StereoBM on Middlebury's stereo pairs.
+"""sad_disparity compared with cv2.StereoBM on Middlebury's stereo pairs.
 
     python -m benchmarks.quality.cues.sad_disparity
 
-Both match with the same window and x-Sobel prefilter. Errors are over the same pixels: both give a disparity,
+Both match with the same window and x-Sobel prefilter. Errors are over pixels for which both give a disparity,
 and the true one is known and within the searched range. "dense" rejects nothing; "kept" rejects by a
-uniqueness of 15 %, the default of both. StereoBM gives nothing in the first D - 1 columns, and sad_disparity
-computes only the others. The rates count the disparities of the pixels that both compute (GDE/s: 1e9 per
-second) in the fastest round, on one thread.
+uniqueness of 15 %, the default of both. StereoBM gives no disparity in the first D - 1 columns, so
+sad_disparity computes only the others. The rates count the disparities evaluated in the pixels that both
+compute (GDE/s: 1e9 per second), in the fastest round, on one thread.
 """
 
 import sys
@@ -41,13 +41,13 @@ class Result(NamedTuple):
     mean: float  # px, of the errors
     bad: float  # percent of the pixels that are off by more than BAD_ERROR
     kept: float  # percent of those with truth that have a disparity
-    rate: float  # 1e9 disparities a second
+    rate: float  # 1e9 disparities per second
 
 
 def measure(
     pair: StereoPair, window: int = 5, uniqueness: int = 0, gain: float = 1.0, rounds: int = 25
 ) -> tuple[Result, Result]:
-    """The results of StereoBM and sad_disparity; the right image gets ``gain`` times as bright."""
+    """The results of StereoBM and sad_disparity; the right image is made ``gain`` times as bright."""
     height, width = pair.left.shape
     right = np.rint(pair.right * gain).astype(np.uint8)
     matcher = cv2.StereoBM.create(pair.disparities, window)
@@ -97,7 +97,7 @@ def table(pairs: Iterable[StereoPair], window: int, uniqueness: int, gain: float
 
 
 def report(pairs: Sequence[StereoPair], windows: Sequence[int], rounds: int = 25) -> Iterator[str]:
-    """A table with a title for each window, dense and kept, with right images as they are and darker."""
+    """A table with a title for each window, dense and kept, with the right images unchanged and darker."""
     for window in windows:
         for name, uniqueness in UNIQUENESS.items():
             for gain in GAINS:
