@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Check a built site: every link and picture leads to a file and an anchor in it, and nothing is fetched from
+"""Check a built site: all links and pictures lead to files and anchors in it, and nothing is fetched from
 elsewhere.
 
 python tools/check_site.py build/site
@@ -17,13 +17,13 @@ LOADED = {("script", "src"), ("link", "href"), ("img", "src"), ("video", "src"),
     ("source", "src"),
     ("iframe", "src"),
 }
-"""What a browser fetches to show a page; other addresses are links, which a reader may follow."""
+"""Tags and attributes whose addresses a browser fetches to show a page; others are links for the reader."""
 NOT_FETCHED = {"canonical", "prev", "next", "index", "search", "genindex"}
-"""Kinds of <link> that are addresses only."""
+"""Kinds of <link> that a browser doesn't fetch."""
 
 
 class Page(HTMLParser):
-    """The anchors of a page, and its addresses: each with whether the browser fetches it."""
+    """The anchors of a page, and its addresses, each with whether the browser fetches it."""
 
     def __init__(self, file: Path) -> None:
         super().__init__()
@@ -42,7 +42,7 @@ class Page(HTMLParser):
 
 @cache
 def read(file: Path) -> Page:
-    """A page, read once."""
+    """A page; cached."""
     return Page(file)
 
 
@@ -70,7 +70,7 @@ def _fault(site: Path, file: Path, address: str, fetched: bool) -> str:
 
 
 def main() -> int:
-    """Print what is wrong; 1 where anything is."""
+    """Print what is wrong; the exit code is 1 if anything is."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("site", type=Path)
     site = parser.parse_args().site.resolve()

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""Whether a wheel serves machines that have nothing but Python: the last step of `make wheel`.
+"""Checks that a wheel works on machines with nothing but Python: the last step of `make wheel`.
 
     python tools/check_wheel.py dist/*.whl                       all, with this Python
     python tools/check_wheel.py --pythons python3.10 python3.12 -- dist/*.whl
     python tools/check_wheel.py --static dist/*.whl              reads the files, runs nothing
 
-Read are the size, what is in it, what the extension exports and needs, and its hardening. Then the wheel is
-installed in a bare virtual environment, where the system's OpenCV, LAPACK, TBB, X11 and GL are hidden, and
-follows a target beside each cv2, loaded before and after it, and on older processors, for which qemu-user
-stands where it is installed. Every run must give the same bits.
+First the file itself is checked: its size and content, what the extension exports and needs, and its
+hardening. Then the wheel is installed in a bare virtual environment, with the system's OpenCV, LAPACK, TBB,
+X11 and GL hidden. It tracks a target with each version of cv2, loaded before and after tricue, and on older
+processors, emulated by qemu-user if that is installed. Every run must give the same bits.
 """
 
 import argparse
@@ -26,7 +26,7 @@ from typing import Any, NamedTuple
 
 ROOT = Path(__file__).parents[1]
 MAX_BYTES = 6_000_000
-# Of the system, as manylinux has it.
+# System libraries that manylinux allows.
 ALLOWED = re.compile(r"(ld-linux[-\w]*|libc|libm|libdl|librt|libpthread|libstdc\+\+|libgcc_s)\.so(\.\d+)+")
 BROUGHT = re.compile(r"libtbb-\w+\.so[.\d]*")
 HIDDEN = re.compile(r"lib(opencv_|lapack|blas|cblas|openblas|gfortran|quadmath|tbb|X11|xcb|GL|EGL|OpenGL)")
@@ -34,7 +34,7 @@ SYSTEM_LIBRARIES = ("/usr/lib", "/usr/lib64", "/usr/local/lib")
 
 
 class Beside(NamedTuple):
-    """A cv2 to be loaded with the extension, the NumPy that it needs, and the newest Python that has both."""
+    """A cv2 to load with the extension, the NumPy that it needs, and the newest Python that both support."""
 
     cv2: str
     numpy: str
@@ -47,15 +47,15 @@ CV2 = [
     Beside("4.14.*", ">=1.24", (3, 99)),
     Beside("5.0.*", ">=1.24", (3, 99)),
 ]
-# x86-64's levels 1, 2 and 3; the machine itself may have level 4.
+# Processors of x86-64's levels 1, 2 and 3; the machine itself may have level 4.
 PROCESSORS = ["qemu64", "Nehalem", "Haswell"]
 
 
-# --- What is in the file ---
+# --- The content of the file ---
 
 
 def static_problems(wheel: Path) -> list[str]:
-    """What is wrong with a wheel, by its file alone."""
+    """What is wrong with a wheel's file."""
     problems = []
     if wheel.stat().st_size >= MAX_BYTES:
         problems.append(f"expected fewer than {MAX_BYTES:,} bytes, got {wheel.stat().st_size:,}")
@@ -72,7 +72,7 @@ def static_problems(wheel: Path) -> list[str]:
 
 
 def content_problems(names: list[str]) -> list[str]:
-    """What is missing among a wheel's files, or too much."""
+    """The files that are missing in a wheel, or unexpected."""
     problems = []
     own = re.compile(r"tricue/(?!.*__pycache__).*\.(py|pyi|so|html|js|css|svg|typed)$")
     for name in names:
@@ -90,7 +90,7 @@ def content_problems(names: list[str]) -> list[str]:
 
 
 def readelf(library: Path, *options: str) -> str:
-    """What readelf of binutils says."""
+    """The output of binutils' readelf."""
     command = ["readelf", "-W", *options, str(library)]
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
@@ -103,7 +103,7 @@ def exported(library: Path) -> set[str]:
 
 
 def library_problems(library: Path) -> list[str]:
-    """What is wrong with the extension, or a library that the wheel brings."""
+    """What is wrong with the extension, or with a library in the wheel."""
     problems = []
     dynamic, headers = readelf(library, "-d"), readelf(library, "-l")
     needed = re.findall(r"NEEDED.*\[(.+)\]", dynamic)
@@ -121,10 +121,10 @@ def library_problems(library: Path) -> list[str]:
     return problems
 
 
-# --- What it does ---
+# --- Running it ---
 
-# Follows a textured target that swings over noise; prints what was loaded with the extension, the smallest
-# overlap with the truth, and a hash of all boxes. Arguments: cv2 or tricue, whichever comes first.
+# Tracks a textured target that swings over noise; prints which libraries were loaded, the smallest
+# overlap with the truth, and a hash of all boxes. Argument: cv2 or tricue, whichever is loaded first.
 PROBE = r"""
 import hashlib, importlib.util, json, re, sys
 import numpy as np
@@ -186,7 +186,7 @@ MIN_OVERLAP = 0.5
 
 
 def version_of(python: str) -> tuple[int, int]:
-    """A Python's version."""
+    """The version of a Python."""
     code = "import sys; print(*sys.version_info[:2])"
     run = subprocess.run([python, "-c", code], check=True, capture_output=True, text=True)
     major, minor = run.stdout.split()
@@ -194,7 +194,7 @@ def version_of(python: str) -> tuple[int, int]:
 
 
 def install(python: str, wheel: Path, folder: Path) -> Path:
-    """A bare environment with the wheel alone; its Python."""
+    """Install the wheel alone in a bare environment; returns the environment's Python."""
     subprocess.run([python, "-m", "venv", "--clear", folder / "bare"], check=True)
     inside = folder / "bare" / "bin" / "python"
     pip = [str(inside), "-m", "pip", "--disable-pip-version-check", "install", "--quiet"]
@@ -203,12 +203,12 @@ def install(python: str, wheel: Path, folder: Path) -> Path:
 
 
 def folder_beside(inside: Path, beside: Beside, folder: Path) -> Path:
-    """A folder with one cv2 and NumPy, which later checks find again."""
+    """A folder with one cv2 and NumPy, which later checks reuse."""
     target = folder / f"cv2-{beside.cv2.rstrip('.*')}"
     if not target.is_dir():
         pip = [str(inside), "-m", "pip", "--disable-pip-version-check", "install", "--quiet"]
         what = [f"opencv-python-headless=={beside.cv2}", f"numpy{beside.numpy}"]
-        part = target.with_name(target.name + ".part")  # which may be what an interrupted check has left
+        part = target.with_name(target.name + ".part")  # may be left from an interrupted check
         shutil.rmtree(part, ignore_errors=True)
         subprocess.run([*pip, "--only-binary=:all:", "--target", str(part), *what], check=True)
         part.rename(target)
@@ -216,7 +216,7 @@ def folder_beside(inside: Path, beside: Beside, folder: Path) -> Path:
 
 
 def hiding() -> list[str]:
-    """The beginning of a command that hides the system's libraries; empty where nobody may."""
+    """The start of a command that hides the system's libraries; empty if that isn't permitted."""
     unshare = ["unshare", "--user", "--map-root-user", "--mount"]
     if not shutil.which("unshare") or subprocess.run([*unshare, "true"], check=False).returncode:
         return []
@@ -232,7 +232,7 @@ def hiding() -> list[str]:
 
 
 def probe(command: list[str], beside: Path, first: str, hide: list[str]) -> dict[str, Any]:
-    """Run the probe; what it prints, or the error."""
+    """Run the probe; returns what it prints, or the error."""
     with tempfile.TemporaryDirectory() as folder:
         script = Path(folder, "probe.py")
         script.write_text(PROBE)
@@ -247,7 +247,7 @@ def probe(command: list[str], beside: Path, first: str, hide: list[str]) -> dict
 
 
 def runs(inside: Path, version: tuple[int, int], folder: Path) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Each run's name and result."""
+    """The name and result of each run."""
     hide = hiding()
     if not hide:
         print("  the system's libraries can't be hidden here; what was loaded is checked all the same")
@@ -257,14 +257,14 @@ def runs(inside: Path, version: tuple[int, int], folder: Path) -> Iterator[tuple
         for first in ("cv2", "tricue"):
             yield f"cv2 {beside.cv2}, {first} first", probe([str(inside)], at, first, hide)
     qemu = shutil.which("qemu-x86_64-static") or shutil.which("qemu-x86_64")
-    # Newer NumPy has left the oldest processors.
+    # Newer NumPy doesn't support the oldest processors.
     for processor in PROCESSORS if qemu and besides[0].numpy == "<2" else []:
         command = [str(qemu), "-cpu", processor, str(inside)]
         yield f"processor {processor}", probe(command, folders[0], "tricue", [])
 
 
 def run_problems(python: str, wheel: Path) -> list[str]:
-    """What goes wrong when a Python runs the wheel."""
+    """What goes wrong when a Python uses the wheel."""
     version = version_of(python)
     folder = ROOT / "build" / "check-wheel" / "{}.{}".format(*version)
     folder.mkdir(parents=True, exist_ok=True)

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Whether scenes and tracks are the same whichever cv2 is installed.
+"""Checks that scenes and tracks are the same with every version of cv2.
 
     python tools/compare_opencv.py [VERSION ...]
 
 makes an environment for each version of opencv-python-headless in build/opencv (by default the oldest that
-works with NumPy 2, the newest 4.x and the newest 5.x), renders all kinds of scenes in each with the tricue
-that is installed here, follows a target in each scene by all trackers that can, and fails where pixels or
-tracks differ. NumPy is the same in all: its transforms and exponentials differ in the last bit between major
-versions. It takes a minute, once the environments are there.
+works with NumPy 2, the newest 4.x and the newest 5.x). In each, it renders all kinds of scenes with the
+tricue that is installed here, follows a target in each scene with all trackers that can, and fails if pixels
+or tracks differ. NumPy is the same in all, because its transforms and exponentials differ in the last bit
+between major versions. This takes a minute once the environments exist.
 """
 
 import hashlib
@@ -35,7 +35,7 @@ Make = Callable[[], Any]
 
 
 def scenes() -> Iterator[tuple[str, Make]]:
-    """Every kind of scene, by name, and how it is made."""
+    """Every kind of scene: its name, and the function that makes it."""
     from tricue import scenes
 
     yield "light change", partial(scenes.light_change, 0, FRAMES)
@@ -57,7 +57,7 @@ def scenes() -> Iterator[tuple[str, Make]]:
 
 
 def digest(arrays: Iterator[Any]) -> str:
-    """The hash of arrays, None among them left out."""
+    """The hash of arrays; None is skipped."""
     found = hashlib.sha256()
     for array in arrays:
         if array is not None:
@@ -71,7 +71,7 @@ def tracks(scene: Any) -> Iterator[tuple[str, list[Any]]]:
         tracker = tricue.create(name)
         try:
             found = [tracker.init(scene.frames[0], scene.boxes[0])]
-        except (TypeError, ValueError):  # it needs other channels, or depth where there is none
+        except (TypeError, ValueError):  # it needs channels that the scene lacks
             continue
         found += [tracker.update(frame) for frame in scene.frames[1:]]
         yield (
@@ -85,7 +85,7 @@ def tracks(scene: Any) -> Iterator[tuple[str, list[Any]]]:
 
 
 def measure() -> dict[str, str]:
-    """The hash of each scene's pixels, and of each track in it."""
+    """The hashes of each scene's pixels, and of each track in the scene."""
     hashes = {}
     for name, make in scenes():
         scene = make()
@@ -97,7 +97,7 @@ def measure() -> dict[str, str]:
 
 
 def environment(version: str) -> Path:
-    """The Python of an environment with a version of cv2, which is made where it isn't there."""
+    """The Python of an environment with a version of cv2; the environment is made if it doesn't exist."""
     folder = ENVIRONMENTS / version.strip("=")
     python = folder / "bin" / "python"
     if not python.exists():
@@ -115,7 +115,7 @@ def environment(version: str) -> Path:
 
 
 def copy_package() -> Path:
-    """A folder with this tricue alone: beside the installed one is the cv2 of this environment."""
+    """A folder with this tricue alone: the installed one is in the same folder as this environment's cv2."""
     folder = ENVIRONMENTS / "package"
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(Path(tricue.__file__).parent, folder / "tricue")
@@ -123,7 +123,7 @@ def copy_package() -> Path:
 
 
 def measured_in(python: Path, package: Path) -> dict[str, str]:
-    """What is measured with another Python, and a package."""
+    """The hashes that another Python measures with a copy of the package."""
     paths = os.pathsep.join(map(str, (package, Path(__file__).parent)))
     command = [
         str(python),

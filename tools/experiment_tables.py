@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Run the commands of docs/experiments.md and replace the tables below each with what it prints.
+"""Run the commands in docs/experiments.md, and replace the tables below each by its output.
 
-Of several commands above one table the last one counts.
+If several commands are above one table, the last one counts.
 
-python tools/experiment_tables.py [--jobs N] [NAME ...]      all experiments, or those of these names
+python tools/experiment_tables.py [--jobs N] [NAME ...]      all experiments, or those with these names
 """
 
 import argparse
@@ -57,7 +57,7 @@ def commands(text: str) -> list["re.Match[str]"]:
 
 
 def main() -> None:
-    """Run the command."""
+    """Rewrite the page after each experiment."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("names", nargs="*", metavar="NAME")
     parser.add_argument("--jobs", type=int, default=1)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""What commands do when something goes wrong: ``python -m tools.faults`` writes it into docs/reliability.md.
+"""How commands handle faults: ``python -m tools.faults`` writes a table of them into docs/reliability.md.
 
-Each fault happens to a process of its own in a temporary folder. Its exit code, its last message, and what
-can be read of its files make a line of the page's table. What the page promises is tested in tests/cli.
+Each fault happens to a separate process in a temporary folder. Its exit code, its last message, and what can
+still be read of its files are a line of the page's table. What the page promises is tested in tests/cli.
 """
 
 import argparse
@@ -34,7 +34,7 @@ START = ["--box", "60,60,60,60"]
 
 
 class Result(NamedTuple):
-    """Exit code, negative for the signal that ended the process; the last message; what is left."""
+    """Exit code, or minus the signal that ended the process; the last message; what is left of the outputs."""
 
     code: int
     message: str
@@ -49,7 +49,7 @@ class Fault(NamedTuple):
 
 
 def square(index: int) -> np.ndarray:
-    """A textured square that wanders over noise, BGR."""
+    """A frame, BGR, of a textured square that moves over noise."""
     random = np.random.default_rng(0)
     picture = random.integers(0, 90, (SIZE[1], SIZE[0], 3), np.uint8)
     texture = random.integers(90, 255, (60, 60, 3), np.uint8)
@@ -83,20 +83,20 @@ def write_images(folder: Path, frames: int = 20) -> Path:
 
 
 def outputs(folder: Path) -> list[str]:
-    """Options for all outputs into a folder."""
+    """Options that write all outputs into a folder."""
     files = {"--csv": "o.csv", "--json": "o.json", "--output": "o.mp4"}
     return [word for option, name in files.items() for word in (option, str(folder / name))]
 
 
 def run(words: list[str], folder: Path, limit: str = "") -> Result:
-    """Run a command to its end; ``limit`` is what ulimit gets."""
+    """Run a command to its end; limit: arguments of ulimit."""
     command = ["sh", "-c", f'ulimit {limit}; exec "$@"', "sh", *words] if limit else words
     done = subprocess.run(command, capture_output=True, text=True, timeout=SECONDS, check=False, cwd=folder)
     return Result(done.returncode, last_line(done.stderr or done.stdout, folder), left_in(folder))
 
 
 def interrupt(words: list[str], folder: Path, number: signal.Signals) -> Result:
-    """Send a signal once the video has some bytes."""
+    """Run a command, and send it a signal once its video has some bytes."""
     process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder)
     deadline = time.monotonic() + SECONDS
     while process.poll() is None and time.monotonic() < deadline and written(folder) < 20:
@@ -107,20 +107,20 @@ def interrupt(words: list[str], folder: Path, number: signal.Signals) -> Result:
 
 
 def written(folder: Path) -> int:
-    """Bytes of the video so far, in units of 4 KB."""
+    """The size of the video so far, in units of 4 KB."""
     videos = [*folder.glob("o.mp4"), *folder.glob("o.webm")]
     return sum(video.stat().st_size for video in videos) // 4096
 
 
 def last_line(text: str, folder: Path) -> str:
-    """The last line, or the one that tells of an interruption, without the folder's name."""
+    """The last line, or the one about an interruption, without the folder's name."""
     lines = text.strip().splitlines() or [""]
     told = next((each for each in lines if "interrupted" in each or "ended" in each), lines[-1])
     return told.replace(f"{folder}/", "").replace("|", "/")
 
 
 def left_in(folder: Path) -> str:
-    """What can be read of the outputs."""
+    """What can still be read of the outputs."""
     found = [f"{path.suffix[1:]}: {READERS[path.suffix](path)}" for path in sorted(folder.glob("o.*"))]
     return ", ".join(found) or "nothing written"
 
@@ -167,7 +167,7 @@ def interrupted(number: signal.Signals) -> Callable[[Path], Result]:
 
 
 def full_disk(folder: Path) -> Result:
-    """No file may grow beyond 20 blocks of 512 bytes."""
+    """No file may be larger than 20 blocks of 512 bytes."""
     video = write_video(folder / "in.mp4")
     return run([*TRACK, str(video), *START, *outputs(folder)], folder, "-f 20")
 
@@ -196,7 +196,7 @@ def vanishing(folder: Path) -> Result:
 
 
 def closed_pipe(folder: Path) -> Result:
-    """Whoever reads the CSV from stdout stops reading."""
+    """The process that reads the CSV from stdout stops reading."""
     video = write_video(folder / "in.mp4")
     words = [*TRACK, str(video), *START, "--csv", "/dev/stdout"]
     process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder)
@@ -216,14 +216,14 @@ def truncated(folder: Path) -> Result:
 
 
 def corrupt_frame(folder: Path) -> Result:
-    """One of the images is no image."""
+    """One of the files isn't an image."""
     images = write_images(folder / "in")
     (images / "0010.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(100))
     return run([*TRACK, str(images), *START, *outputs(folder)], folder)
 
 
 def other_size(folder: Path) -> Result:
-    """From the middle on images have another size."""
+    """From the middle on, images have another size."""
     images = write_images(folder / "in")
     for index in range(10, 20):
         cv2.imwrite(str(images / f"{index:04d}.png"), cv2.resize(square(index), (200, 160)))
@@ -231,7 +231,7 @@ def other_size(folder: Path) -> Result:
 
 
 def jumping_clock(folder: Path) -> Result:
-    """Time stamps go back by an hour, stand still, and jump on by a day: a track a frame, none NaN."""
+    """Timestamps go back by an hour, stay the same, and jump ahead by a day: expects a finite track per frame."""
     code = (
         "import numpy as np, tricue\n"
         "from tools.faults import square\n"
@@ -251,8 +251,9 @@ def jumping_clock(folder: Path) -> Result:
 
 
 def killed(process: str) -> Callable[[Path], Result]:
-    """A process gets kill -9 whenever a tracker in ``tricue evaluate --jobs 2`` sees a bright frame: a Python
-    expression of its number, in the process that a third party's tracker has of its own.
+    """A process gets kill -9 whenever a tracker in ``tricue evaluate --jobs 2`` sees a bright frame.
+
+    process: a Python expression for its number, evaluated in the separate process of a third party's tracker.
     """
 
     def happen(folder: Path) -> Result:
@@ -320,7 +321,7 @@ def line(fault: Fault) -> str:
 
 
 def main() -> int:
-    """Try all faults, or those whose names have a word, and write the page of all."""
+    """Try all faults, or those whose names contain a given word, and write the page."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Write the site's clips and pictures: each tracker on rendered scenes of its kind of input.
+"""Write the site's clips and pictures: each tracker on rendered scenes with its kind of input.
 
 python tools/gallery.py FOLDER
 
-Each clip is NAME.webm (VP9) with a still, NAME.jpg; where there are positions, NAME-path.png shows them from
+Each clip is NAME.webm (VP9) with a still, NAME.jpg; if there are positions, NAME-path.png shows them from
 above. The same sources give the same pictures.
 """
 
@@ -36,8 +36,8 @@ from tricue.draw.canvas import Image
 from tricue.scenes import crossing, face_over_clutter, head, overtaking, room_scene, stress_scene
 
 JPEG_QUALITY = 88
-STILL_AT = 0.5  # of the clip: the frame that stands for it
-COME_IN = 0.5  # of a person's box in the image, from which it is followed
+STILL_AT = 0.5  # of the clip's length: the frame that is its still
+COME_IN = 0.5  # share of a person's box that must be in the image before the person is followed
 
 
 @dataclass
@@ -52,7 +52,7 @@ class Clip:
     still: int | None = None
 
     def write(self, folder: Path, name: str) -> None:
-        """The clip, its still, and the path where there is one."""
+        """Write the clip, its still, and the path, if there is one."""
         with OverlayWriter(folder / f"{name}.webm", self.fps) as video:
             for picture in self.pictures:
                 video.write(picture)
@@ -75,12 +75,12 @@ def only(frame: tricue.Frame, channels: Sequence[str]) -> tricue.Frame:
 
 
 def beside(*pictures: Image) -> Image:
-    """Pictures of one height in a row."""
+    """Pictures of the same height side by side."""
     return np.ascontiguousarray(np.hstack(pictures))
 
 
 def fused_color() -> Clip:
-    """A look-alike, a camera that turns, a target that leaves, is hidden, and changing light."""
+    """A look-alike, a panning camera, a target that leaves and is hidden, and changing light."""
     scene = stress_scene("all", seed=0, channels="color")
     clip = Clip(fps=30, still=40)
     for step in follow(tricue.FusedTracker(), scene):
@@ -91,7 +91,7 @@ def fused_color() -> Clip:
 
 
 def fused_rgbd() -> Clip:
-    """A hand pushes a thing over a table, before a depth camera with the faults of real ones."""
+    """A hand pushes an object over a table, in front of a depth camera with realistic defects."""
     scene = room_scene("pushed", seed=0, channels="rgbd")
     clip = Clip(fps=scene.rate, positions=scene.positions, intrinsics=scene.intrinsics)
     near, far = common_range(scene)
@@ -121,7 +121,7 @@ def color_particle() -> Clip:
 
 
 def depth_particle() -> Clip:
-    """A person before a time-of-flight camera, hidden by somebody nearer."""
+    """A person in front of a time-of-flight camera, hidden by somebody nearer."""
     scene = crossing(seed=0)
     clip = Clip(fps=15, positions=scene.positions, intrinsics=scene.intrinsics)
     near, far = common_range(scene)
@@ -142,7 +142,7 @@ def depth_particle() -> Clip:
 
 
 def flow_depth() -> Clip:
-    """A walker who is overtaken, before a panning stereo pair."""
+    """A walker who is overtaken, in front of a panning stereo pair."""
     scene = overtaking(seed=0)
     clip = Clip(fps=15, positions=scene.positions, intrinsics=scene.rig.intrinsics)
     for step in follow(tricue.FlowDepthTracker(rig=scene.rig), scene):
@@ -154,7 +154,7 @@ def flow_depth() -> Clip:
 
 
 def stereo_head() -> Clip:
-    """A head before a stereo pair, in changing light."""
+    """A head in front of a stereo pair, in changing light."""
     scene = head(seed=0)
     clip = Clip(fps=30, positions=scene.positions, intrinsics=scene.rig.intrinsics)
     for step in follow(tricue.StereoHeadTracker(rig=scene.rig, seed=0), scene):
@@ -164,7 +164,7 @@ def stereo_head() -> Clip:
 
 
 def several() -> Clip:
-    """The people of a scene before a time-of-flight camera, each with an id once it has come in."""
+    """People in front of a time-of-flight camera, each with an id once they have come in."""
     scene = crossing(seed=0)
     near, far = common_range(scene)
     clip = Clip(fps=15, still=25)
@@ -199,7 +199,7 @@ def make(folder: Path, name: str) -> None:
 
 
 def main() -> None:
-    """Write all, a process for each core."""
+    """Write all clips, with a process for each core."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("folder", type=Path)
     folder = parser.parse_args().folder

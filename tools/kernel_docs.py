@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Carry the kernels' contracts from the headers to Python: --header FILE writes docstrings for the bindings,
---markdown writes docs/kernels.md, and --check fails where docs/kernels.md has drifted.
+"""Copy the kernels' contracts from the headers to Python: --header FILE writes docstrings for the bindings,
+--markdown writes docs/kernels.md, and --check fails if docs/kernels.md is out of date.
 
-A contract is the `///` comment in front of a kernel's declaration. Each parameter that the binding names is
-described there by `@param name`, or, where it is a field of a struct that the kernel takes, by that field's
-comment. `@returns` describes the result; without it the fields of the struct that is returned do.
+A contract is the `///` comment before a kernel's declaration. Each parameter that the binding names is
+described there by `@param name`, or, if it is a field of a struct that the kernel takes, by that field's
+comment. `@returns` describes the result; without it, the fields of the returned struct do.
 """
 
 import argparse
@@ -34,11 +34,11 @@ convert nothing: an array of another type raises `TypeError`, one of another sha
 
 
 class ContractError(Exception):
-    """A kernel that is bound without a full contract."""
+    """A kernel is bound without a complete contract."""
 
 
 class Entry(NamedTuple):
-    """What is said of one or several names: parameters, results or exceptions."""
+    """The description of one or several names: parameters or results."""
 
     names: tuple[str, ...]
     text: str
@@ -46,7 +46,7 @@ class Entry(NamedTuple):
 
 @dataclass
 class Contract:
-    """All that a kernel's header says of it, in the order of its Python signature."""
+    """A kernel's contract from its header, in the order of its Python signature."""
 
     name: str
     folder: Path
@@ -59,7 +59,7 @@ class Contract:
 
 
 class Comment(NamedTuple):
-    """A `///` comment: its free text, and its tags with what follows them."""
+    """A `///` comment: its free text, and its tags with their text."""
 
     body: list[str]
     tags: list[tuple[str, str]]
@@ -146,7 +146,7 @@ def read_bindings(folder: Path) -> list[Binding]:
 
 
 def find_header(cpp: Path, name: str) -> Path:
-    """The header of a kernel, which is named like it; those in base/ and detail/ are no kernels'."""
+    """The header with a kernel's name; headers in base/ and detail/ declare no kernels."""
     headers = [file for file in cpp.rglob(f"{name}.hpp") if not {"base", "detail"} & set(file.parts)]
     if not headers:
         raise ContractError(f"{name} is bound, but no header in {cpp.name}/ is named {name}.hpp")
@@ -154,7 +154,7 @@ def find_header(cpp: Path, name: str) -> Path:
 
 
 def read_contract(cpp: Path, binding: Binding, structs: dict[str, list[Entry]]) -> Contract:
-    """The contract of a bound kernel; ContractError where something is missing or stale."""
+    """The contract of a bound kernel; ContractError if anything is missing or out of date."""
     header = find_header(cpp, binding.name)
     where = f"{binding.name} ({header.relative_to(cpp.parent)})"
     found = re.search(
@@ -183,7 +183,7 @@ def _fill(
     taken: list[Entry],
     given: list[Entry],
 ) -> None:
-    """Add what the tags, and the fields of structs taken and given, say of parameters and results."""
+    """Add parameters and results, as described by the tags and by fields of structs taken and returned."""
     told = [split_names(text) for tag, text in tags if tag == "param"]
     stale = {name for entry in told for name in entry.names} - set(wanted)
     if stale:
@@ -225,7 +225,7 @@ def blocks(body: list[str]) -> Iterator[tuple[str, list[str]]]:
     kind, lines = "gap", list[str]()
     for line in body:
         new = "gap" if not line.strip() else "formula" if line.startswith("  ") else "prose"
-        # A dash elsewhere than in a list is a minus at which the header's line was broken.
+        # A dash outside a list is a minus at which the header's line was broken.
         starts = line.startswith("- ") and (kind in {"gap", "item"} or lines[-1].endswith(":"))
         new = "item" if starts or (kind == "item" and new == "formula") else new
         if lines and (new != kind or starts):
@@ -238,7 +238,7 @@ def blocks(body: list[str]) -> Iterator[tuple[str, list[str]]]:
 
 
 def wrap(text: str, first: str = "", rest: str = "", width: int = WIDTH) -> str:
-    """Fill a paragraph to the width; no line begins with what Markdown takes for a list."""
+    """Fill a paragraph to the width; no line begins with anything that Markdown reads as a list."""
     text = re.sub(r" (?=(?:[-+*=<>|/]{1,2}|\d+[.)]) )", "\N{NO-BREAK SPACE}", text)
     filled = textwrap.fill(
         text,
@@ -282,7 +282,7 @@ def cpp_header(contracts: list[Contract]) -> str:
 
 
 def escape(text: str) -> str:
-    """Text that Markdown shows as it is, but for `names`."""
+    """Text that Markdown shows unchanged, except for `names`."""
     text = re.sub(r"([\\*])", r"\\\1", text).replace("<", "&lt;")
     return re.sub(r"(?<!\w)_|_(?!\w)", r"\\_", text)
 
@@ -320,7 +320,7 @@ def _section(contract: Contract) -> str:
 
 
 def _code(signature: str) -> list[str]:
-    """A call, broken as `ruff format` breaks it, which reads code in Markdown too."""
+    """A call, broken as by `ruff format`, which formats code in Markdown, too."""
     name, _, rest = signature[:-1].partition("(")
     if len(signature) <= LINE:
         return [signature]
@@ -335,14 +335,14 @@ def _bullet(entry: Entry) -> str:
 
 
 def write(file: Path, text: str) -> None:
-    """Write a file that has changed; others keep their time stamp, so that nothing is built again."""
+    """Write a file if it has changed; else it keeps its timestamp, so that nothing is rebuilt."""
     if not file.exists() or file.read_text(encoding="utf-8") != text:
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8")
 
 
 def check(file: Path, text: str) -> int:
-    """Compare a file with what it should be, and print the difference."""
+    """Compare a file with its expected text, and print the difference; returns 1 if they differ."""
     old = file.read_text(encoding="utf-8") if file.exists() else ""
     lines = difflib.unified_diff(old.splitlines(True), text.splitlines(True), file.name, "headers")
     sys.stdout.writelines(lines)
@@ -350,7 +350,7 @@ def check(file: Path, text: str) -> int:
 
 
 def main() -> int:
-    """Write or compare what the command line asks for."""
+    """Write or compare, as the command line says."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--root", type=Path, default=ROOT, help="folder with cpp/ and python/bindings/")
     parser.add_argument("--header", type=Path, help="the C++ header to write")

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Whether builds of the native kernels give the same bits: `make levels`, `make sanitize`.
+"""Checks that builds of the native kernels give the same bits: `make levels`, `make sanitize`.
 
-As a pytest plugin (``-p kernel_hashes``) it hashes all that each kernel returns or raises while the tests
-run, and writes the hashes to the file that TRICUE_HASHES names. As a program it compares such files and fails
-where they differ.
+As a pytest plugin (``-p kernel_hashes``) it hashes everything that each kernel returns or raises while the
+tests run, and writes the hashes to the file that TRICUE_HASHES names. As a program it compares such files,
+and fails if they differ.
 """
 
 import functools
@@ -22,7 +22,7 @@ HASHES = {name: hashlib.sha256() for name in dir(_core) if not name.startswith("
 
 
 def flat(result: Any) -> Iterator[bytes]:
-    """The bytes of all arrays and numbers in a result, with their types and shapes."""
+    """The bytes of all arrays and numbers in a result, with types and shapes."""
     if isinstance(result, tuple):
         for part in result:
             yield from flat(part)
@@ -33,7 +33,7 @@ def flat(result: Any) -> Iterator[bytes]:
 
 
 def hashed(name: str, kernel: Callable[..., Any]) -> Callable[..., Any]:
-    """The kernel, which now adds its results and errors to its hash."""
+    """A wrapper of a kernel that adds its results and errors to its hash."""
 
     @functools.wraps(kernel)
     def call(*args: Any, **kwargs: Any) -> Any:
@@ -50,7 +50,7 @@ def hashed(name: str, kernel: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def pytest_configure() -> None:
-    """Put the hashing functions in the kernels' place."""
+    """Replace the kernels by the hashing functions."""
     for name in HASHES:
         setattr(_core, name, hashed(name, getattr(_core, name)))
 

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""The tests with other versions of Python, NumPy, OpenCV and another compiler.
+"""The tests with other versions of Python, NumPy and OpenCV, and another compiler.
 
     python -m tools.matrix                all combinations, a table at the end
     python -m tools.matrix oldest clang   these
     python -m tools.matrix --write        all, and their section of docs/reliability.md
     python -m tools.matrix --list
 
-Each has an environment of its own in build/matrix, builds the package there, and runs the tests; arguments
-after -- go to pytest: ``python -m tools.matrix oldest -- tests/cues``. A combination whose Python or compiler
-isn't on this machine is left out, and says so. The exit code is 1 if any other one can't be built, or its
-tests fail. Its line is kept in build/matrix; --write makes a section of docs/reliability.md of all of them.
+Each combination has its own environment in build/matrix, in which the package is built and the tests are run;
+arguments after -- go to pytest: ``python -m tools.matrix oldest -- tests/cues``. A combination whose Python
+or compiler isn't on this machine is skipped, with a message. The exit code is 1 if any other one can't be
+built, or its tests fail. Its line is stored in build/matrix; --write makes a section of docs/reliability.md
+from all lines.
 """
 
 import argparse
@@ -36,7 +37,7 @@ the oldest versions.
 
 
 class Combination(NamedTuple):
-    """A Python, a C++ compiler, and what NumPy and OpenCV pip may install."""
+    """A Python, a C++ compiler, and the NumPy and OpenCV that pip may install."""
 
     python: str
     compiler: str
@@ -54,7 +55,7 @@ COMBINATIONS = {
 
 
 def interpreter(version: str) -> str | None:
-    """A Python of that version which runs: on the path, or among pyenv's."""
+    """A working Python of that version, on the path or among pyenv's; None without one."""
     pyenv = Path(os.environ.get("PYENV_ROOT", Path.home() / ".pyenv")) / "versions"
     found = [*sorted(map(str, pyenv.glob(f"{version}.*/bin/python"))), shutil.which(f"python{version}")]
     for path in filter(None, found):
@@ -64,7 +65,7 @@ def interpreter(version: str) -> str | None:
 
 
 def compiler(name: str) -> str | None:
-    """The compiler of that name, or the newest of those that have their version in it, as Debian's clang++-14."""
+    """The compiler of that name, or the newest with a version in its name, such as Debian's clang++-14."""
     folders = map(Path, os.environ.get("PATH", os.defpath).split(os.pathsep))
     versioned = {each.name for folder in folders for each in folder.glob(f"{name}-*")}
     numbered = [each for each in versioned if each.rpartition("-")[2].isdigit()]
@@ -73,14 +74,14 @@ def compiler(name: str) -> str | None:
 
 
 def missing(combination: Combination) -> str:
-    """What of a combination isn't on this machine."""
+    """What a combination needs that isn't on this machine; "" if nothing."""
     if interpreter(combination.python) is None:
         return f"no Python {combination.python}"
     return "" if compiler(combination.compiler) else f"no {combination.compiler}"
 
 
 def prepare(name: str, combination: Combination) -> Path:
-    """The environment of a combination, with the package as it is now."""
+    """Make the environment of a combination, with the package in its current state."""
     folder = ENVIRONMENTS / name
     python = folder / "bin" / "python"
     if not python.exists():
@@ -101,13 +102,13 @@ def prepare(name: str, combination: Combination) -> Path:
 
 
 def versions(python: Path) -> str:
-    """What is installed there."""
+    """The installed versions."""
     code = "import platform, numpy, cv2; print(platform.python_version(), numpy.__version__, cv2.__version__)"
     return subprocess.run([python, "-c", code], check=True, capture_output=True, text=True).stdout.strip()
 
 
 def test(python: Path, words: list[str]) -> tuple[bool, str]:
-    """Run the tests; whether they pass, and pytest's closing line."""
+    """Run the tests; returns whether they pass, and pytest's closing line."""
     command = [str(python), "-m", "pytest", "-q", "-n", "auto", "--dist", "loadfile", "--benchmark-disable"]
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     process = subprocess.Popen(
@@ -150,13 +151,13 @@ def kept(name: str) -> Path:
 
 
 def planned(name: str, tests: str = "") -> str:
-    """The line of a combination that isn't tested."""
+    """The table's line for a combination that isn't tested."""
     wanted = COMBINATIONS[name]
     return f"| {name} | {wanted.python}, {' '.join(wanted.constraints)}, {wanted.compiler} | {tests} |"
 
 
 def tested(name: str, words: list[str]) -> int:
-    """Build and test a combination, and keep its line; 1 if that fails."""
+    """Build and test a combination, and store its line; returns 1 if that fails."""
     combination = COMBINATIONS[name]
     failed, line = 0, planned(name, f"left out: {missing(combination)}")
     if not missing(combination):

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Runs the notebooks of docs/notebooks and writes them, with what they show, to build/notebooks.
+"""Runs the notebooks in docs/notebooks and writes them, with their output, to build/notebooks.
 
     python tools/notebooks.py                # all
     python tools/notebooks.py compare        # by name
 
-The exit code is 1 where one fails; its error is in what was written, too.
+The exit code is 1 if one fails; its error is also in the file.
 """
 
 import argparse
@@ -17,11 +17,11 @@ from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError
 
 ROOT = Path(__file__).parents[1]
-MAX_SECONDS = 600  # of a cell
+MAX_SECONDS = 600  # per cell
 
 
 def main() -> int:
-    """Run them one after the other; each error is told, and the others go on."""
+    """Run the notebooks one after the other; errors are printed, and don't stop the others."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("names", nargs="*", help="by default all")
     parser.add_argument("--folder", type=Path, default=ROOT / "docs" / "notebooks")
@@ -38,7 +38,7 @@ def main() -> int:
 
 
 def run(source: Path, target: Path) -> str:
-    """Run a notebook and write it, also where it fails; its error, "" if there is none."""
+    """Run a notebook and write it, even if it fails; returns its error, or ""."""
     notebook = jupytext.read(source)
     client = NotebookClient(notebook, timeout=MAX_SECONDS, kernel_name="python3")
     try:

@@ -3,7 +3,7 @@
 
 
 def with_section(page: str, section: str) -> str:
-    """The page with the section in the place of that with its heading, a line of ``## ``, or at its end."""
+    """The page with the section in place of the one with the same ``## `` heading, or at the page's end."""
     heading = section.partition("\n")[0] + "\n"
     before, found, after = f"\n{page}".partition(f"\n{heading}")
     if not found:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Run our trackers on the recorded sequences, and pack their boxes for others: ``make results``.
+"""Run tricue's trackers on the recorded sequences, and pack their boxes for publication: ``make results``.
 
-Writes benchmarks/results/tricue-VERSION.tar.xz, GOT-10k's form with a manifest, and the table of
-docs/results.md. The sequences are in the folder TRICUE_DATA, by default ../shared/data. Finished runs stay in
-build/published, so that the same command goes on after an interruption.
+Writes benchmarks/results/tricue-VERSION.tar.xz, in GOT-10k's format with a manifest, and the table in
+docs/results.md. The sequences are in the folder TRICUE_DATA, by default ../shared/data. Finished runs are
+kept in build/published, so that the same command continues after an interruption.
 """
 
 import argparse
@@ -33,7 +33,7 @@ TABLE = re.compile(r"(?<=<!-- by make results -->\n).*?(?=<!-- end -->)", re.DOT
 
 
 def pack(raw: Path, archive: Path) -> None:
-    """Pack GOT-10k's form without its times, which are those of a machine, into the same bytes every time."""
+    """Pack GOT-10k's files reproducibly, without times, which depend on the machine."""
     manifest = json.loads((raw / raw_results.MANIFEST).read_text(encoding="utf-8"))
     manifest["conventions"] = {
         "boxes": manifest["conventions"]["boxes"],
@@ -54,7 +54,7 @@ def _add(packed: tarfile.TarFile, name: str, content: bytes) -> None:
 
 
 def table(evaluation: Evaluation) -> str:
-    """Mean success AUC by tracker and group of sequences, "-" where a tracker can't run."""
+    """Mean success AUC by tracker and group of sequences; "-" if a tracker can't run on them."""
     lines = {(line["tracker"], line["group"]): line for line in tables.summary(evaluation)}
     groups = evaluation.groups
     counts = {group: sum(each.group == group for each in evaluation.opened) for group in groups}
@@ -71,7 +71,7 @@ def _cells(name: str, groups: tuple[str, ...], lines: dict[tuple[str, str], dict
 
 
 def main() -> None:
-    """Evaluate, pack, and write the table; only from a commit, which the manifest names."""
+    """Evaluate, pack, and write the table; refuses uncommitted changes, as the manifest names the commit."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="processes, default %(default)s")
     jobs = parser.parse_args().jobs

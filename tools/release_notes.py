@@ -3,7 +3,7 @@
 
     python tools/release_notes.py v0.2.0
 
-The exit code is 1, and a line says why, unless the tag, pyproject.toml and the changelog have one version.
+Unless the tag, pyproject.toml and the changelog have the same version, it prints why, and the exit code is 1.
 """
 
 import re
@@ -14,7 +14,7 @@ ROOT = Path(__file__).parents[1]
 
 
 def notes(tag: str, project: str, changelog: str) -> str:
-    """The section of a tag like v0.2.0; ValueError says what doesn't fit."""
+    """The changelog's section for a tag such as v0.2.0; ValueError says which versions differ."""
     if not re.fullmatch(r"v\d+\.\d+\.\d+", tag):
         raise ValueError(f"expected a tag like v0.2.0, got {tag}")
     version = tag.removeprefix("v")
@@ -33,7 +33,7 @@ def notes(tag: str, project: str, changelog: str) -> str:
 
 
 def main() -> None:
-    """Print the notes of the tag that is named."""
+    """Print the notes for the given tag."""
     if len(sys.argv) != 2:
         sys.exit("expected a tag, such as v0.2.0")
     try:

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""OpenCV's core and imgproc as static libraries, and Eigen's headers, where the system has neither.
+"""OpenCV's core and imgproc as static libraries, and Eigen's headers, for systems without them.
 
     python tools/static_opencv.py PREFIX                     downloads, builds, installs into PREFIX
     python tools/static_opencv.py PREFIX --opencv FOLDER     from sources that are there already
 
-cibuildwheel runs it before it builds wheels (pyproject.toml); ``-DTRICUE_OPENCV_PREFIX=PREFIX`` tells CMake
-of it. It is Debian 12's version of OpenCV with the same SIMD dispatch, without any other library. It takes
-CMake, a C++ compiler, and but on Windows Ninja.
+cibuildwheel runs this before it builds wheels (pyproject.toml); ``-DTRICUE_OPENCV_PREFIX=PREFIX`` tells CMake
+where they are. OpenCV has the version and the SIMD dispatch of Debian 12, and needs no other library. The
+build needs CMake, a C++ compiler, and, except on Windows, Ninja.
 """
 
 import argparse
@@ -41,12 +41,12 @@ SWITCHES = {
     "BUILD_SHARED_LIBS": "OFF",
     "CMAKE_BUILD_TYPE": "Release",
     "CMAKE_POSITION_INDEPENDENT_CODE": "ON",
-    "BUILD_WITH_STATIC_CRT": "OFF",  # that of Windows, as Python has it
+    "BUILD_WITH_STATIC_CRT": "OFF",  # the dynamic C runtime, like Python's
     "OPENCV_GENERATE_PKGCONFIG": "OFF",
-    "OPENCV_CONFIG_INSTALL_PATH": "opencv",  # on every system
+    "OPENCV_CONFIG_INSTALL_PATH": "opencv",  # the same path on every system
     "OPENCV_SKIP_CMAKE_ROOT_CONFIG": "ON",
     "ENABLE_PRECOMPILED_HEADERS": "OFF",
-    # Threads would be of no use: the extension asks for one.
+    # Threads are useless: the extension uses one.
     **{f"WITH_{library}": "OFF" for library in ("PTHREADS_PF", "TBB", "OPENMP", "GCD", "CONCURRENCY")},
     **{f"WITH_{library}": "OFF" for library in ("OPENCL", "IPP", "ITT", "LAPACK", "EIGEN", "CAROTENE")},
     **{f"WITH_{library}": "OFF" for library in ("OPENGL", "VA", "VA_INTEL", "VULKAN", "CUDA", "PROTOBUF")},
@@ -55,13 +55,13 @@ SWITCHES = {
     "BUILD_ZLIB": "ON",
 }
 EIGEN_SWITCHES = {"EIGEN_BUILD_DOC": "OFF", "BUILD_TESTING": "OFF", "EIGEN_BUILD_PKGCONFIG": "OFF"}
-# As Debian builds it: the baseline's instructions, and newer ones where the processor has them.
+# As in Debian: the baseline's instructions, and newer ones if the processor has them.
 X86 = {"CPU_BASELINE": "SSE2", "CPU_DISPATCH": "SSE4_1,SSE4_2,AVX,AVX2,AVX512_SKX"}
 HARDENING = "-fstack-protector-strong -D_FORTIFY_SOURCE=2"
 
 
 def fetch(source: Source, folder: Path) -> Path:
-    """Download sources, check and unpack them; their folder."""
+    """Download, check and unpack sources; returns their folder."""
     with urllib.request.urlopen(source.url) as answer:
         content = answer.read()
     digest = hashlib.sha256(content).hexdigest()
@@ -77,7 +77,7 @@ def fetch(source: Source, folder: Path) -> Path:
 
 
 def opencv_switches() -> dict[str, str]:
-    """What CMake is told of OpenCV on this machine."""
+    """The CMake options of OpenCV for this machine."""
     switches = dict(SWITCHES)
     if platform.machine().lower() in {"x86_64", "amd64"}:
         switches |= X86
@@ -105,7 +105,7 @@ def main() -> None:
     options = parser.parse_args()
     common = {
         "CMAKE_INSTALL_PREFIX": options.prefix.resolve().as_posix(),
-        "CMAKE_POLICY_VERSION_MINIMUM": "3.5",  # their files are older than CMake 4 takes without
+        "CMAKE_POLICY_VERSION_MINIMUM": "3.5",  # CMake 4 refuses their older files without it
     }
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Write python/tricue/_core.pyi from the installed extension, or with --check fail where it has drifted.
+"""Write python/tricue/_core.pyi from the installed extension, or with --check fail if it is out of date.
 
-pybind11-stubgen reads the signatures; on top of them comes `Kernels`, the protocol that both sets of kernels
-follow, so that mypy compares every NumPy twin with its native kernel.
+pybind11-stubgen reads the signatures. `Kernels` is added, the protocol that both sets of kernels follow, so
+that mypy compares every NumPy twin with its native kernel.
 """
 
 import ast
@@ -37,12 +37,12 @@ class Kernels(Protocol):
 
 
 def generate() -> str:
-    """Text of the stub."""
+    """The text of the stub."""
     with tempfile.TemporaryDirectory() as folder:
         command = [sys.executable, "-m", "pybind11_stubgen", "tricue._core", "-o", folder, "--exit-code"]
         subprocess.run(command, check=True, capture_output=True, text=True)
         text = Path(folder, "tricue", "_core", "__init__.pyi").read_text()
-    # What pybind11 takes for a number differs between its versions; what we ask for doesn't.
+    # How pybind11 spells the type of a number depends on its version; the stub mustn't.
     text = re.sub(
         r"typing\.Supports(Float|Int) \| typing\.SupportsIndex", lambda found: found[1].lower(), text
     )
@@ -66,7 +66,7 @@ def _formatted(text: str) -> str:
 
 
 def main() -> int:
-    """Write the stub, or compare it."""
+    """Write or compare the stub."""
     new = generate()
     if "--check" not in sys.argv[1:]:
         STUB.write_text(new)

@@ -19,24 +19,24 @@ CHANNELS = {
 
 
 def names() -> list[str]:
-    """Of our trackers; others' may be installed, too."""
+    """The names of tricue's own trackers; those of other packages may be installed, too."""
     return [name for name in registry.names() if registry.is_built_in(name)]
 
 
 def overview() -> list[list[str]]:
-    """For the README: what each needs, follows, and where it comes from."""
+    """The README's table: what each tracker needs and follows, and its paper."""
     rows = [[f"`{name}`", needs(traits(name)), traits(name).follows, traits(name).source] for name in names()]
     return [["tracker", "needs", "follows", "paper"], *rows]
 
 
 def requirements() -> list[list[str]]:
-    """For the page on the trackers: what each needs to start and to run."""
+    """The table of docs/trackers.md: what each tracker needs to start and to run."""
     rows = [[f"[`{name}`](#{name})", needs(traits(name)), *_start(traits(name))] for name in names()]
     return [["tracker", "needs", "initial box", "camera", "random"], *rows]
 
 
 def needs(its: Traits) -> str:
-    """Its sets of channels in words, with the parameters that a set takes."""
+    """A tracker's sets of channels in words, with the parameters that a set needs."""
     return "; ".join(_set(each) for each in its.channels)
 
 
@@ -52,7 +52,7 @@ def _start(its: Traits) -> list[str]:
 
 
 def markdown(rows: list[list[str]]) -> str:
-    """A table, its first row the head."""
+    """A Markdown table; its first row is the head."""
     head, *others = (f"| {' | '.join(row)} |" for row in rows)
     return "\n".join([head, "|" + " --- |" * len(rows[0]), *others])
 
@@ -61,14 +61,14 @@ PAGES = {ROOT / "README.md": overview, ROOT / "docs" / "trackers.md": requiremen
 
 
 def updated(page: Path) -> str:
-    """The page's text with its table made anew."""
+    """The page's text with its table updated."""
     before, _, rest = page.read_text(encoding="utf-8").partition(BEGIN)
     _, _, after = rest.partition(END)
     return f"{before}{BEGIN}\n\n{markdown(PAGES[page]())}\n\n{END}{after}"
 
 
 def main() -> int:
-    """Write the pages, or tell which are out of date."""
+    """Write the pages, or print which are out of date."""
     stale = [page for page in PAGES if updated(page) != page.read_text(encoding="utf-8")]
     for page in stale:
         if "--check" in sys.argv[1:]:
