@@ -6,7 +6,7 @@
 
 namespace tricue {
 
-/// Particles, one per row: the ellipse (x, y, minor, major) or another state of D numbers. Rows are contiguous.
+/// Particles, one per row: an ellipse (x, y, minor, major) or another state of D numbers. Rows are contiguous.
 using States = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using StatesRef = Eigen::Ref<const States>;
 using Vector = Eigen::Array<double, Eigen::Dynamic, 1>;

@@ -9,9 +9,9 @@
 
 namespace tricue {
 
-constexpr int kMaxImageSide = 16384;  ///< of an image that a kernel makes, pixels
+constexpr int kMaxImageSide = 16384;  ///< pixels, of an image that a kernel creates
 
-/// Each throws std::invalid_argument that names the argument, what was expected and what was given.
+/// Each check throws std::invalid_argument with the argument's name, what was expected and what was given.
 void require_share(double share);
 void require_positive(double value, const char* name);      ///< and finite
 void require_not_negative(double value, const char* name);  ///< and finite
@@ -25,13 +25,13 @@ void require_finite(VectorRef values, const char* name);
 void require_finite(StatesRef values, const char* name);
 void require_region(const Region& region, int rows, int cols);  ///< corners in order, within an image
 
-/// For two views: of images, planes or bins.
+/// For two views of images, planes or bins.
 template <typename Values, typename Other>
 void require_same_shape(const Values& values, const Other& other, const char* name) {
     require_shape(values.rows, values.cols, other.rows, other.cols, name);
 }
 
-/// Square, finite, without a negative variance, and symmetric to 1e-9 of its greatest variance.
+/// Square, finite, without negative variances, and symmetric within 1e-9 of its largest variance.
 void require_covariance(StatesRef values, Eigen::Index size, const char* name);
 
 /// Returns the sum of weights that are finite, not negative, and have a finite sum above 0.

@@ -5,7 +5,7 @@
 
 namespace tricue {
 
-/// A depth image in meters. NaN, and any other number that isn't above 0 and finite, is no measurement.
+/// A depth image in meters. NaN, and any other number that isn't finite and above 0, means "not measured".
 using DepthView = PlaneView;
 
 }  // namespace tricue

@@ -8,8 +8,8 @@
 
 namespace tricue {
 
-/// Contiguous planes of one size, with unspecified numbers at first. They are never a multiple of 4096 bytes apart: numbers at
-/// the same place in each plane would then share a cache set, which holds fewer of them than there are planes.
+/// Contiguous planes of the same size, not initialized. They are never a multiple of 4096 bytes apart: otherwise, numbers at
+/// the same place in each plane would share a cache set, which holds fewer of them than there are planes.
 class FloatPlanes {
 public:
     FloatPlanes(int planes, int rows, int cols)

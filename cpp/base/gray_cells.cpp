@@ -10,10 +10,10 @@
 namespace tricue {
 namespace {
 
-constexpr int kMaxNarrowStep = 257;  ///< up to which the sum of a column of a cell fits 16 bits
-constexpr int kRowsAhead = 6;        ///< whose pixels are loaded while a row is turned gray
+constexpr int kMaxNarrowStep = 257;  ///< largest step with which the sum of a cell's column fits 16 bits
+constexpr int kRowsAhead = 6;        ///< whose pixels are loaded while a row is converted to gray
 
-/// The weights are 128 of `high` and one of `low`: both sums fit 16 bits, of which a register holds twice as many as of 32.
+/// The weights are 128 `high` + `low`: both sums fit 16 bits, and a register holds twice as many 16-bit as 32-bit numbers.
 TRICUE_MULTIVERSION
 void turn_gray(const std::uint8_t* __restrict pixels, std::ptrdiff_t n, std::uint8_t* __restrict gray) {
     for_overlapping_blocks<32>(n, [=](std::ptrdiff_t x) {
@@ -24,14 +24,14 @@ void turn_gray(const std::uint8_t* __restrict pixels, std::ptrdiff_t n, std::uin
     });
 }
 
-/// Gray levels of as many rows as a cell has.
+/// Converts as many rows as a cell has to gray levels.
 struct Levels {
     const std::uint8_t* data;
     std::ptrdiff_t stride;
     int step;
 };
 
-/// kStep is the step, or 0 for any.
+/// kStep is the step, or 0 for any step.
 template <int kStep>
 TRICUE_INLINE void average(const Levels& levels, std::ptrdiff_t cells, std::uint16_t* __restrict sums,
                            std::uint8_t* __restrict means) {
@@ -44,7 +44,7 @@ TRICUE_INLINE void average(const Levels& levels, std::ptrdiff_t cells, std::uint
         sums[x] = sum;
     });
     const float share = 1.0F / static_cast<float>(step * step);
-    constexpr float kHalfToEven = 8388608.0F;  // above it floats are whole
+    constexpr float kHalfToEven = 8388608.0F;  // above this, floats are whole numbers
     for_overlapping_blocks<16>(cells, [=](std::ptrdiff_t j) {
         int sum = 0;
         for (int k = 0; k < step; ++k) sum += sums[step * j + k];
@@ -55,7 +55,7 @@ TRICUE_INLINE void average(const Levels& levels, std::ptrdiff_t cells, std::uint
     });
 }
 
-/// The means of cells; `sums` has room for those of their columns, which fit 16 bits up to a step of 257.
+/// The means of cells; `sums` has room for the sums of their columns, which fit 16 bits up to a step of 257.
 TRICUE_MULTIVERSION
 void average_cells(const Levels& levels, std::ptrdiff_t cells, std::uint16_t* sums, std::uint8_t* means) {
     switch (levels.step) {
@@ -70,7 +70,7 @@ void average_cells(const Levels& levels, std::ptrdiff_t cells, std::uint16_t* su
     }
 }
 
-/// The same for larger steps, which needn't be fast.
+/// The same for larger steps, for which speed doesn't matter.
 void average_wide_cells(const Levels& levels, std::ptrdiff_t cells, std::uint8_t* means) {
     const std::ptrdiff_t step = levels.step;
     for (std::ptrdiff_t j = 0; j < cells; ++j) {

@@ -24,8 +24,8 @@ public:
 private:
     ImageView image_;
     int step_;
-    std::vector<std::uint8_t> gray_;   ///< of the pixels of a row of cells
-    std::vector<std::uint16_t> sums_;  ///< of their columns
+    std::vector<std::uint8_t> gray_;   ///< gray levels of the pixels in a row of cells
+    std::vector<std::uint16_t> sums_;  ///< sums of the pixels' columns
 };
 
 }  // namespace tricue

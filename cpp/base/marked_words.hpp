@@ -17,8 +17,8 @@ constexpr std::size_t whole_words(int pixels) {
     return (static_cast<std::size_t>(pixels) + kWordBytes - 1) / kWordBytes * kWordBytes;
 }
 
-/// Calls body(x) for each pixel x of the words in which any is marked. Where marks are rare, eight pixels are skipped at a time,
-/// because their marks are one number.
+/// Calls body(x) for each pixel x of the words in which any pixel is marked. Where marks are rare, eight pixels are skipped at
+/// once, because their marks are one number.
 template <typename Body>
 TRICUE_INLINE void for_marked_words(const std::vector<std::uint8_t>& marks, Body body) {
     for (std::size_t first = 0; first < marks.size(); first += kWordBytes) {

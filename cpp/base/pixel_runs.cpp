@@ -24,8 +24,8 @@ PixelRuns::PixelRuns(int cols) : cols_(cols), changes_(whole_words(cols)), edges
     runs_.reserve(kReservedRuns);
 }
 
-/// The places where one run ends and the next begins. Each pixel near a change is written, and overwritten by the next unless a
-/// run ends there: a branch would be mispredicted.
+/// The places where one run ends and the next begins. Each pixel near a change is written, and overwritten by the next one unless a
+/// run ends there, because a branch would be mispredicted.
 std::size_t PixelRuns::find_edges(const std::uint8_t* labels) {
     mark_changes(labels, cols_, changes_.data());
     std::size_t count = 0;

@@ -7,7 +7,7 @@
 
 namespace tricue {
 
-/// Marks, from the second pixel of a row on, those whose label isn't that of the pixel before. Returns whether any is.
+/// Marks, from a row's second pixel on, the pixels whose label differs from that of the previous pixel. Returns whether any does.
 bool mark_changes(const std::uint8_t* labels, int n, std::uint8_t* changes);
 
 /// Pixels [begin, end) of one row with the same label, not 0. `parent` is an earlier run of the same component, or the run itself.
@@ -28,9 +28,9 @@ public:
     /// Adds the next row of `cols` labels and joins its runs with those of the previous row.
     void add_row(const std::uint8_t* labels);
 
-    /// The same, run by run, from left to right: add() each of a row, then end_row().
+    /// The same, run by run from left to right: add() each run of a row, then end_row().
     void add(int begin, int end, std::uint8_t label) {
-        // In place: copying numbers that have just been written, in other pieces, takes longer than all the rest.
+        // In place: copying numbers that have just been written takes longer than everything else, as stores can't be forwarded.
         const std::size_t parent = runs_.size();
         PixelRun& run = runs_.emplace_back();
         run.row = row_;
@@ -55,7 +55,7 @@ private:
     void join_with_previous_row();
 
     int cols_, row_ = 0;
-    std::size_t previous_row_ = 0, current_row_ = 0;  ///< indices of their first runs
+    std::size_t previous_row_ = 0, current_row_ = 0;  ///< indices of the first runs of two rows
     std::vector<std::uint8_t> changes_;
     std::vector<int> edges_;
     std::vector<PixelRun> runs_;

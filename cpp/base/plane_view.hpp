@@ -6,7 +6,7 @@
 namespace tricue {
 
 /// A non-owning, read-only view of a plane with one number per pixel: depth, flow, disparity or a reliability. Pixels are packed; rows
-/// may be padded (`stride` floats apart). NaN is no measurement.
+/// may be padded (`stride` floats apart). NaN means "not measured".
 struct PlaneView {
     const float* data;
     int rows;

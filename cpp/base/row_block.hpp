@@ -11,15 +11,15 @@ namespace tricue {
 constexpr int kRowBlock = 16;
 using RowBlock = Pack<float, kRowBlock>;
 
-/// Rows that one step filters before the next step begins: the next step reads at other places than the last one stored, so it
-/// would have to wait for these stores, and a call takes as long as a short row.
+/// Rows that one step filters before the next step begins. The next step reads at other places than those just stored, so it
+/// would have to wait for these stores; and a call takes as long as a short row.
 constexpr int kRowBatch = 8;
 
 constexpr int whole_blocks(int n) {
     return (n + kRowBlock - 1) / kRowBlock * kRowBlock;
 }
 
-/// By steps: the compiler has no instruction for conversions to more than twice the width, and would convert lane by lane.
+/// In steps: there is no instruction for conversions to more than twice the width, so the compiler would convert lane by lane.
 TRICUE_INLINE void load_bytes(const std::uint8_t* from, RowBlock& to) {
     Pack<std::uint8_t, kRowBlock> bytes;
     Pack<std::uint16_t, kRowBlock> words;

@@ -15,14 +15,14 @@ float* aligned(std::vector<float>& data) {
     return static_cast<float*>(std::align(kLine * sizeof data[0], 1, begin, room));
 }
 
-/// The number of the last of `count` rows or more, a power of two.
+/// The index of the last row if `count` is rounded up to a power of two.
 int last_of_ring(int count) {
     int rows = 1;
     while (rows < count) rows *= 2;
     return rows - 1;
 }
 
-/// One cache line more than needed: else rows of several buffers would map to the same cache lines.
+/// One cache line more than needed: otherwise rows of several buffers would map to the same cache sets.
 std::ptrdiff_t stride_of(int length) {
     return (length + 2 * kLine - 1) / (2 * kLine) * (2 * kLine) + kLine;
 }

@@ -6,8 +6,8 @@
 
 namespace tricue {
 
-/// The last `count` rows or some more, of `length` numbers, at first 0: a new row takes the place of the oldest. Each begins at a
-/// cache line, and has room up to a whole number of pairs of them.
+/// The last `count` rows or more, of `length` numbers, initially 0: a new row replaces the oldest. Each begins at a
+/// cache line, and is padded to a whole number of pairs of cache lines.
 class RowRingBuffer {
 public:
     RowRingBuffer(int count, int length);
@@ -24,9 +24,9 @@ public:
 private:
     std::size_t slot(int y) const { return static_cast<std::size_t>(y & last_); }
 
-    int last_;  ///< of a number of rows that is a power of two: a division for each row would take as long as filtering it
+    int last_;  ///< number of rows minus 1; rows are a power of two, as a division for each row would take as long as filtering it
     std::vector<float> data_;
-    std::vector<float*> rows_;  ///< each twice, so that `count` consecutive pointers can begin at any row
+    std::vector<float*> rows_;  ///< each row twice, so that `count` consecutive pointers can begin at any row
 };
 
 }  // namespace tricue

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one place that knows what compilers and processors offer beyond C++: function versions, vector registers, intrinsics.
-// Kernels use only the names below (tests/test_layout.py).
+// The only place that depends on what compilers and processors offer beyond C++: function versions, vector registers, intrinsics.
+// Kernels use only the names below (tests/test_layout.py checks this).
 #pragma once
 
 #include <cstddef>  // any header of the C library defines __GLIBC__
@@ -32,8 +32,8 @@
 /// - Only what is inlined into the function is compiled for the new instructions: mark helpers `inline` and keep them in
 ///   the same file. Eigen's own packets stay at the baseline: write plain loops over pointers.
 /// - All versions give the same bits: -ffp-contract=off forbids fused multiply-adds, and without -ffast-math the compiler
-/// may not change the order of a floating-point sum (which is why such a sum isn't vectorized; integer sums are). - The function
-/// may not throw: GCC assumes that the dispatched call can't, and the program would end.
+///   may not change the order of a floating-point sum (which is why such a sum isn't vectorized; integer sums are).
+/// - The function may not throw: GCC assumes that the dispatched call can't, and the program would end.
 #if TRICUE_SIMD_LEVEL >= 4
 #define TRICUE_MULTIVERSION \
     __attribute__((target_clones("default", "arch=x86-64-v2", "arch=x86-64-v3", "arch=x86-64-v4")))
@@ -68,7 +68,7 @@
     }
 #endif
 
-/// Put before a loop that writes no memory that it reads elsewhere: GCC, which ignores __restrict on pointers from a struct or an
+/// Put before a loop whose iterations read nothing that others write: GCC, which ignores __restrict on pointers from a struct or an
 /// array, then vectorizes it.
 #if defined(__GNUC__) && !defined(__clang__)
 #define TRICUE_INDEPENDENT _Pragma("GCC ivdep")
@@ -76,7 +76,7 @@
 #define TRICUE_INDEPENDENT
 #endif
 
-/// Put before a helper that has to be compiled for the instructions of the function that calls it.
+/// Put before a helper that must be compiled for the instructions of the function that calls it.
 #if defined(__GNUC__)
 #define TRICUE_INLINE [[gnu::always_inline]] inline
 #else
@@ -97,7 +97,7 @@ struct Packed {
 /// and Clang, with operators lane by lane. For loops that carry a state from step to step, which the compiler would otherwise
 /// write to memory at each step. Comparisons of a Pack that is wider than the registers are done one by one (TRICUE_MULTIWIDTH).
 ///
-/// Packs go from function to function by reference: how they are passed by value depends on the instructions.
+/// Packs are passed by reference: how they are passed by value depends on the instruction set.
 template <typename Scalar, int kLanes>
 using Pack = typename simd_detail::Packed<Scalar, kLanes>::type;
 
@@ -128,7 +128,7 @@ TRICUE_INLINE void permute(const Lanes& from, Lanes& to) {
 #endif
 }
 
-/// The lanes of both interleaved: those of the lower halves, and those of the upper ones.
+/// The lanes of both interleaved: first those of the lower halves, then those of the upper ones.
 template <typename Lanes, std::size_t... kPlace>
 TRICUE_INLINE void interleave(const Lanes& one, const Lanes& two, Lanes& lower, Lanes& upper,
                               std::index_sequence<kPlace...>) {
@@ -163,7 +163,7 @@ TRICUE_INLINE std::uint64_t nonzero_bytes(std::uint64_t bytes) {
     return (ones * kGather) >> 56;
 }
 
-/// The index of the lowest bit that is set; there has to be one.
+/// The index of the lowest set bit; at least one must be set.
 TRICUE_INLINE int lowest_bit(std::uint64_t bits) {
 #if defined(__GNUC__)
     return __builtin_ctzll(bits);
@@ -174,7 +174,7 @@ TRICUE_INLINE int lowest_bit(std::uint64_t bits) {
 #endif
 }
 
-/// How many bits are set. Processors have an instruction for it from the second level of x86-64 on.
+/// The number of set bits. Processors have an instruction for this from the second level of x86-64 on.
 TRICUE_INLINE int count_bits(std::uint64_t bits) {
 #if defined(__GNUC__)
     return __builtin_popcountll(bits);
@@ -185,10 +185,10 @@ TRICUE_INLINE int count_bits(std::uint64_t bits) {
 #endif
 }
 
-/// Begins to load the cache line of an address that is read soon into the second-level cache: the first level can have only a few
-/// lines in flight, and other reads would then wait, too.
+/// Begins to load the cache line of an address that will be read soon into the second-level cache: the first level can have only
+/// a few lines in flight, and other reads would then wait, too.
 ///
-/// The empty instruction is needed: GCC 12 takes a function that only prefetches for one without effect, and removes calls.
+/// The empty instruction is needed: GCC 12 considers a function that only prefetches to be without effect, and removes calls.
 TRICUE_INLINE void prefetch(const void* address) {
 #if defined(__GNUC__)
     __builtin_prefetch(address, 0, 2);
@@ -196,8 +196,8 @@ TRICUE_INLINE void prefetch(const void* address) {
 #endif
 }
 
-/// The same for n bytes. A new frame isn't in the cache yet, and the rows of a part of it are too far apart for the hardware to
-/// load them ahead.
+/// The same for n bytes. A new frame isn't in the cache yet, and the rows of a region are too far apart for the hardware to
+/// prefetch them.
 TRICUE_INLINE void prefetch_bytes(const void* address, std::ptrdiff_t n) {
     constexpr std::ptrdiff_t kLine = 64;
     for (std::ptrdiff_t k = 0; k < n; k += kLine) prefetch(static_cast<const char*>(address) + k);
@@ -207,7 +207,7 @@ TRICUE_INLINE void prefetch_bytes(const void* address, std::ptrdiff_t n) {
 /// time; `out` must not overlap the others.
 void look_up_bytes(const std::uint8_t* table, const std::uint8_t* indices, std::size_t n, std::uint8_t* out);
 
-/// The version of the functions that runs on this machine, to tell users: "x86-64" to "x86-64-v4", "NEON", or "one version".
+/// The version of the functions that runs on this machine, for users: "x86-64" to "x86-64-v4", "NEON", or "one version".
 const char* instructions_in_use();
 
 }  // namespace tricue

@@ -7,7 +7,7 @@
 
 namespace tricue {
 
-/// A non-owning, read-only view of contiguous planes of one size; by default one follows the other.
+/// A non-owning, read-only view of contiguous planes of the same size; by default one follows the other.
 template <typename Scalar>
 struct StackView {
     const Scalar* data;

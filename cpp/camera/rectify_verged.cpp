@@ -29,7 +29,7 @@ void require_arguments(const ImageView& right, const VergedCamera& camera, doubl
     if (!std::isfinite(shift)) refuse("shift", "a finite number", shift);
 }
 
-/// The sources of the pixels of each column.
+/// The source columns of the pixels in each column.
 struct Columns {
     std::vector<double> stretch;  ///< y_R / y; NaN where the turned camera sees nothing
     std::vector<int> first;       ///< bytes into a row
@@ -58,7 +58,7 @@ Columns find_columns(const ImageView& right, const VergedCamera& camera, double 
     return columns;
 }
 
-/// The sources of the pixels of one row: rows of the image, -1 for none, and the weights of the rows after them.
+/// The source rows of the pixels in one row, -1 for none, and the weights of the rows after them.
 TRICUE_MULTIVERSION
 void find_rows(const double* __restrict stretch, double y, double cy, int rows, int n, int* __restrict row,
                int* __restrict down) {

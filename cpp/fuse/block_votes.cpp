@@ -31,7 +31,7 @@ std::uint64_t find_strange(const std::int64_t* states, const std::int64_t* votes
     return strange;
 }
 
-/// Frame counts are incremented, so they must be below the greatest integer.
+/// Frame counts are incremented, so they must be below the largest integer.
 void require_counts(const BlockVotes& blocks) {
     if (find_strange(blocks.states.data(), blocks.votes.data(), blocks.against.data(), blocks.trusted.data(),
                      blocks.unproven.data(), blocks.states.size()) == 0)

@@ -7,7 +7,7 @@
 namespace tricue {
 namespace {
 
-constexpr float kLeastSum = 1e-9F;  // so that a contradiction, of 0 and 1, is finite
+constexpr float kLeastSum = 1e-9F;  // so that contradictory posteriors, 0 and 1, give a finite result
 
 TRICUE_MULTIVERSION
 void combine_row(const float* __restrict first, const float* __restrict second, int n,

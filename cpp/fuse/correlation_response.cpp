@@ -44,7 +44,7 @@ Spectra sum_products(const FloatStack& cells, const FilterStack& filters, PlaneF
 /// Writes the plane with zero shift in the middle.
 void write_shifted(const Floats& plane, float* response) {
     const Eigen::Index rows = plane.rows(), cols = plane.cols(),
-                       right = cols / 2;  // where the first column goes
+                       right = cols / 2;  // destination of the first column
     for (Eigen::Index y = 0; y < rows; ++y) {
         float* to = response + (y + rows / 2) % rows * cols;
         std::copy_n(&plane(y, 0), cols - right, to + right);

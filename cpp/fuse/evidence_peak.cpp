@@ -11,7 +11,7 @@
 namespace tricue {
 namespace {
 
-constexpr double kMaxOffset = 0.5;  // cells; a peak farther off would be in the next one
+constexpr double kMaxOffset = 0.5;  // cells; a peak farther off would be in the next cell
 
 TRICUE_MULTIVERSION
 void weigh(const float* __restrict response, float weight, std::ptrdiff_t n, float* __restrict evidence) {
@@ -24,7 +24,7 @@ void add_weighted(const float* __restrict contrast, float weight, std::ptrdiff_t
     for (std::ptrdiff_t i = 0; i < n; ++i) evidence[i] += weight * contrast[i];
 }
 
-/// The greatest number of each column; 0 times a number that isn't finite makes that column's `strange` NaN.
+/// The maximum of each column; 0 times a number that isn't finite makes that column's `strange` NaN.
 TRICUE_MULTIVERSION
 void compare_row(const float* __restrict row, int cols, float* __restrict greatest,
                  float* __restrict strange) {
@@ -34,7 +34,7 @@ void compare_row(const float* __restrict row, int cols, float* __restrict greate
     }
 }
 
-/// The first of the greatest numbers.
+/// The first of equal maxima.
 Eigen::Index find_greatest(const Floats& evidence) {
     const auto cols = static_cast<std::size_t>(evidence.cols());
     std::vector<float> greatest(evidence.data(), evidence.data() + cols), strange(cols);

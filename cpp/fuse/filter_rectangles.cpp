@@ -17,7 +17,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr Index kNumbers = 5;  // of a state
+constexpr Index kNumbers = 5;  // numbers in a state
 constexpr double kMinLikelihood = 1e-12;
 
 /// Centers and sizes in pixels, and the depth to which a model's levels are relative: the rectangle's own, unless all share one.
@@ -43,7 +43,7 @@ States grid_pattern(const Places& places) {
     return pattern;
 }
 
-constexpr double kNoModel = 0.0;  ///< the only level of a model that isn't compared with
+constexpr double kNoModel = 0.0;  ///< a placeholder model of one level, if the comparison isn't used
 
 /// The measurements in and around rectangles.
 class Observer {
@@ -54,7 +54,7 @@ public:
           by_(by),
           contrast_(depth, camera, contrast_model(), by.places, by.nearer) {}
 
-    /// (N, 4) as by depth_contrast; the distance is that from the model, whatever its levels are.
+    /// (N, 4) as by depth_contrast, but with the distance from the model in the model's own levels.
     States measure(StatesRef states, bool with_nearer) {
         States measured = contrast_.measure(states, with_nearer);
         if (!is_one_range())
@@ -64,7 +64,7 @@ public:
         return measured;
     }
 
-    /// Of a state that was just measured.
+    /// The measurements of a state that was just measured.
     Vector histogram(const double* state) const {
         if (is_one_range()) return contrast_.shares();
         const DepthModel& model = by_.model;
@@ -86,7 +86,7 @@ public:
     }
 
 private:
-    /// Whether the model's levels cover just the depths whose share is measured.
+    /// Whether the model's levels cover exactly the depths whose share is measured.
     bool is_one_range() const { return by_.middle == 0.0 && by_.model.reach == by_.reach; }
 
     DepthModel contrast_model() const {

@@ -13,14 +13,14 @@
 namespace tricue {
 namespace {
 
-constexpr double kLeastMean = 1e-12;  // of a denominator
+constexpr double kLeastMean = 1e-12;  // lower bound of a denominator's mean
 
 TRICUE_MULTIVERSION
 void invert(float ridge, std::ptrdiff_t n, float* __restrict denominator) {
     for (std::ptrdiff_t i = 0; i < n; ++i) denominator[i] = 1.0F / (denominator[i] + ridge);
 }
 
-/// Of n complex numbers, pairs of a real and an imaginary part.
+/// Multiplies n complex numbers, pairs of a real and an imaginary part, by factors.
 TRICUE_MULTIVERSION
 void scale(const float* __restrict factors, std::ptrdiff_t n, float* __restrict pairs) {
     for (std::ptrdiff_t i = 0; i < n; ++i) {

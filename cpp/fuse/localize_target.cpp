@@ -21,7 +21,7 @@
 namespace tricue {
 namespace {
 
-constexpr double kLeastDeviation = 1e-6;  // of a response that is the same everywhere
+constexpr double kLeastDeviation = 1e-6;  // for a response that is the same everywhere
 
 /// Pixels from `first` to before `end`.
 struct Span {

@@ -11,10 +11,10 @@
 namespace tricue {
 namespace {
 
-constexpr double kMaxOffset = 0.5;    // cells; a peak farther off would be in the next one
-constexpr double kLeastShare = 0.05;  // of the peak, of a neighbor in its logarithm
+constexpr double kMaxOffset = 0.5;    // cells; a peak farther off would be in the next cell
+constexpr double kLeastShare = 0.05;  // of the maximum: lower bound for logarithms
 
-/// `row` has the numbers from -most to most columns off the middle.
+/// `row` has the columns from -most to most off the middle.
 double peak_offset(const float* row, int column, int most) {
     const double top = row[column];
     if (column == -most || column == most || !(top > 0.0)) return 0.0;

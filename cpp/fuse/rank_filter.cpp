@@ -13,7 +13,7 @@
 namespace tricue {
 namespace {
 
-constexpr double kMinWeight = 1e-300;  // of a particle, in the logarithm
+constexpr double kMinWeight = 1e-300;  // lower bound of a weight before its logarithm is taken
 
 void require_valid(const WeightedEllipses& last) {
     if (last.particles.rows() < 1) refuse("particles", "at least one", "none");
@@ -21,7 +21,7 @@ void require_valid(const WeightedEllipses& last) {
     require_size(last.weights, last.particles.rows(), "weights");
 }
 
-/// The particles from which the filter proceeds.
+/// The particles that the filter starts from.
 States chosen(const WeightedEllipses& last) {
     if (!last.offset) {
         require_weights(last.weights);
@@ -39,7 +39,7 @@ void add_logarithms(VectorRef weights, Vector& log_likelihood) {
         log_likelihood[i] += std::log(std::max(weights[i], kMinWeight));
 }
 
-/// The numbers of both semi-axes mixed, in one rounding, as a product of matrices does it.
+/// The noise of both semi-axes mixed, with the same rounding as a matrix product.
 States mixed(const EllipseNoise& noise, Eigen::Index N) {
     require_shape(noise.noise, N, 4, "noise");
     const double common = noise.correlation;

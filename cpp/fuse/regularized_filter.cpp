@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kGrowth = 10.0;  ///< of γ from one iteration to the next
 
-/// Of P and of G − H in R, and γ + μ.
+/// The weights of P and of G − H in R, and γ + μ.
 struct Weights {
     Weights(double temporal, double penalty)
         : previous(static_cast<float>(temporal / (penalty + temporal))),
@@ -58,7 +58,7 @@ void add_channel(Spectrum x, const float* previous, float weight, std::size_t n,
     }
 }
 
-/// C, in the place of the sum of X R.
+/// Computes C, in place of the sum of X R.
 TRICUE_MULTIVERSION
 void find_correction(const float* label, const float* energy, float weights, std::size_t n, Spectrum sum) {
     TRICUE_INDEPENDENT
@@ -69,7 +69,7 @@ void find_correction(const float* label, const float* energy, float weights, std
     }
 }
 
-/// R of the first iteration.
+/// Computes R of the first iteration.
 TRICUE_MULTIVERSION
 void write_weighted(const float* previous, float weight, std::size_t n, Spectrum filter) {
     TRICUE_INDEPENDENT
@@ -114,7 +114,7 @@ void write_pairs(Spectrum spectrum, std::size_t n, float* pairs) {
     }
 }
 
-/// Goes through the channels three times, two of them at a time, so that most of what it needs is in the caches.
+/// Passes over the channels three times, two channels at a time, so that most data stay in the caches.
 class Learner {
 public:
     Learner(const FloatStack& cells, FloatsRef mask, const ComplexStack& previous)
@@ -189,7 +189,7 @@ private:
     Spectra masked_;        ///< G of two channels
     Spectra corrections_;   ///< C of both iterations
     AlignedMatrix energy_;  ///< Σ_k |X_k|²
-    /// In the end G. Before that its memory holds, for each channel real and imaginary parts apart, A; then R + H, and A + H of the
+    /// At the end G. Before that, with real and imaginary parts of each channel apart, A; then R + H, and A + H of the
     /// second iteration.
     Complexes filter_;
 };

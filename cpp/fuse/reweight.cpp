@@ -26,7 +26,7 @@ double log_mixture(double ratio, double share) {
     return std::max(ratio, 0.0) + std::log(greater + smaller * std::exp(-std::abs(ratio)));
 }
 
-/// Rows of a number for each particle, one row for each number of the state that a detection is about.
+/// One row for each number of the state that a detection measures, with a column for each particle.
 using Rows = States;
 
 /// For all particles at once: z = (offset - Σ factors[e] solved[e]) / divisor, whose squares are added up.
@@ -53,7 +53,7 @@ Vector squared_deviations(const Rows& offsets, StatesRef root) {
     return squares;
 }
 
-/// The same of N(0, diag(scale²)).
+/// The same for N(0, diag(scale²)).
 Vector squared_deviations(const Rows& offsets, const Vector& scale) {
     const Eigen::Index n = offsets.cols();
     Vector squares = Vector::Zero(n), z(n);

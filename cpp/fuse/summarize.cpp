@@ -19,7 +19,7 @@ Summary summarize(StatesRef particles, VectorRef weights) {
         mean[d] = (shares * centered.col(d)).sum();
         centered.col(d) -= mean[d];
     }
-    // Around the mean, not as a difference of squares, which would cancel far from the origin.
+    // Around the mean, not as a difference of squares, which would lose all digits far from the origin.
     States covariance(dimensions, dimensions);
     for (Eigen::Index r = 0; r < dimensions; ++r)
         for (Eigen::Index c = r; c < dimensions; ++c)

@@ -17,8 +17,8 @@ constexpr double kRelativeTolerance = 1e-9;  // of the peak: values that differ 
 constexpr Index kNone = -1;
 
 struct Peak {
-    double at;  ///< 0 is the middle of the first bin
-    Index bin;  ///< that it lies in
+    double at;  ///< in bins from the middle of the first
+    Index bin;  ///< the bin that contains the peak
 };
 
 void require_arguments(VectorRef histogram, double smoothing, double ripple, double expected, double spread) {

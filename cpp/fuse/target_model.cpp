@@ -19,9 +19,9 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr std::size_t kTables = 4;  // as of weighted_histogram: neighbors mostly share a bin
+constexpr std::size_t kTables = 4;  // as in weighted_histogram, because neighbors mostly share a bin
 using Lanes = Pack<double, kTables>;
-constexpr float kMaxReading = 1e6F;   // of readings in the sum of all weights; beyond any image
+constexpr float kMaxReading = 1e6F;   // of readings in the sum of all weights; above any in an image
 constexpr double kLeastSum = 1e-300;  // keeps a density of zeros from a division by 0
 constexpr float kMaxFloat = std::numeric_limits<float>::max();
 
@@ -91,7 +91,7 @@ Labels depth_mask(const std::optional<DepthLimit>& depth, const PlaneView& dispa
     return near;
 }
 
-/// A row of an observation, the bins of its readings, and which of its pixels are the target's and count for it.
+/// A row of an observation: the bins of its readings, and which of its pixels are the target's and count for the target.
 struct HistogramRow {
     const float *readings, *weights;
     const std::int32_t* bin;
@@ -148,7 +148,7 @@ TRICUE_INLINE void place_four(const HistogramRow& row, int x, const CountedColum
     keep_where(valid & known & ~target, weights, to.around + x);
 }
 
-/// The same of fewer than four, which are copied to where there is room to read.
+/// The same for fewer than four, which are copied to a place with room for reading four.
 TRICUE_INLINE void place_few(const HistogramRow& row, int n, const CountedColumns& counted, std::int32_t size,
                              const WeightRow& to) {
     float readings[kTables] = {}, weights[kTables] = {};
@@ -170,7 +170,7 @@ void place_weights(const HistogramRow& row, int n, const CountedColumns& counted
     const HistogramRow from = row;
     const WeightRow out = to;
     const CountedColumns columns = counted;
-    if (n < 1) return;  // then the results have no room for any
+    if (n < 1) return;  // the results have no room then
     if (n < kFour) return place_few(from, n, columns, size, out);
     for (int x = 0; x < n; x += kFour) place_four(from, std::min(x, n - kFour), columns, size, out);
 }
@@ -228,7 +228,7 @@ Histograms histograms(const CueMap& map, const ValueRange& range, const Region& 
     return found;
 }
 
-/// The density mixed with the one before, moved down by `shift` bins; of sum 1.
+/// The density mixed with the previous one, which is moved down by `shift` bins; of sum 1.
 Vector blended(const Vector& density, const double* before, double shift, double memory) {
     const Index bins = density.size();
     Vector both(bins);
@@ -244,7 +244,7 @@ Vector blended(const Vector& density, const double* before, double shift, double
     return both / std::max(both.sum(), kLeastSum);
 }
 
-/// The histogram smoothed by a Gaussian of sum 1; what it spreads beyond the ends is lost.
+/// The histogram smoothed by a Gaussian of sum 1; weight that is spread beyond the ends is lost.
 Vector smoothed(const Vector& histogram, double deviation) {
     const auto radius = static_cast<Index>(std::ceil(3.0 * deviation));
     Vector gaussian(2 * radius + 1);

@@ -12,7 +12,7 @@
 namespace tricue {
 namespace {
 
-constexpr double kTrim = 0.02;  // of the pixels, that the box leaves out on each side
+constexpr double kTrim = 0.02;  // share of the pixels that the box leaves out on each side
 
 /// Clears the pixels in `mine` that are neither target pixels nor near the target's disparity.
 TRICUE_MULTIVERSION

@@ -17,10 +17,10 @@ namespace {
 
 using Table = std::vector<float>;
 
-/// Whole rows whose ratios are found at once: those of a small region are too short to begin a loop for each.
+/// Rows whose ratios are looked up at once, because a small region's rows are too short for a loop each.
 constexpr int kBandPixels = 4096;
 
-constexpr double kSumTolerance = 1e-6;  // of densities' sums
+constexpr double kSumTolerance = 1e-6;  // of the densities' sums
 constexpr double kMaxRatio = 1e12;      // the product of three fits a float
 
 void require_density(VectorRef density) {
@@ -130,7 +130,7 @@ TargetPixels target_pixels(const std::vector<Cue>& cues, const TargetPlace& plac
         std::fill(ratio.begin(), ratio.end(), 1.0f);
         for (std::size_t k = 0; k < cues.size(); ++k) {
             const PlaneView& plane = cues[k].readings;
-            const int together = plane.stride == plane.cols ? y1 - y0 : 1;  // rows that follow each other
+            const int together = plane.stride == plane.cols ? y1 - y0 : 1;  // contiguous rows
             for (int y = y0; y < y1; y += together)
                 find_value_bins(plane.row(y), together * plane.cols, range_of(cues[k]),
                                 bin.data() + std::ptrdiff_t{y - y0} * plane.cols);

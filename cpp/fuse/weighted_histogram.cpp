@@ -12,7 +12,7 @@
 namespace tricue {
 namespace {
 
-// Neighbors mostly share a bin, and reading a sum that was just written is slow: so neighbors are summed in
+// Neighbors mostly share a bin, and reading a sum that was just written is slow, so neighbors are summed in
 // different tables.
 constexpr std::size_t kTables = 4;
 

@@ -20,7 +20,7 @@ double score_of(const double* measured, const ScoreWeights& weights) {
     return measured[0] - weights.ring * measured[1] + depth;
 }
 
-/// Counts the pixels of each bin in an ellipse moved by whole pixels, all of them or those that the mask marks; returns how many.
+/// Counts the pixels of each bin in an ellipse moved by whole pixels, all or only those in the mask; returns their number.
 std::int32_t count(const BinsView& bins, const ImageView* mask, const EllipseShape& shape, int x, int y,
                    Counts& counts) {
     std::int32_t total = 0;

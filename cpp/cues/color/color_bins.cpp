@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t kMaxSide = 32768;
 constexpr double kMaxGain =
-    255.0;  // larger gains change nothing, but may be infinite in float32, and 0 times infinity is NaN
+    255.0;  // larger gains have the same effect, but may be infinite in float32, and 0 times infinity is NaN
 
 /// An axis as factors: floor(v bins / levels) is the integer part of (v bins + 1/2) (1 / levels). That is at least 1 / (2 levels) away
 /// from an integer, a hundred times the rounding error of float32.
@@ -34,7 +34,7 @@ TRICUE_INLINE int find_bin(int level, const Axis& axis) {
 /// Gains of blue, green and red.
 using Light = std::array<float, 3>;
 
-/// A level in another light, rounded half to even as OpenCV does: above 2^23 floats are whole.
+/// A level in another light, rounded half to even as by OpenCV: above 2^23, floats are whole numbers.
 TRICUE_INLINE int relight(int level, float gain) {
     constexpr float kWhole = 8388608.0F;
     return static_cast<int>((std::min(static_cast<float>(level) * gain, 255.0F) + kWhole) - kWhole);

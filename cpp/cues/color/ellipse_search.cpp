@@ -39,7 +39,7 @@ Sums intersect(const std::int32_t* __restrict inner, const std::int32_t* __restr
     return {first, second};
 }
 
-/// How many more pixels a mask marks under a shape after each of n steps to the right; `masked` is at the shape's center.
+/// By how much the number of marked pixels under a shape changes with each of n steps to the right; `masked` is at its center.
 TRICUE_MULTIVERSION
 void count_steps(const std::uint8_t* masked, const SlidingHistogram::Boundary& boundary, int n,
                  std::int32_t* more) {
@@ -87,7 +87,7 @@ public:
         count_row();
     }
 
-    /// After so many steps to the right.
+    /// The number of pixels after so many steps to the right.
     std::int32_t at(int steps) const { return counts_[static_cast<std::size_t>(steps)]; }
 
 private:
@@ -179,14 +179,14 @@ Region covered_area(const EllipseShape& shape, const CenterPixel& place, const S
                         grid);
 }
 
-/// The largest power of two that fits 31 bits when multiplied by the number of pixels of a shape.
+/// The largest power of two whose product with a shape's number of pixels fits 31 bits.
 std::int32_t find_unit(const EllipseShape& shape) {
     std::int32_t unit = 1;
     while (unit <= std::numeric_limits<std::int32_t>::max() / 2 / std::max(shape.area, 1)) unit *= 2;
     return unit;
 }
 
-/// Visits every position, rightwards in even rows and leftwards in odd ones, and moves one pixel at a time in between.
+/// Visits every position, to the right in even rows and to the left in odd ones, moving one pixel at a time.
 template <typename Visit, typename Move>
 void walk(const SearchGrid& grid, Visit visit, Move move) {
     const auto repeat = [&](auto direction) {

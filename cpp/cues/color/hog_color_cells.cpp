@@ -150,7 +150,7 @@ void normalize(const float* __restrict sums, const float* __restrict upper, cons
             const float c0 = cut(sum * n0), c1 = cut(sum * n1), c2 = cut(sum * n2), c3 = cut(sum * n3);
             cells[(kBins + k) * pitch + x] = 0.5F * (c0 + c1 + c2 + c3) * weight;
         };
-        // Written out, as the compiler vectorizes only the innermost loop.
+        // Unrolled by hand, because the compiler vectorizes only the innermost loop.
         put_signed(0), put_signed(1), put_signed(2), put_signed(3);
         put_signed(4), put_signed(5), put_signed(6), put_signed(7);
         put_unsigned(0), put_unsigned(1), put_unsigned(2), put_unsigned(3);
@@ -188,7 +188,7 @@ public:
     /// Row y, with its zeros, while it is one of the last four that were computed; before any is, all are zero.
     float* row(int y) { return numbers_.data() + std::ptrdiff_t{(y + kRows) % kRows} * size(); }
 
-    /// Outside of the patch all is zero.
+    /// Outside the patch, everything is zero.
     void compute(int y) {
         if (y >= rows_) {
             std::fill_n(row(y), size(), 0.0F);

@@ -14,11 +14,11 @@ namespace {
 
 using Sums = std::array<std::uint64_t, 3>;
 
-constexpr int kMaxDenseStep = 8;    ///< up to which it is faster to add all pixels of a row than to pick some
-constexpr int kBlock = 32;          ///< pixels that are added side by side, at least
-constexpr int kMaxAdditions = 257;  ///< of bytes, that fit 16 bits
+constexpr int kMaxDenseStep = 8;    ///< above it, selecting pixels is faster than adding all of a row
+constexpr int kBlock = 32;          ///< smallest number of pixels that are added side by side
+constexpr int kMaxAdditions = 257;  ///< of bytes whose sum fits 16 bits
 
-/// kSize is the size, or 0 for any: sums of a known size stay in registers.
+/// kSize is the size, or 0 for any size: with a known size, sums stay in registers.
 template <int kSize>
 TRICUE_INLINE void add(const std::uint8_t* __restrict bytes, int blocks, int any_size,
                        std::uint16_t* __restrict sums) {

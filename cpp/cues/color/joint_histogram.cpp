@@ -17,7 +17,7 @@ Floats joint_histogram(const SampleView& samples, int bins) {
     for (std::ptrdiff_t i = 0; i < samples.ellipses; ++i) {
         color_cells(samples, i, bits, cells.data());
         float* shares = histograms.data() + i * histograms.cols();
-        // Most cells stay empty: only those of the samples are touched, some more than once.
+        // Most cells stay empty, so only those of the samples are divided, some more than once.
         for (const std::int32_t cell : cells) ++counts[static_cast<std::size_t>(cell)];
         for (const std::int32_t cell : cells)
             shares[cell] = static_cast<float>(counts[static_cast<std::size_t>(cell)]) / n;

@@ -13,7 +13,7 @@
 namespace tricue {
 namespace {
 
-/// The shares of 0 to all samples, so that a histogram needs no division for each of its cells.
+/// The shares for counts from 0 to all samples, so that a histogram needs no division per cell.
 TRICUE_MULTIVERSION
 void divide(std::ptrdiff_t samples, float* shares) {
     const auto all = static_cast<float>(samples);
@@ -34,7 +34,7 @@ Floats seen_histogram(EllipseSampler& sampler, const double* ellipse, FloatsRef 
     return seen;
 }
 
-constexpr double kUnseen = 0.0;  // P(target) of a color that neither side has
+constexpr double kUnseen = 0.0;  // P(target) of a color that neither target nor surround has
 
 }  // namespace
 

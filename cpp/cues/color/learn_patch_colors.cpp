@@ -28,7 +28,7 @@ struct Run {
     int first, end;
 };
 
-/// The part of a row that lies around its middle; the distances from there grow both ways.
+/// The part of a row around its middle; distances from the middle grow in both directions.
 template <typename IsInside>
 Run find_middle(int size, const IsInside& is_inside) {
     int first = 0;
@@ -72,7 +72,7 @@ private:
         });
     }
 
-    /// Whether another cue says that more than half of the ellipse's pixels are the target's.
+    /// Whether, by another cue, more than half of the ellipse's pixels are the target's.
     bool is_seen(const LearnedPixels& pixels) const {
         if (other_.rows == 0) return false;
         std::ptrdiff_t all = 0, seen = 0;
@@ -118,7 +118,7 @@ void require_arguments(const ImageView& patch, const PlaneView& other, const Lea
         if (!(number >= 0.0 && number <= 1.0)) refuse(name, "a number in [0, 1]", number);
 }
 
-constexpr double kUnseen = 0.5;  // P(target) of a color that neither side has: no evidence
+constexpr double kUnseen = 0.5;  // P(target) of a color that neither target nor surround has
 
 }  // namespace
 

@@ -39,7 +39,7 @@ PixelBytes pick_pixels(const ImageView& image, PlacesRef places) {
         refuse("places", "0 to " + std::to_string(pixels - 1),
                std::to_string(range.least < 0 ? range.least : range.most));
 
-    // Words of four bytes, the fourth of which the next pixel overwrites, but for the image's last pixel and the last that is picked.
+    // Words of four bytes, whose fourth byte the next pixel overwrites; except the image's last pixel, and the last one picked.
     const std::int64_t* place = places.data();
     std::uint8_t* out = picked.data();
     const std::ptrdiff_t words = range.most < pixels - 1 ? places.size() - 1 : 0;

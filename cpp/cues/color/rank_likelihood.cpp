@@ -36,7 +36,7 @@ public:
     double mean(std::ptrdiff_t ellipse, const float* table) const {
         const std::ptrdiff_t n = sampler_.size();
         const std::int32_t* cells = cells_.data() + n * ellipse;
-        double sums[4] = {};  // so that an addition needn't wait for the one before
+        double sums[4] = {};  // so that additions don't wait for each other
         std::ptrdiff_t k = 0;
         for (; k + 4 <= n; k += 4)
             for (std::ptrdiff_t lane = 0; lane < 4; ++lane)
@@ -50,7 +50,7 @@ private:
     std::vector<std::int32_t> cells_;
 };
 
-/// The mean of M distances by their shares, or the least of them.
+/// The mean of M distances, weighted by their shares, or the smallest.
 double combined(const double* distances, const ColorLook& look) {
     const Eigen::Index M = look.shares.size();
     if (look.nearest) return *std::min_element(distances, distances + M);

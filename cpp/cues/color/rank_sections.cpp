@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kLevels = 256;
 using Counts = std::array<std::int64_t, kLevels>;
 
-/// (17): how many samples have at most level l.
+/// (17): the number of samples with at most level l.
 Counts cumulative_counts(const std::uint8_t* levels, std::ptrdiff_t n) {
     std::array<std::uint32_t, kLevels> even{}, odd{};
     for (std::ptrdiff_t i = 0; i + 1 < n; i += 2) {

@@ -23,7 +23,7 @@ using Bytes = Pack<std::uint8_t, 2 * kLanes>;
 using Words = Pack<std::uint16_t, kLanes>;
 using Sums = Pack<std::uint32_t, kLanes / 2>;
 
-/// The places of some samples of a row: the upper left pixel of their squares, and the offset from there in subpixels.
+/// The places of some samples in a row: the top left pixels of their squares, and the offsets from these in subpixels.
 struct Places {
     std::int32_t x[kChunk], y[kChunk], right[kChunk], down[kChunk];
 };
@@ -45,7 +45,7 @@ void find_places(double start, double apart, double offset, int n, int size, int
     }
 }
 
-/// Pixels that a square covers, from the upper left one on, kSide + 1 a row.
+/// The pixels that a square covers, from the top left one on, kSide + 1 per row.
 struct Square {
     const std::uint8_t* pixels;
     std::ptrdiff_t stride;
@@ -79,7 +79,7 @@ TRICUE_INLINE void load_row(const std::uint8_t* pixels, Row<kSide>& row) {
     }
 }
 
-/// Sums of kSide + 1 rows, of which the first and the last count as far as the square covers them.
+/// Sums of kSide + 1 rows; the first and the last are weighted by the part that the square covers.
 template <int kSide>
 TRICUE_INLINE void sum_rows(const Square& square, std::int32_t down, Row<kSide>& sum) {
     Row<kSide> first, row, last;
@@ -104,7 +104,7 @@ TRICUE_INLINE void take_pixel(const Row<kSide>& row, Sums& numbers) {
     load(&lower, numbers);
 }
 
-/// The sum of kSide + 1 columns, like that of rows.
+/// The sum of kSide + 1 columns, as of rows.
 template <int kSide>
 TRICUE_INLINE void sum_columns(const Row<kSide>& row, std::int32_t right, Sums& sum) {
     const auto share = static_cast<std::uint32_t>(right),
@@ -126,7 +126,7 @@ TRICUE_INLINE void sum_columns(const Row<kSide>& row, std::int32_t right, Sums& 
     sum = first * rest + last * share + inner * static_cast<std::uint32_t>(kSubpixels);
 }
 
-/// A copy of a square at the end of memory; no bytes beyond the square are read.
+/// A copy of a square at the end of the image's memory, so that no bytes beyond it are read.
 template <int kSide>
 Square copy_square(const std::uint8_t* pixels, std::ptrdiff_t stride, std::uint8_t* copy) {
     for (int y = 0; y <= kSide; ++y)
@@ -166,7 +166,7 @@ void sum_samples(const ImageView& image, const Places& places, int n, int side, 
         sum_squares<kMaxSide>(image, places, n, sums);
 }
 
-/// A quotient is a half or at least 1 / (2 whole) away from one, which is more than both rounding errors.
+/// A quotient is exactly a half or at least 1 / (2 whole) away from it, which is more than both rounding errors.
 TRICUE_MULTIVERSION
 void divide(const std::uint32_t* __restrict sums, float whole, int n, std::uint8_t* __restrict bytes) {
     for (int x = 0; x < n; ++x) {
@@ -188,7 +188,7 @@ int find_side(const ImageView& image, const double* window, int rows, int column
     return std::min({side, image.rows - 1, image.cols - 1});
 }
 
-/// A window's samples: the upper left corner of the square at the window's center, and the steps from one sample to the next in a
+/// A window's samples: the top left corner of the square at the window's center, and the steps from one sample to the next in a
 /// row and in a column, pixels.
 struct TurnedGrid {
     int rows, columns, side;
@@ -211,10 +211,10 @@ TurnedGrid find_grid(const ImageView& image, const double* window, int rows, int
             window[5] / rows};
 }
 
-/// Begins to load the pixels that a row of samples, if it exists, reads and the rows before it didn't: a turned row's pixels lie
-/// in so many cache lines that hardware loads none ahead. Some neighboring samples share a cache line in each row of pixels; the
-/// new lines are the lowest ones, or the uppermost if the rows of samples go up. Few windows are turned by over 45 degrees: for
-/// these nothing is loaded ahead.
+/// Begins to load the pixels that a row of samples, if it exists, reads and the previous rows didn't: a turned row's pixels are
+/// in so many cache lines that the hardware doesn't prefetch them. Some neighboring samples share a cache line in each row of
+/// pixels; the new lines are the lowest ones, or the uppermost if the rows of samples go up. Few windows are turned by more than
+/// 45 degrees: for these nothing is loaded ahead.
 void prefetch_row(const ImageView& image, const TurnedGrid& grid, int y) {
     if (y >= grid.rows || std::abs(grid.right_x) <= std::abs(grid.right_y)) return;
     const int samples = std::max(static_cast<int>(kLinePixels / std::max(std::abs(grid.right_x), 1.0)), 1);

@@ -80,7 +80,7 @@ inline void blend_range(const Rows& rows, int begin, int end, float* blend) {
     }
 }
 
-/// The remainder is done by a last block that overlaps the one before, not one by one.
+/// The remainder is a last block that overlaps the previous one, instead of single numbers.
 template <int kRows>
 inline void blend_all(const Rows& rows, int n, float* blend) {
     const int whole = n / kBlock * kBlock;
@@ -118,7 +118,7 @@ inline void sum_samples(const Column* columns, int count, const float* blend, fl
     }
 }
 
-/// The same of gray pixels: the first number is one pixel's, the next the other's.
+/// The same for gray pixels: the first number is one pixel's, the next the other's.
 TRICUE_MULTIVERSION
 void sum_gray_columns(const Column* columns, int count, int each, const float* blend, float* sums) {
     for (int i = 0; i < count; ++i) {
@@ -143,7 +143,7 @@ void sum_columns(const Column* columns, int count, int each, const float* blend,
         sum_samples<kMaxReadings>(columns, count, blend, sums);
 }
 
-/// A quotient is a half or at least 1 / (12 kSubpixels²) away from one, which is more than both rounding errors.
+/// A quotient is exactly a half or at least 1 / (12 kSubpixels²) away from it, which is more than both rounding errors.
 TRICUE_MULTIVERSION
 void divide(const float* __restrict sums, float whole, int n, std::uint8_t* __restrict bytes) {
     for (int x = 0; x < n; ++x)

@@ -21,7 +21,7 @@ Vector shift_axis(const Vector& from, Eigen::Index outer, int bins, Eigen::Index
                 return (block * bins + std::clamp(place, 0, bins - 1)) * inner;
             };
             const auto mass = from.segment(at(bin), inner);
-            if ((mass == 0.0).all()) continue;  // as most bins of a head's histogram
+            if ((mass == 0.0).all()) continue;  // most bins of a head's histogram are empty
             const int place = bin + static_cast<int>(whole);
             to.segment(at(place), inner) += (1.0 - rest) * mass;
             to.segment(at(place + 1), inner) += rest * mass;

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: MIT OpenCV's connectedComponentsWithStats is slower than joining runs, and can't be used in a kernel:
-// with 32-bit labels it starts threads, and 16-bit labels are too few for a frame of 640x480.
+// SPDX-License-Identifier: MIT
+// OpenCV's connectedComponentsWithStats is slower than joining runs, and can't be used in a kernel: with 32-bit labels it starts
+// threads, and 16-bit labels are too few for a frame of 640x480.
 #include "cues/color/skin_blobs.hpp"
 
 #include <algorithm>

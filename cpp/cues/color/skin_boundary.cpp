@@ -11,7 +11,7 @@
 namespace tricue {
 namespace {
 
-// Bytes as long as possible: |a - b| as max - min needs no wider lanes.
+// In bytes as far as possible: |a - b| as max - min needs no wider lanes.
 inline std::uint8_t distance(std::uint8_t a, std::uint8_t b) {
     return static_cast<std::uint8_t>(std::max(a, b) - std::min(a, b));
 }

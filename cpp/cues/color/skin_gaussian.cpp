@@ -25,11 +25,11 @@ void require_arguments(VectorRef mean, StatesRef p) {
 }
 
 /// exp(x) for x <= 0, vectorizable with every instruction set: 2^k times a polynomial of the remainder, at most
-/// ln(2)/2. Relative error below 1e-6; 0 where exp(x) is below the normal floats, and for NaN: where a square and a product of finite
-/// numbers overflow.
+/// ln(2)/2. Relative error below 1e-6; 0 if exp(x) is below the normal floats, and for NaN, to which a square and a product of
+/// finite numbers may overflow.
 inline float exp_negative(float x) {
     const float clamped = x >= -87.0F ? x : -87.0F;
-    // 1.5 * 2^23: after adding it only the nearest integer is left.
+    // 1.5 * 2^23: adding it rounds to the nearest integer.
     constexpr float kRounder = 12582912.0F;
     const float shifted = clamped * 1.44269504F + kRounder;
     const float k = shifted - kRounder;

@@ -24,13 +24,13 @@ struct Sums {
     std::int64_t count = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
 };
 
-/// Of each column: how many pixels are skin, and the sum of their rows.
+/// For each column: the number of skin pixels, and the sum of their rows.
 template <typename Number>
 struct Columns {
     alignas(kBlock) std::array<Number, kTile> count, rows;
 };
 
-/// As long as possible in bytes: |a - b| as max - min, and a difference that is at least 0.
+/// In bytes as far as possible: |a - b| as max - min, and a difference limited to at least 0.
 inline std::uint8_t distance(std::uint8_t a, std::uint8_t b) {
     return static_cast<std::uint8_t>(std::max(a, b) - std::min(a, b));
 }
@@ -60,7 +60,7 @@ void mark_skin(const std::uint8_t* __restrict pixels, int n, const Bgr& referenc
             n, [=](std::ptrdiff_t x) { skin[x] = difference(delta(x), eta(x)) <= limit ? kSkin : 0; });
 }
 
-/// Adds a row, the row-th of its strip, to the strip's n columns, whole blocks, and counts its skin.
+/// Adds the row-th row of a strip to the strip's n columns, in whole blocks, and counts its skin pixels.
 TRICUE_MULTIVERSION
 void add_row(const std::uint8_t* skin, int n, std::uint8_t row, std::uint8_t* count, std::uint8_t* rows,
              int* found) {

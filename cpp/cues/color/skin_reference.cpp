@@ -31,7 +31,7 @@ Bgr skin_reference(const ImageView& patch) {
     std::vector<std::uint32_t> histogram(1 << 15);
     each_pixel(patch,
                [&](const std::uint8_t* pixel) { ++histogram[static_cast<std::size_t>(cell_of(pixel))]; });
-    // The fullest cell is searched among the pixels of the patch, which are far fewer than the cells of the histogram.
+    // The largest cell is searched for among the patch's pixels, which are far fewer than the histogram's cells.
     int mode = 0;
     std::uint64_t count = 0;
     each_pixel(patch, [&](const std::uint8_t* pixel) {

@@ -20,7 +20,7 @@ struct Limits {
 TRICUE_MULTIVERSION
 void keep_row(const float* __restrict depth, const float* __restrict across, int n, float down, float offset,
               const Limits& limits, float* __restrict kept) {
-    // Not a structured binding, which a lambda can't capture in C++17; clang refuses that.
+    // Not a structured binding: lambdas can't capture these in C++17, and clang refuses it.
     const float near = limits.near, far = limits.far, clear = limits.clear;
     for_overlapping_blocks(n, [=](std::ptrdiff_t u) {
         const float z = depth[u], h = z * (across[u] + down) + offset;
@@ -45,7 +45,7 @@ Floats above_floor(const DepthView& depth, VectorRef camera, VectorRef plane, co
     require_space(space);
     const Eigen::Array4f p = plane.cast<float>();
     const bool known = (plane != 0.0).any();
-    if (!known)  // 0 times a slope that float32 can't hold would be NaN
+    if (!known)  // 0 times a slope that overflows float32 would be NaN
         for (auto* slopes : {&across, &down}) std::fill(slopes->begin(), slopes->end(), 0.0f);
     for (float& x : across) x = p[0] * x;
     const Limits limits{static_cast<float>(space.near), static_cast<float>(space.far),

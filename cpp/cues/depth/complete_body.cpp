@@ -14,7 +14,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// Box, sides that are cut, and centroid minus the box's center, of one or several objects.
+/// Box, cut sides, and centroid minus the box's center, of one or several objects.
 struct JoinedObjects {
     RectangleState state;
     std::array<bool, 4> cut;
@@ -29,7 +29,7 @@ JoinedObjects one_object(const ObjectFeatures& objects, Index index) {
     return one;
 }
 
-/// The box around all of them as the camera sees them, at the depth z.
+/// The box around all pieces as the camera sees them, at depth z.
 JoinedObjects combine(const ObjectFeatures& objects, const std::vector<Index>& pieces, double z) {
     std::array<double, 2> first, last, centroid{};
     std::array<bool, 4> cut{};
@@ -68,7 +68,7 @@ double share_inside(const RectangleState& state, VectorRef expected, double regi
     return share;
 }
 
-/// How far a rectangle is from the mean size.
+/// How far a rectangle's size is from the mean size.
 double misfit(const RectangleState& state, VectorRef size) {
     const double width = std::log(state[3] / size[0]), height = std::log(state[4] / size[1]);
     return width * width + height * height;

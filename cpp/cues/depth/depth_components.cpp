@@ -17,7 +17,7 @@ namespace {
 
 using Counts = std::vector<std::int32_t>;
 
-/// Neighbors in a row are mostly of one level: they count in different tables, so that they don't wait for each other.
+/// Neighbors in a row mostly have the same level: they are counted in different tables, so that they don't wait for each other.
 constexpr std::size_t kLanes = 4;
 constexpr int kMaxSignature = 4096;
 
@@ -35,7 +35,7 @@ void find_levels(const float* __restrict depth, int n, double near, double scale
     }
 }
 
-/// Where the runs of a row begin and end. Returns how many there are.
+/// The starts and ends of a row's runs. Returns the number of runs.
 TRICUE_MULTIVERSION
 std::ptrdiff_t list_runs(const BitImage& labeled, const BitImage& changes, int y, bool single,
                          std::int32_t* begins, std::int32_t* ends) {
@@ -139,7 +139,7 @@ struct ComponentCounts {
     Component box;
     Counts levels, columns, rows;
     std::array<double, kLanes> meters{};
-    std::int64_t measured = 0;  ///< pixels; by level only after finish()
+    std::int64_t measured = 0;  ///< pixels; counted by level only after finish()
 
     ComponentCounts(const Component& component, int level_count)
         : box(component),
@@ -178,7 +178,7 @@ struct ComponentCounts {
         }
     }
 
-    /// Completes the counts of columns and levels. Returns how many pixels were measured.
+    /// Completes the counts of columns and levels. Returns the number of measured pixels.
     std::int64_t finish() {
         std::partial_sum(columns.begin(), columns.end(), columns.begin());
         columns.pop_back();

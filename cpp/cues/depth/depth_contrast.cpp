@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: MIT A rectangle is sampled on a grid: its columns and rows are found once, not for each sample. All
-// depths are gathered before they are used, so that the loops over them are vectorized; and those of several rectangles together,
-// because a vector that has just been written number by number can't be loaded yet.
+// SPDX-License-Identifier: MIT
+// A rectangle is sampled on a grid: its columns and rows are found once, not for each sample. All depths are gathered before they
+// are used, so that the loops over them are vectorized. Several rectangles are gathered together, because a vector that has just
+// been written number by number can't be loaded yet.
 #include "cues/depth/depth_contrast.hpp"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ std::size_t places_around(const Places& places) {
     return 4 * static_cast<std::size_t>(places.along);
 }
 
-/// Depths, 0 outside the image, and more zeros, as RelativeHistogram wants them.
+/// Depths, 0 outside the image, padded with zeros as RelativeHistogram needs it.
 struct DepthSamples {
     explicit DepthSamples(const Places& places)
         : inside(RelativeHistogram::padded(places_inside(places))),
@@ -58,7 +59,7 @@ Rectangle project(VectorRef camera, const double* state) {
             0.5 * (state[3] * per_x), 0.5 * (state[4] * per_y), z};
 }
 
-/// Pixels of places along one axis: floor(center + half u), -1 where the image has none.
+/// Pixels of places along one axis: floor(center + half u); -1 outside the image.
 TRICUE_MULTIVERSION
 void find_pixels(const double* __restrict offsets, std::ptrdiff_t n, double center, double half, double size,
                  std::int32_t* __restrict pixel) {

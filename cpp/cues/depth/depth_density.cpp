@@ -38,7 +38,7 @@ Vector mirrored(const Vector& levels, Eigen::Index radius) {
     Vector longer(count + 2 * radius);
     longer.segment(radius, count) = levels;
     for (Eigen::Index i = 0; i < radius; ++i) {
-        const Eigen::Index place = i % period;  // from the end, as if the levels went on
+        const Eigen::Index place = i % period;  // from the end; mirrored levels are periodic
         const Eigen::Index mirror = place < count ? place : period - 1 - place;
         longer[radius - 1 - i] = levels[mirror];
         longer[radius + count + i] = levels[count - 1 - mirror];

@@ -45,7 +45,7 @@ Labels depth_edges(const DepthView& depth, double gap, double slope) {
     std::array<std::vector<float>, 3> nearest;  // of three rows, in turn
     padded.fill(std::vector<float>(n + 2, kUnmeasured));
     nearest.fill(std::vector<float>(n, kUnmeasured));
-    // A row ahead: numbers that have just been written can't be loaded yet, shifted by one.
+    // A row ahead: numbers that have just been written can't be loaded yet at an offset of one, as stores can't be forwarded.
     const auto pad = [&](int y) {
         if (y < depth.rows) pad_row(depth.row(y), depth.cols, padded[static_cast<std::size_t>(y) % 2].data());
     };

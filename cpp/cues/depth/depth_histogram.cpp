@@ -14,11 +14,11 @@
 namespace tricue {
 namespace {
 
-// Neighbors mostly share a level, and reading a count that was just written is slow: so neighbors count in
+// Neighbors mostly share a level, and reading a count that was just written is slow, so neighbors are counted in
 // different tables.
 constexpr std::size_t kTables = 4;
 
-/// Whether each pixel of a row is counted, and its level; `levels.count` for what isn't.
+/// Whether each pixel of a row is counted, and its level; `levels.count` for pixels that aren't.
 TRICUE_MULTIVERSION
 void find_levels(const float* __restrict depth, const std::uint8_t* __restrict mask, int n,
                  const DepthLevels& levels, std::uint8_t* __restrict counted,

@@ -12,7 +12,7 @@ namespace tricue {
 namespace {
 
 constexpr float kClutter = 0.1F;
-constexpr float kMaxExponent = 80.0F;  // of a posterior below 1e-33; more would overflow
+constexpr float kMaxExponent = 80.0F;  // there the posterior is below 1e-33; larger exponents would overflow
 
 /// exp(x) for x from 0 to kMaxExponent: 2^k times Cephes' polynomial of the remainder, at most ln(2) / 2. Vectorizable with every
 /// instruction set.
@@ -29,7 +29,7 @@ inline float exp_positive(float x) {
     return series * power;
 }
 
-/// ((z - expected) / sigma)² / 2 of what is measured, else 0; and whether it is nearer than `near`.
+/// ((z - expected) / sigma)² / 2 where depth is measured, else 0; and whether it is nearer than `near`.
 TRICUE_MULTIVERSION
 void measure_deviations(const float* __restrict depths, double expected, double per_sigma, double near,
                         Eigen::Index n, float* __restrict exponents, std::uint8_t* __restrict nearer) {

@@ -19,7 +19,7 @@ void require_dividers(VectorRef dividers) {
         if (dividers[k] < dividers[k - 1]) refuse("dividers", "ascending numbers", dividers[k]);
 }
 
-/// Writes each label over those before, as the dividers ascend: a depth keeps that of the last divider it has reached.
+/// Overwrites labels in the order of the dividers, which ascend: a depth keeps the label of the last divider that it reaches.
 TRICUE_MULTIVERSION
 void divide_row(const float* __restrict depth, const std::uint8_t* __restrict mask, int n,
                 const float* __restrict dividers, int divisions, std::uint8_t* __restrict labels) {

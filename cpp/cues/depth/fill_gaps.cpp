@@ -24,7 +24,7 @@ void copy_row(const float* __restrict depth, int n, float missing, float* __rest
     for_overlapping_blocks(n, [=](std::ptrdiff_t x) { copy[x] = has_depth(depth[x]) ? depth[x] : missing; });
 }
 
-/// A depth image with a border of one pixel, infinite there and where nothing was measured: those are never the nearest.
+/// A depth image with a border of one pixel; infinite there and where nothing was measured, so that those are never the nearest.
 struct PaddedDepth {
     int rows, cols;
     std::vector<float> pixels;
@@ -80,7 +80,7 @@ void fill_row(const float* __restrict above, const float* __restrict here, const
                     f = below[x - 1], g = below[x], h = below[x + 1];
         const float nearest =
             smaller(smaller(smaller(a, b), smaller(c, d)), smaller(smaller(e, f), smaller(g, h)));
-        // Finite even if the square overflows: pixels without a measurement are never on the surface.
+        // Finite even if the square overflows, so that pixels without a measurement are never on the surface.
         const float reach = smaller(nearest + (gap + slope * (nearest * nearest)), kMaxFloat);
         const auto value = [reach](float z) { return z <= reach ? z : 0.0f; };
         const auto vote = [reach](float z) { return z <= reach ? 1.0f : 0.0f; };
@@ -92,7 +92,7 @@ void fill_row(const float* __restrict above, const float* __restrict here, const
     });
 }
 
-/// One pass, in place; rows that are still read are copied first.
+/// One pass, in place; rows that will still be read are copied first.
 void fill_pass(PaddedDepth& image, float gap, float slope) {
     const auto width = static_cast<std::size_t>(image.cols) + 2;
     std::vector<float> above(width, kUnmeasured), here(width);

@@ -14,7 +14,7 @@ DepthView view_of(const Floats& image) {
     return {image.data(), static_cast<int>(image.rows()), static_cast<int>(image.cols()), image.cols()};
 }
 
-/// A step may be as large as an int: sums and products of it don't fit one.
+/// A step may be as large as the largest int, so that sums and products of it don't fit an int.
 Floats thin(const DepthView& depth, std::ptrdiff_t step) {
     constexpr std::ptrdiff_t kAhead = 4;  // rows
     Floats thinned((depth.rows + step - 1) / step, (depth.cols + step - 1) / step);
@@ -33,7 +33,7 @@ struct Line {
     int size;
 
     bool has_any_depth() const {
-        if (size > 0 && has_depth(first[size / 2 * step])) return true;  // mostly
+        if (size > 0 && has_depth(first[size / 2 * step])) return true;  // usually true
         for (int i = 0; i < size; ++i)
             if (has_depth(first[i * step])) return true;
         return false;
@@ -44,7 +44,7 @@ struct Span {
     int first, end;
 };
 
-/// The first and the end of the lines with a depth; where one of them is farther than `share` from the image's, the image's.
+/// The start and end of the lines with depth; if one is farther than `share` from the image's edge, that edge instead.
 template <typename LineAt>
 Span measured_span(int count, double share, LineAt line) {
     Span span{0, count};

@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kRefits = 3;
-constexpr double kMinSineSquared = 1e-4;  // square of the least sine between two edges of a triple
+constexpr double kMinSineSquared = 1e-4;  // square of the smallest sine between two edges of a triple
 constexpr double kMinViewSine = 1e-3;
 constexpr std::ptrdiff_t kBlock = 512;
 
@@ -102,7 +102,7 @@ Vector3d point_at(const DepthView& depth, const Rays& rays, std::int64_t index) 
     return {rays.x[static_cast<std::size_t>(u)] * z, rays.y[static_cast<std::size_t>(v)] * z, z};
 }
 
-/// The plane through a point, oriented so that the camera is above it; nothing if it isn't level, or is visible edge-on.
+/// The plane through a point, oriented so that the camera is above it; nothing if it isn't level enough, or is seen edge-on.
 std::optional<Plane> level_plane(const Vector3d& normal, const Vector3d& point, const Level& level) {
     Plane plane{normal, -dot(normal, point)};
     if (plane.d < 0.0) plane = {-plane.n, -plane.d};
@@ -133,7 +133,7 @@ Count count_block(const float* __restrict x, const float* __restrict y, const fl
     return {within, below};
 }
 
-/// Stops early when the score can't exceed `beat` any more.
+/// Stops early once the score can't exceed `beat` anymore.
 Count count_points(const Points& points, const Slab& slab, int beat) {
     Count count;
     for (std::ptrdiff_t i = 0; i < points.size(); i += kBlock) {

@@ -16,7 +16,7 @@ void measure_row(const float* __restrict depth, const double* __restrict across,
     for (int u = 0; u < n; ++u) distance[u] = along_ground(depth[u], down + across[u], near, far);
 }
 
-/// In the twin's order.
+/// Added up in the twin's order.
 double norm(VectorRef v) {
     return std::sqrt((v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]);
 }
@@ -37,7 +37,7 @@ GroundView::GroundView(int rows, int cols, VectorRef camera, VectorRef up, doubl
     if (!(std::abs(length - 1.0) <= 1e-6)) refuse("up", "a vector of length 1", length);
     require_limits(near_, far_);
     Vector ahead(3);
-    // Not 1 - up_z²: of a camera that looks straight down, little more would be left than the error of up's length.
+    // Not 1 - up_z²: for a camera that looks straight down, little but the error of up's length would be left.
     ahead << -up[2] * up[0], -up[2] * up[1], up[0] * up[0] + up[1] * up[1];
     const double level = norm(ahead);
     if (!(level > 1e-6)) refuse("up", "a direction across the view", "one along it");

@@ -12,7 +12,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// The total variation distance of an object's distributions from the target's, their mean, in [0, 1].
+/// The mean total variation distance of an object's distributions from the target's, in [0, 1].
 double signature_distance(const ObjectFeatures& objects, Index index, VectorRef signature) {
     const Index bins = objects.columns.cols();
     double sum = 0.0;

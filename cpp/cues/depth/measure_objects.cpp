@@ -42,7 +42,7 @@ Object to_metric(const ObjectTable& objects, Index i, VectorRef camera) {
 
 /// The strip from the lower edge of an object down to the floor, at the object's depth; 0 where it doesn't stand there.
 ///
-/// If the camera is tilted, an upright object has one distance along the ground, not one depth: its feet are farther.
+/// For a tilted camera, an upright object has a single distance along the ground, but its feet have another depth.
 double strip_to_floor(const Object& object, const Ground& ground) {
     using Vector3 = Eigen::Vector3d;
     const Vector3 up = ground.plane.head(3).matrix(), ahead = Vector3::UnitZ() - up.z() * up;

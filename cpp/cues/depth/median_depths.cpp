@@ -20,7 +20,7 @@ constexpr double kMadToSigma = 1.4826;
 constexpr int kMaxSamples = 1024;
 constexpr int kBins = 512;  // between the smallest and the largest number, in the search for the median
 constexpr float kLast = kBins - 1;
-// Neighbors mostly share a bin, and reading a count that was just written is slow: so they count in different tables.
+// Neighbors mostly share a bin, and reading a count that was just written is slow, so they are counted in different tables.
 constexpr std::size_t kTables = 4;
 
 using Numbers = std::vector<float>;
@@ -52,9 +52,9 @@ std::array<std::uint32_t, kBins> count_bins(const std::vector<std::uint16_t>& bi
     return counts;
 }
 
-/// The median of numbers that aren't under `low`, and mostly not above `high`: of an even count the mean of both in the middle.
+/// The median of numbers that aren't below `low`, and mostly not above `high`; of an even count, the mean of the middle two.
 ///
-/// Bins between low and high are in the order of the numbers, so that only those with the middle have to be sorted.
+/// Numbers are first distributed over bins between low and high, so that only those in the middle's bin have to be sorted.
 float find_median(const Numbers& numbers, float low, float high) {
     const std::size_t n = numbers.size(), first = (n - 1) / 2, second = n / 2;
     const float per_bin = static_cast<float>(kBins) / (high - low);

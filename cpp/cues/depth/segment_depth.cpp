@@ -24,11 +24,11 @@
 namespace tricue {
 namespace {
 
-constexpr int kBins = 16;                 ///< of an object's distributions
+constexpr int kBins = 16;                 ///< in an object's distributions over columns and rows
 constexpr Eigen::Index kMaxMinima = 254;  // labels have 8 bits
 
 /// The distances of a row; and a copy with one more float at either end, infinite where nothing was measured. Returns whether
-/// anything was.
+/// anything was measured.
 TRICUE_MULTIVERSION
 bool read_ground_row(const float* __restrict depth, const double* __restrict across, int n, double down,
                      float near, float far, float* __restrict distance, float* __restrict padded) {
@@ -54,7 +54,7 @@ bool read_depth_row(const float* __restrict depth, int n, float* __restrict dist
     return any != 0;
 }
 
-/// Measured pixels that are no edge.
+/// Marks measured pixels that aren't edges.
 TRICUE_MULTIVERSION
 void mark_row(const float* __restrict distance, const float* __restrict above, const float* __restrict here,
               const float* __restrict below, int n, float gap, float slope, std::uint8_t* __restrict mask) {
@@ -64,7 +64,7 @@ void mark_row(const float* __restrict distance, const float* __restrict above, c
     });
 }
 
-/// Those that have changed.
+/// Keeps only pixels that have changed.
 TRICUE_MULTIVERSION
 void keep_changed(const float* __restrict depth, const float* __restrict before, int n, float noise,
                   float slope, std::uint8_t* __restrict mask) {
@@ -97,8 +97,8 @@ public:
         for (int y = region.y0 - 1; y <= region.y0; ++y) reduce(y);
     }
 
-    /// Moves on to the next row, y. Reads one row further, because numbers that have just been written can't be loaded yet,
-    /// shifted by one.
+    /// Advances to the next row, y. Reads one row further, because numbers that have just been written can't be loaded yet
+    /// at an offset of one.
     void next(int y) {
         read(y + 2);
         reduce(y + 1);
@@ -191,7 +191,7 @@ Vector find_dividers(const Vector& histogram, const Divisions& divisions) {
     return dividers;
 }
 
-/// Marks the sides at the edge of what was measured.
+/// Marks the sides at the edge of the measured region.
 void cut_at_edge(StatesRef table, const Region& measured, int border, Flags& cut) {
     for (Eigen::Index i = 0; i < table.rows(); ++i) {
         const double x = table(i, 0), y = table(i, 1), w = table(i, 2), h = table(i, 3);

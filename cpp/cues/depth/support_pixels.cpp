@@ -22,7 +22,7 @@ constexpr double kMaxPlaneShare = 0.5, kMinSupportShare = 0.15;
 constexpr int kMinVotes = 60;
 constexpr int kThinning = 2;
 
-/// Rows or columns.
+/// A range of rows or columns.
 struct Range {
     int begin, end;
 };
@@ -91,7 +91,7 @@ Labels mark_plane(const Floats& depths, const Vector& lens, const Vector& plane,
     return on_plane;
 }
 
-/// Whether more than half of what is measured in a part is on the plane.
+/// Whether more than half of the measured pixels in a part are on the plane.
 bool is_mostly_on_plane(const Floats& depths, const Labels& on_plane, const Part& part) {
     int measured = 0, within = 0;
     for (int i = part.rows.begin; i < part.rows.end; ++i)

@@ -22,7 +22,7 @@ void solve_row(const Constraints& row, float min_angle, float min_contrast, floa
     const float *g_ts = h_ys + row.stride, *h_ts = g_ts + row.stride;
     float *us = out.u, *vs = out.v;
     float *angles = out.angle, *contrasts = out.contrast;
-    // rows of eight arrays: more than the compiler would compare before the loop
+    // eight arrays: too many for the compiler to check for overlap before the loop
     TRICUE_INDEPENDENT
     for (int x = 0; x < n; ++x) {
         const float g_x = g_xs[x], g_y = g_ys[x], h_x = g_y, h_y = h_ys[x];

@@ -19,7 +19,7 @@
 namespace tricue {
 namespace {
 
-constexpr float kMaxStep = 2;  // pixels along x and y, at a level that isn't the last
+constexpr float kMaxStep = 2;  // pixels along x and y, at all levels but the last
 constexpr float kMinDivisor = std::numeric_limits<float>::min();
 
 /// The limits of valid flow at the last level.
@@ -60,14 +60,14 @@ struct StepRow {
     int side;
 };
 
-/// n is a number of blocks. kSide 0 is any.
+/// n is a number of blocks. kSide is the window's side, or 0 for any.
 template <int kSide>
 TRICUE_INLINE void add_steps_by(const StepRow& row, float damping, int n, float* us, float* vs) {
     const StepRow from = row;
     for (int x0 = 0; x0 < n; x0 += kRowBlock) {
         MeanBlock sums;
         average_across(from.columns, kSide > 0 ? kSide : from.side, x0, sums);
-        // no row is another
+        // the rows don't overlap
         TRICUE_INDEPENDENT
         for (int x = 0; x < kRowBlock; ++x) {
             Step step;
@@ -96,7 +96,7 @@ TRICUE_INLINE void finish_block(const StepRow& row, float damping, const Limits&
     average_across(row.columns, kSide > 0 ? kSide : row.side, x0, sums);
     const float *u0 = row.u + x0, *v0 = row.v + x0;
     float *us = out.u + x0, *vs = out.v + x0, *angles = out.angle + x0, *contrasts = out.contrast + x0;
-    // no row is another
+    // the rows don't overlap
     TRICUE_INDEPENDENT
     for (int x = 0; x < count; ++x) {
         Step step;
@@ -114,7 +114,7 @@ TRICUE_INLINE void finish_block(const StepRow& row, float damping, const Limits&
     }
 }
 
-/// By blocks, of which the last may begin earlier, since the planes have no room beyond their rows.
+/// In blocks; the last one may begin earlier, because the planes have no room beyond their rows.
 template <int kSide>
 TRICUE_INLINE void finish_row_by(const StepRow& row, float damping, const Limits& limits, int n,
                                  const FlowRow& to) {
@@ -135,7 +135,7 @@ void finish_row(const StepRow& row, float damping, const Limits& limits, int n, 
 }
 
 /// Calls done(y, row) for each row y of the guess's area, after compare(y, here, n, out) has compared row y of `now` with the
-/// frame before.
+/// previous frame.
 template <typename Compare, typename Done>
 void measure(const ImageView& now, double sigma, int pool, FlowGuess& guess, const Compare& compare,
              const Done& done) {
@@ -197,8 +197,8 @@ void measure_warped(const QuadImage& before, const ImageView& now, double sigma,
 
 /// The regions of each level, the first level first.
 struct PyramidPlan {
-    std::vector<Region> areas;   ///< that are measured
-    std::vector<Region> warped;  ///< the pixels to which the flow may lead from there
+    std::vector<Region> areas;   ///< the regions that are measured
+    std::vector<Region> warped;  ///< the pixels to which the flow may lead from these
     std::vector<Region> stored;  ///< of coarser levels: with those that the next level and interpolation read
 };
 
@@ -217,11 +217,11 @@ PyramidPlan plan_levels(const ImageView& frame, int levels, int margin, const Re
         plan.areas.push_back(coarser_region(plan.areas.back(), rows, cols));
         sizes.push_back({nullptr, rows, cols, 1, 0});
     }
-    int guessed = 0;  // how far a guess may lead, pixels
+    int guessed = 0;  // largest displacement of a guess, pixels
     plan.warped.resize(sizes.size());
     plan.stored.resize(sizes.size());
     for (std::size_t k = sizes.size(); k-- > 0;) {
-        plan.warped[k] = expanded(plan.areas[k], margin + guessed + 1, sizes[k]);  // one for rounding
+        plan.warped[k] = expanded(plan.areas[k], margin + guessed + 1, sizes[k]);  // 1 for rounding
         Region& stored = plan.stored[k] = expanded(plan.warped[k], 1, sizes[k]);
         if (k + 1 < sizes.size()) {
             const Region source = finer_source(plan.stored[k + 1], sizes[k].rows, sizes[k].cols);

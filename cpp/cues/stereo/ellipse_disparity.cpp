@@ -23,7 +23,7 @@ struct Values {
     const float* end() const { return data + count; }
 };
 
-/// Moves the disparities that exist to the front of `found`; returns how many there are.
+/// Moves the pixels' disparities that aren't NaN to the front of `found`; returns their number.
 TRICUE_MULTIVERSION
 std::size_t pick_matched(float* found, std::size_t n, bool subpixel) {
     std::size_t matched = 0;
@@ -44,7 +44,7 @@ double take_median(const Values& values, float low, float high) {
     std::array<std::uint32_t, kBuckets> counts{};
     for (const float value : values) ++counts[bucket_of(value)];
 
-    const std::size_t upper = values.count / 2, lower = (values.count - 1) / 2;  // places of the middle two
+    const std::size_t upper = values.count / 2, lower = (values.count - 1) / 2;  // indices of the middle two
     std::size_t first = 0, before = 0;
     while (before + counts[first] <= lower) before += counts[first++];
     std::size_t last = first, until = before + counts[first];

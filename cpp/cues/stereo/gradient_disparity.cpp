@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kMaxSide = 16384;
 constexpr double kMaxCoarseStep = 1.5;  // the most that a coarse level changes, in its own pixels
-constexpr float kRidge = 0.01F;         // (gray levels / px²)²: with less contrast d0 stays
-constexpr float kMinPower = 1e-6F;      // (gray levels / px)²: no power at all leaves no residual
+constexpr float kRidge = 0.01F;         // (gray levels / px²)²: with less contrast, d0 hardly changes
+constexpr float kMinPower = 1e-6F;      // (gray levels / px)²: makes the residual 0 without any power
 /// Pixels that are measured at once, so that the coarser levels stay in the cache.
 constexpr int kBandPixels = 65536;
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
@@ -50,7 +50,7 @@ void require_arguments(const ImageView& left, const ImageView& right, double pre
     require_between(matching.max_step, 0.0, kInfinity, "max_step", positive);
 }
 
-/// n is a number of blocks. kSide 0 is any.
+/// n is a number of blocks. kSide is the window's side, or 0 for any.
 template <int kSide>
 TRICUE_INLINE void refine_by(const WindowColumns& row, const float* __restrict offset, int n,
                              float* __restrict next) {
@@ -82,7 +82,7 @@ struct Limits {
     float base, min_reliability, max_residual, max_step;
 };
 
-/// Where a row of the result goes.
+/// The destination of a row of the result.
 struct ResultRow {
     float *disparity, *reliability;
 };
@@ -113,7 +113,7 @@ TRICUE_INLINE void finalize_block(const WindowColumns& columns, const WarpedRow&
     }
 }
 
-/// By blocks, of which the last may begin earlier, since the result has no room beyond its rows.
+/// In blocks; the last one may begin earlier, because the result has no room beyond its rows.
 template <int kSide>
 TRICUE_INLINE void finalize_by(const WindowColumns& row, const WarpedRow& known, const Limits& limits, int n,
                                const ResultRow& to) {
@@ -147,7 +147,7 @@ Region bounding_region(const Region& one, const Region& other) {
             std::max(one.y1, other.y1)};
 }
 
-/// The regions that each level has to measure, the finest level first.
+/// The regions that must be measured at each level, the finest level first.
 std::vector<Level> plan_levels(const Region& visible, int rows, int cols, double predicted, int reach,
                                const GradientMatching& matching) {
     std::vector<Level> levels;
@@ -194,7 +194,7 @@ Limits limits_of(const GradientMatching& matching, int base) {
             static_cast<float>(matching.max_step)};
 }
 
-/// Measures `visible`, a part of the left image, not empty; result(y) is where its rows go.
+/// Measures `visible`, a nonempty part of the left image; result(y) is the destination of its rows.
 template <typename Result>
 void measure(const ImageView& left, const ImageView& right, double predicted,
              const GradientMatching& matching, const Region& visible, const Result& result) {

@@ -24,7 +24,7 @@ Region to_pixels(const Region& cells, int step) {
     return {times(cells.x0), times(cells.y0), times(cells.x1), times(cells.y1)};
 }
 
-/// Clears the cells outside the image, which may have got the head's disparity from those inside.
+/// Clears the cells outside the image, to which those inside may have spread the head's disparity.
 void clear_outside(const Region& region, int rows, int cols, CellMask& coherent) {
     const auto before = [](int begin, Eigen::Index n) {
         return std::clamp<Eigen::Index>(-Eigen::Index{begin}, 0, n);
