@@ -25,7 +25,7 @@ def target_pixels(
     threshold: float = 0.5,
     alternatives: Sequence[Floats] | None = None,
 ) -> tuple[NDArray[np.uint8], Plane]:
-    """Looks up each cue's likelihood ratio, and multiplies the ratios by the prior's odds."""
+    """Looks up each cue's likelihood ratio, and multiplies the ratios by the prior."""
     _require(planes, densities, ranges, threshold)
     if alternatives is not None:
         _require_alternatives(alternatives, densities)
