@@ -22,7 +22,7 @@ namespace tricue {
 /// @param mask uint8 (H, W): pixels where it is 0 do not count; None for all
 /// @returns float64 (bins,)
 /// @throws std::invalid_argument on weights or a mask of another shape, corners that are not finite, or an invalid range
-/// Source: Okada, Shirai, Miura 1996, section 4.2; the mask, ours, excludes pixels nearer than the target.
+/// Source: Okada, Shirai, Miura 1996, section 4.2; the mask is ours.
 Vector weighted_histogram(const PlaneView& values, const PlaneView& weights, const Rectangle& region,
                           const ValueRange& range, const ImageView& mask);
 

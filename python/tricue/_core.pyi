@@ -3501,8 +3501,7 @@ def weighted_histogram(
         ValueError: on weights or a mask of another shape, corners that are not finite, or an invalid
             range
 
-    Source: Okada, Shirai, Miura 1996, section 4.2; the mask, ours, excludes pixels nearer than the
-    target.
+    Source: Okada, Shirai, Miura 1996, section 4.2; the mask is ours.
     """
 
 @type_check_only
