@@ -1,19 +1,17 @@
 # SPDX-License-Identifier: MIT
 """Targets distributed over several processes."""
 
-from contextlib import suppress
-
 from tricue.camera.box import BoxLike
 from tricue.camera.shared_frame import SharedFrame
-from tricue.errors import WorkerEndedError
 from tricue.track.base.track import Track, Tracker
 from tricue.track.multi.frame_memory import FrameMemory
 from tricue.track.multi.remote_targets import RemoteTargets
+from tricue.track.multi.target_group import FollowedTargets, TargetGroup
 from tricue.track.multi.targets import Targets
 
 
-class DistributedTargets:
-    """Like ``Targets``, but some are in this process and the others in workers.
+class DistributedTargets(FollowedTargets):
+    """Targets of which some are in this process and the others in workers.
 
     A new target goes to the process with the fewest. A worker is started for it if all processes have targets
     and there are fewer than ``processes``, which includes this one. If a worker was killed, there is a
@@ -29,62 +27,49 @@ class DistributedTargets:
 
     @property
     def ids(self) -> set[int]:
-        """The targets' ids."""
         return set[int]().union(*(each.ids for each in self._parts))
 
     def add(self, target: int, tracker: Tracker, frame: SharedFrame, box: BoxLike | None) -> Track:
-        """Start a tracker; it is kept if that succeeds."""
         return self._emptiest().add(target, tracker, frame, box)
 
     def put(self, target: int, tracker: Tracker) -> None:
-        """Continue with a tracker that was started elsewhere."""
         self._emptiest().put(target, tracker)
 
     def remove(self, target: int) -> None:
-        """Stop following a target."""
         next(each for each in self._parts if target in each.ids).remove(target)
 
     def update(self, number: int, frame: SharedFrame) -> dict[int, Track]:
-        """Follow all targets into a frame. After an error, :meth:`undo` reverts those that succeeded."""
-        asked = [each for each in self._workers if each.ids]
-        for worker in asked:
+        busy = [each for each in self._workers if each.ids]
+        for worker in busy:
             worker.wake()
-        layout = self._memory.write(frame) if asked else None
-        for worker in asked:
-            assert layout is not None
-            worker.start_update(number, layout)
+        if busy:
+            layout = self._memory.write(frame)
+            for worker in busy:
+                worker.start_update(number, layout)
         tracks = self._here.update(number, frame)
-        for worker in asked:
+        for worker in busy:
             tracks |= worker.finish_update(frame)
         return tracks
 
     def undo(self, number: int) -> None:
         """Undo an update, if it was the last one. Targets of a worker that has ended are gone."""
-        self._here.undo(number)
-        for worker in self._workers:
-            with suppress(WorkerEndedError):  # ``ids`` shows it
-                if not worker.ended:
-                    worker.undo(number)
+        for each in self._parts:
+            each.undo(number)
 
     def copies(self) -> dict[int, Tracker]:
-        """Copies of the trackers."""
-        found = self._here.copies()
-        for worker in self._workers:
-            found |= worker.copies() if worker.ids else {}
-        return found
+        return {target: tracker for each in self._parts for target, tracker in each.copies().items()}
 
     def close(self) -> None:
         """Stop following all targets, and end the workers."""
-        self._here.close()
-        for worker in self._workers:
-            worker.close()
+        for each in self._parts:
+            each.close()
         self._workers = []
 
     @property
-    def _parts(self) -> "list[Targets | RemoteTargets]":
+    def _parts(self) -> list[TargetGroup]:
         return [self._here, *self._workers]
 
-    def _emptiest(self) -> Targets | RemoteTargets:
+    def _emptiest(self) -> TargetGroup:
         self._workers = [each for each in self._workers if not each.ended]
         if len(self._workers) < self._processes - 1 and all(each.ids for each in self._parts):
             self._workers.append(RemoteTargets(self._memory))

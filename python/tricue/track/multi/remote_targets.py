@@ -8,6 +8,7 @@ import socket
 import subprocess
 import sys
 import weakref
+from contextlib import suppress
 from multiprocessing.connection import Connection
 from typing import Any
 
@@ -17,19 +18,20 @@ from tricue.errors import WorkerEndedError
 from tricue.track.base.track import Track, Tracker
 from tricue.track.multi.frame_memory import FrameMemory, Layout
 from tricue.track.multi.messages import WAKE, from_plain, receive, send, unpicklable
+from tricue.track.multi.target_group import TargetGroup
 
 PATIENCE = 5.0  # seconds that a worker gets to end by itself
 
 
-class RemoteTargets:
-    """Like ``Targets``, in another process, which ends with this object and with this process.
+class RemoteTargets(TargetGroup):
+    """Targets in another process, which ends with this object and with this process.
 
     memory: of the frames. The process runs a module, not this process's script, so the script needs no
     ``__main__`` guard.
     """
 
     def __init__(self, memory: FrameMemory) -> None:
-        self.ids: set[int] = set()
+        self._ids: set[int] = set()
         self.ended = False
         self._memory = memory
         self._number = 0  # of the last request
@@ -45,10 +47,13 @@ class RemoteTargets:
         self._connection = Connection(mine.detach())
         self._answers = select.poll()
         self._answers.register(self._connection.fileno(), select.POLLIN)
-        self.close = weakref.finalize(self, _end, self._connection, self._process, self._owner)
+        self._end_process = weakref.finalize(self, _end, self._connection, self._process, self._owner)
+
+    @property
+    def ids(self) -> set[int]:
+        return set(self._ids)
 
     def add(self, target: int, tracker: Tracker, frame: SharedFrame, box: BoxLike | None) -> Track:
-        """Start a tracker; it is kept if that succeeds."""
         plain = None if box is None else as_box(box)  # it can't unpickle classes of the user's script
         try:
             self._send("add", target, tracker, self._memory.write(frame), plain)
@@ -58,18 +63,16 @@ class RemoteTargets:
         except BaseException:  # the worker may have succeeded anyway
             self._ask("remove", target)
             raise
-        self.ids.add(target)
+        self._ids.add(target)
         return track
 
     def put(self, target: int, tracker: Tracker) -> None:
-        """Continue with a tracker that was started elsewhere."""
         self._ask("put", target, tracker)
-        self.ids.add(target)
+        self._ids.add(target)
 
     def remove(self, target: int) -> None:
-        """Stop following a target."""
         self._ask("remove", target)
-        self.ids.remove(target)
+        self._ids.remove(target)
 
     def wake(self) -> None:
         """Announce an update, so that the other process wakes up while this one writes the frame."""
@@ -84,13 +87,18 @@ class RemoteTargets:
         return from_plain(self._receive_seen(frame))
 
     def undo(self, number: int) -> None:
-        """Undo an update, whether it is running, finished, or never started."""
-        self._ask("undo", number)
+        """Undo an update, whether it is running, finished, or never started; nothing if the process ended."""
+        with suppress(WorkerEndedError):  # ``ids`` shows it
+            if not self.ended:
+                self._ask("undo", number)
 
     def copies(self) -> dict[int, Tracker]:
-        """Copies of the trackers."""
-        found: dict[int, Tracker] = self._ask("copies")
+        found: dict[int, Tracker] = self._ask("copies") if self._ids else {}
         return found
+
+    def close(self) -> None:
+        """Stop following all targets, and end the process."""
+        self._end_process()
 
     def _ask(self, method: str, *arguments: Any) -> Any:
         self._send(method, *arguments)
@@ -139,8 +147,8 @@ class RemoteTargets:
 
     def _end(self) -> WorkerEndedError:
         """End the worker, unless it has ended already; return the error that says so."""
-        self.ended, self.ids = True, set()
-        self.close()
+        self.ended, self._ids = True, set()
+        self._end_process()
         code = self._process.returncode
         how = f"by signal {-code}" if code < 0 else f"with exit code {code}"
         return WorkerEndedError(f"a worker process ended {how}")

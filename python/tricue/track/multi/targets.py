@@ -8,6 +8,7 @@ from tricue.camera.box import BoxLike
 from tricue.camera.shared_frame import SharedFrame
 from tricue.track.base.track import Track, Tracker
 from tricue.track.base.tracker import TrackerBase
+from tricue.track.multi.target_group import FollowedTargets
 
 
 def keeps_images(tracker: Tracker) -> bool:
@@ -15,8 +16,8 @@ def keeps_images(tracker: Tracker) -> bool:
     return not isinstance(tracker, TrackerBase)
 
 
-class Targets:
-    """Trackers by the ids of their targets."""
+class Targets(FollowedTargets):
+    """Targets of this process, with their trackers."""
 
     def __init__(self) -> None:
         self._trackers: dict[int, Tracker] = {}
@@ -24,7 +25,6 @@ class Targets:
 
     @property
     def ids(self) -> set[int]:
-        """The targets' ids."""
         return set(self._trackers)
 
     @property
@@ -33,24 +33,17 @@ class Targets:
         return any(map(keeps_images, self._trackers.values()))
 
     def add(self, target: int, tracker: Tracker, frame: SharedFrame, box: BoxLike | None) -> Track:
-        """Start a tracker; it is kept if that succeeds."""
         track = tracker.init(frame, box)
         self._trackers[target] = tracker
         return track
 
     def put(self, target: int, tracker: Tracker) -> None:
-        """Continue with a tracker that was started elsewhere."""
         self._trackers[target] = tracker
 
     def remove(self, target: int) -> None:
-        """Stop following a target, if it is one of these."""
-        self._trackers.pop(target, None)
+        self._trackers.pop(target, None)  # a worker may be asked for one that it didn't keep
 
     def update(self, number: int, frame: SharedFrame) -> dict[int, Track]:
-        """Follow all targets into a frame. An error names its target; :meth:`undo` reverts the others.
-
-        number: identifies the update for :meth:`undo`.
-        """
         self._before = (
             number,
             {
@@ -62,17 +55,14 @@ class Targets:
         return {target: _update(target, tracker, frame) for target, tracker in self._trackers.items()}
 
     def undo(self, number: int) -> None:
-        """Undo an update if it was the last one; this works because trackers replace their states."""
         last, before = self._before
         for target, values in before.items() if last == number else ():
             vars(self._trackers[target]).update(values)
 
     def copies(self) -> dict[int, Tracker]:
-        """Copies of the trackers."""
         return {target: copy.copy(tracker) for target, tracker in self._trackers.items()}
 
     def close(self) -> None:
-        """Stop following all targets."""
         self._trackers, self._before = {}, (0, {})
 
 

@@ -6,7 +6,7 @@ import threading
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from tricue import kernels as kernel_sets
 from tricue.camera.box import BoxLike
@@ -18,10 +18,8 @@ from tricue.errors import WorkerEndedError
 from tricue.track.base import validation
 from tricue.track.base.registry import create, traits
 from tricue.track.base.track import Status, Track, Tracker
+from tricue.track.multi.target_group import FollowedTargets
 from tricue.track.multi.targets import Targets
-
-if TYPE_CHECKING:
-    from tricue.track.multi.distributed_targets import DistributedTargets
 
 
 class MultiTracker:
@@ -237,7 +235,7 @@ class MultiTracker:
                 self._told |= {message}
 
 
-def _targets(workers: int) -> "Targets | DistributedTargets":
+def _targets(workers: int) -> FollowedTargets:
     if workers == 1:
         return Targets()
     if not hasattr(os, "memfd_create"):
