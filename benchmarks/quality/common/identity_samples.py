@@ -123,7 +123,8 @@ def _run(frames: list[Frame], truth: Array, rng: np.random.Generator) -> Iterato
         if step % every == 0:
             for match in _elsewhere(tracker, seen, step, rng):
                 if covered or _kind(match.target.box, box) is Kind.LOST:
-                    yield _Sample(Kind.ELSEWHERE, match.features, typical or match.features)
+                    elsewhere = match.candidate.features
+                    yield _Sample(Kind.ELSEWHERE, elsewhere, typical or elsewhere)
 
 
 def _elsewhere(tracker: FusedTracker, frame: Frame, step: int, rng: np.random.Generator) -> list[Match]:

@@ -25,7 +25,8 @@ def match(kernels, right, down, height=1.0):
     observation = SimpleNamespace(k=kernels, shape=(120, 160))
     window = SimpleNamespace(observation=observation, pixel_size=PIXEL_SIZE, target=TARGET)
     places = {"right": CELL_PIXELS * FOUND[0], "down": CELL_PIXELS * FOUND[1]}
-    return SimpleNamespace(window=window, first_responses=responses, **places)
+    candidate = SimpleNamespace(window=window, first_responses=responses, **places)
+    return SimpleNamespace(candidate=candidate)
 
 
 @pytest.mark.parametrize(("right", "down"), [(0.3, -0.2), (-0.4, 0.1), (0.0, 0.0)])

@@ -117,7 +117,7 @@ def test_a_target_seen_elsewhere_is_not_here(offset):
     tracker = followed(1)
     match = in_doubt(match_of(tracker, picture(1, *offset)))
     assert limit_log_odds(model_of(tracker), match) == match
-    elsewhere = match._replace(right=0.0, down=0.0)
+    elsewhere = match._replace(candidate=match.candidate._replace(right=0.0, down=0.0))
     assert limit_log_odds(model_of(tracker), elsewhere).log_odds == LOG_ODDS_ELSEWHERE
 
 

@@ -280,7 +280,7 @@ def test_the_outline_follows_by_its_time_constant(rate):
         missed_frames=0, sides=ALL_SEEN, depth_object=None, outline=BOX_OUTLINE, seconds=1 / rate
     )
     state.replace = lambda outline: SimpleNamespace(**{**vars(state), "outline": outline})
-    match = SimpleNamespace(window=window, right=0.0, down=0.0)
+    match = SimpleNamespace(candidate=SimpleNamespace(window=window, right=0.0, down=0.0))
     found = state
     for _ in range(rate):
         state.outline = found.outline

@@ -36,7 +36,8 @@ def match(
     odds = features.log_odds(ALIKE, APPEARANCE) if odds is None else odds
     structure = features.log_odds(ALIKE, STRUCTURE)
     unused: Any = None
-    return Match(target, unused, 0.0, 0.0, features, odds, structure, 0.5, unused, measured, 0.0)
+    candidate = Candidate(target, unused, 0.0, 0.0, 0.0, 0.5, unused, features)
+    return Match(candidate, target, odds, structure, measured, 0.0)
 
 
 NEAR = match(HERE, odds=-6.0)
@@ -55,7 +56,9 @@ def search_among(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Match]:
     ) -> Match:
         def localized(_: TargetModel, window: int) -> Any:
             other = others[window]
-            return Candidate(other.target, None, 0.0, 0.0, -float(window), 0.0, None, other.features)
+            return Candidate(
+                other.target, None, 0.0, 0.0, -float(window), 0.0, None, other.candidate.features
+            )
 
         monkeypatch.setattr(module, "propose_windows", lambda *_: list(range(len(others)))[::-1])
         monkeypatch.setattr(module, "localize", localized)

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from tricue.track.fused.clutter import NO_CLUTTER
 from tricue.track.fused.identity import IdentityFeatures, log_odds_of
+from tricue.track.fused.localize import Candidate
 from tricue.track.fused.measure import Match
 from tricue.track.fused.memory import Memory
 from tricue.track.fused.outline import Sides
@@ -26,7 +27,8 @@ def match(odds: float, covered: float = 0.0, depth: object = None) -> Match:
     """Of the target a little to the right, with these log-odds, so much of it covered; depth: where from."""
     window: Any = SimpleNamespace(observation=SimpleNamespace(depth_source=depth))
     unused: Any = None
-    return Match(THERE, window, 0.0, 0.0, FEATURES, odds, 0.0, 0.5, unused, None, covered)
+    candidate = Candidate(THERE, window, 0.0, 0.0, 0.0, 0.5, unused, FEATURES)
+    return Match(candidate, THERE, odds, 0.0, None, covered)
 
 
 def state(lost: bool) -> State:
@@ -107,10 +109,11 @@ def test_without_a_search_nothing_is_known_of_clutter():
 
 def test_what_is_typical_follows_in_time():
     """Two frames of 1/30 s move the running means as much as one of 1/15 s."""
-    sure = match(LEAST + 5.0)._replace(response=0.9)
+    sure = match(LEAST + 5.0)
+    sure = sure._replace(candidate=sure.candidate._replace(response=0.9))
     known = replace(state(False), frames=1000, typical=FEATURES._replace(contrast=0.1))
     twice = verify(verify(known, sure, P), sure, P)
     once = verify(replace(known, seconds=2 / 30), sure, P)
     assert once.mean_response == pytest.approx(twice.mean_response)
     assert once.typical == pytest.approx(twice.typical)
-    assert known.mean_response < once.mean_response < sure.response
+    assert known.mean_response < once.mean_response < sure.candidate.response

@@ -40,7 +40,7 @@ def update_models(
     Appearance is learned while the target is followed. At high frame rates it is learned in some of the
     frames only, at higher rates, because targets change with time and not with the number of frames.
     """
-    if state.target is not match.target:
+    if not state.moved:
         return state
     state = _update_depth(state, observation, match, before.is_lost(p), p)
     state = _update_outline(state, match, p)
@@ -62,9 +62,9 @@ def update_models(
 
 def without_drift(target: Target, match: Match) -> Target:
     """The target of a match, moved to the peak of the first frame's filter if that is close to the match."""
-    window = match.window
-    peak = window.observation.k.evidence_peak(match.first_responses[None], NO_PLANE, 1.0, 0.0).tolist()
-    right, down = peak[0] - match.right / CELL_PIXELS, peak[1] - match.down / CELL_PIXELS
+    candidate, window = match.candidate, match.candidate.window
+    peak = window.observation.k.evidence_peak(candidate.first_responses[None], NO_PLANE, 1.0, 0.0).tolist()
+    right, down = peak[0] - candidate.right / CELL_PIXELS, peak[1] - candidate.down / CELL_PIXELS
     if peak[2] < MIN_FIRST_RESPONSE or max(abs(right), abs(down)) > MAX_DRIFT:
         return target
     cell = CELL_PIXELS * window.pixel_size
@@ -116,7 +116,7 @@ def update_object(state: State, observation: TargetObservation) -> State:
 def _update_outline(state: State, match: Match, p: FusedParams) -> State:
     if state.missed_frames or state.sides.are_hidden or state.depth_object is not None:
         return state
-    place = match.window, match.right, match.down
+    place = match.candidate.window, match.candidate.right, match.candidate.down
     reaches = measure_reaches(*place, covered_share(*place), without_support=Side.CUT in state.sides)
     if reaches is None:
         return state

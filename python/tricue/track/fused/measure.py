@@ -3,19 +3,16 @@
 
 from typing import NamedTuple
 
-from tricue.track.fused.arrays import Plane
 from tricue.track.fused.experts.depth import DepthMeasurement, covered_share, measure_depth
 from tricue.track.fused.identity import (
     APPEARANCE,
     DEPTH_PICTURE_OFFSET,
     STRUCTURE,
-    IdentityFeatures,
     score_of,
 )
 from tricue.track.fused.localize import Candidate, TargetModel, recenter
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.window import Window
 
 
 class Recognition(NamedTuple):
@@ -32,23 +29,16 @@ class Recognition(NamedTuple):
 class Match(NamedTuple):
     """A candidate that was measured.
 
-    right, down: its place in the window, patch pixels from the window's center.
-    log_odds, structure_log_odds: of being the target, from all evidence, and from the structure, which light
-    doesn't change.
-    response: of the learned filter. first_responses: (32, 32) responses of the first frame's filter in the
-    window. covered: the share of its box that an occluder covers. best_seen: log-odds of the best match in a
-    search of the whole frame; None without such a search.
+    target: its place, with the size and turn measured there. log_odds, structure_log_odds: of being the target,
+    from all evidence, and from the structure, which light doesn't change. covered: the share of its box that
+    an occluder covers. best_seen: log-odds of the best match in a search of the whole frame; None without
+    such a search.
     """
 
+    candidate: Candidate
     target: Target
-    window: Window
-    right: float
-    down: float
-    features: IdentityFeatures
     log_odds: float
     structure_log_odds: float
-    response: float
-    first_responses: Plane
     depth: DepthMeasurement | None
     covered: float
     best_seen: float | None = None
@@ -56,7 +46,7 @@ class Match(NamedTuple):
     @property
     def observation(self) -> TargetObservation:
         """The frame, with the depth at which the target was expected there."""
-        return self.window.observation
+        return self.candidate.window.observation
 
     @property
     def score(self) -> float:
@@ -84,8 +74,7 @@ def recognize(model: TargetModel, candidate: Candidate) -> Recognition:
 def measure(model: TargetModel, recognition: Recognition) -> Match:
     """Measure the size and depth of a recognized candidate."""
     candidate, p = recognition.candidate, model.params
-    window = candidate.window
-    observation = window.observation
+    observation = candidate.window.observation
     depth, predicted = None, candidate.target
     if model.depth is not None:
         depth = measure_depth(observation, candidate.target, observation.expected_depth)
@@ -97,15 +86,10 @@ def measure(model: TargetModel, recognition: Recognition) -> Match:
     if "turn" in p.cues and observation.depth_source is None and recognized:
         measured = measured.turn_by(model.appearance.turn.turn(observation, predicted))
     return Match(
+        candidate,
         target=measured.scale(model.limit_growth(1.0, measured)),
-        window=window,
-        right=candidate.right,
-        down=candidate.down,
-        features=candidate.features,
         log_odds=recognition.log_odds,
         structure_log_odds=recognition.structure_log_odds,
-        response=candidate.response,
-        first_responses=candidate.first_responses,
         depth=depth,
-        covered=covered_share(window, candidate.right, candidate.down),
+        covered=covered_share(candidate.window, candidate.right, candidate.down),
     )

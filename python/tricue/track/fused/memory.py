@@ -41,7 +41,8 @@ def limit_log_odds(remembered: TargetModel, match: Match) -> Match:
     frame. If a match is near its window's edge even after it was localized again, as in a window without
     texture, the older models search a window around it.
     """
-    p, window, right, down = remembered.params, match.window, match.right, match.down
+    p, candidate = remembered.params, match.candidate
+    window, right, down = candidate.window, candidate.right, candidate.down
     if match.log_odds >= log_odds_of(p.min_score_to_redetect):
         return match
     if is_near_edge(right, down):

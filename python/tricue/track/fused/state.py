@@ -35,6 +35,7 @@ class State:
     recognized_side: float  # pixels, when it was last recognized
     mean_response: float  # running mean of the filter's response on the target
     sides: Sides  # what depth tells about the target's sides
+    moved: bool = False  # to this frame's match
     features: IdentityFeatures | None = None
     score: float = 1.0
     typical: IdentityFeatures | None = None  # running means; None until recognized after the first frame

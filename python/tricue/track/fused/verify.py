@@ -21,6 +21,7 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
     """Move the target to the match if that may be the target; count the frame as missed if it isn't."""
     occluded = match.covered > p.max_covered
     needed = _min_log_odds(state, match, p)
+    features = match.candidate.features
     recognized = not occluded and match.log_odds >= needed
     # A LOST target may be anywhere, so a match is less likely to be it. The score is shifted so that a match
     # with just the needed log-odds gets ``min_score``, as for a followed target.
@@ -32,7 +33,8 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
     if not (moved and recognized):
         return state.replace(
             target=target,
-            features=match.features,
+            moved=moved,
+            features=features,
             score=score,
             occluded=occluded,
             motion=state.motion.interrupt(),
@@ -43,7 +45,8 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
     rate = running_mean_rate(state.frames, state.seconds)
     return state.replace(
         target=target,
-        features=match.features,
+        moved=True,
+        features=features,
         score=score,
         occluded=occluded,
         motion=state.motion.follow(state.target, target, state.seconds),
@@ -52,8 +55,8 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
         missed_frames=0,
         missed_seconds=0.0,
         recognized_side=match.target.side,
-        mean_response=state.mean_response + rate * (match.response - state.mean_response),
-        typical=match.features if state.typical is None else state.typical.blend(match.features, rate),
+        mean_response=state.mean_response + rate * (match.candidate.response - state.mean_response),
+        typical=features if state.typical is None else state.typical.blend(features, rate),
     )
 
 

@@ -7,8 +7,9 @@ learned from one frame at a time.
 """
 
 import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,14 +19,18 @@ from tricue.track.base.params import parameter
 from tricue.track.fused.arrays import Floats, Image, Plane
 from tricue.track.fused.experts.spectra import CHANNELS, FirstFrameParams, Spectra, label_spectrum
 from tricue.track.fused.sources import OURS
-from tricue.track.fused.target import TURN_STEPS, axes
+from tricue.track.fused.target import TURN_STEPS, Target, axes
+from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import CELL_PIXELS, PATCH_PIXELS, WINDOW_CELLS
 
+P = TypeVar("P", bound="LogPolarParams")
+E = TypeVar("E", bound="LogPolarExpert[Any]")  # typing.Self is newer than Python 3.10
 Places = NDArray[np.int64]
 FilterParts = tuple[Spectra, Plane]  # numerator and denominator
 
 INNER_RADIUS, OUTER_RADIUS = 0.3, 2.5  # of the log-polar patch, in halves of the box's sides
 LABEL_WIDTH = 0.7  # cells
+FARTHEST = 2, 1  # cells to the right and down, between consecutive frames
 STEPS_PER_CELL = TURN_STEPS // WINDOW_CELLS
 LOG_PER_CELL = CELL_PIXELS * math.log(OUTER_RADIUS / INNER_RADIUS) / PATCH_PIXELS
 
@@ -55,9 +60,13 @@ class LogPolarParams(FirstFrameParams):
     )
 
 
-class Coordinates(NamedTuple):
-    """Log-polar coordinates of a patch: (64, 64) indices of its pixels, and (32, 32) weights of the cells."""
+class LogPolarPatch(NamedTuple):
+    """(64, 64, 3) samples around a target, and log-polar coordinates in them.
 
+    places: (64, 64) indices of the pixels at the coordinates. taper: (32, 32) weights of the cells.
+    """
+
+    samples: Image
     places: Places
     taper: Plane
 
@@ -75,37 +84,50 @@ class LogPolarFilter(NamedTuple):
     applied: Spectra
 
     @classmethod
-    def from_patch(
-        cls, k: Kernels, patch: Image, coordinates: Coordinates, p: LogPolarParams
-    ) -> "LogPolarFilter":
+    def from_patch(cls, k: Kernels, patch: LogPolarPatch, p: LogPolarParams) -> "LogPolarFilter":
         """The filter learned from the first frame."""
         empty = np.zeros((CHANNELS, *LABEL.shape), np.complex64), np.zeros(LABEL.shape, np.float32)
-        begun = cls(empty, empty, empty[0])._learn(k, patch, coordinates, (1.0, 0.0, p.ridge))
+        begun = cls(empty, empty, empty[0])._learn(k, patch, (1.0, 0.0, p.ridge))
         return begun._replace(first=begun.learned)
 
-    def shift(
-        self, k: Kernels, patch: Image, coordinates: Coordinates, farthest: tuple[int, int], penalty: float
-    ) -> tuple[float, float]:
-        """Cells by which the patch has shifted to the right, and the response to that shift.
-
-        farthest: cells to the right, and down, within which the shift is searched for.
-        """
-        return k.log_polar_shift(patch, *coordinates, self.applied, *farthest, penalty)
-
-    def learn(
-        self, k: Kernels, patch: Image, coordinates: Coordinates, rate: float, p: LogPolarParams
-    ) -> "LogPolarFilter":
+    def learn(self, k: Kernels, patch: LogPolarPatch, rate: float, p: LogPolarParams) -> "LogPolarFilter":
         """The filter with a patch blended in."""
-        return self._learn(k, patch, coordinates, (rate, p.first_frame_weight, p.ridge))
+        return self._learn(k, patch, (rate, p.first_frame_weight, p.ridge))
 
-    def _learn(
-        self, k: Kernels, patch: Image, coordinates: Coordinates, rates: tuple[float, float, float]
-    ) -> "LogPolarFilter":
+    def _learn(self, k: Kernels, patch: LogPolarPatch, rates: tuple[float, float, float]) -> "LogPolarFilter":
         """rates: the learning rate, the first frame's share, and the ridge."""
         numerator, denominator, applied = k.learn_size_filter(
-            patch, *coordinates, LABEL, *self.learned, *self.first, *rates
+            *patch, LABEL, *self.learned, *self.first, *rates
         )
         return self._replace(learned=(numerator, denominator), applied=applied)
+
+
+@dataclass(frozen=True)
+class LogPolarExpert(ABC, Generic[P]):
+    """A filter on log-polar coordinates around the target; a subclass says which, and what a shift means."""
+
+    filter: LogPolarFilter
+    params: P
+
+    @classmethod
+    def from_target(cls: type[E], observation: TargetObservation, target: Target, p: P) -> E:  # noqa: PYI019
+        """The expert learned from the first frame."""
+        return cls(LogPolarFilter.from_patch(observation.k, cls._read(observation, target), p), p)
+
+    def learn(self: E, observation: TargetObservation, target: Target, rate: float) -> E:  # noqa: PYI019
+        """The expert with a target blended in."""
+        patch = self._read(observation, target)
+        return type(self)(self.filter.learn(observation.k, patch, rate, self.params), self.params)
+
+    def _shift(self, observation: TargetObservation, target: Target) -> tuple[float, float]:
+        """Cells by which the content of a target's place has shifted to the right, and the response to that."""
+        patch, penalty = self._read(observation, target), self.params.size_change_penalty
+        return observation.k.log_polar_shift(*patch, self.filter.applied, *FARTHEST, penalty)
+
+    @staticmethod
+    @abstractmethod
+    def _read(observation: TargetObservation, target: Target) -> LogPolarPatch:
+        """What the filter sees of a target's place."""
 
 
 def log_polar_pixels(turn: int = 0, width: float = 1.0, height: float = 1.0) -> Places:
