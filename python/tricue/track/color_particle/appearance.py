@@ -11,7 +11,12 @@ from tricue.kernels import Kernels
 from tricue.track.base.ellipse_pattern import ring
 from tricue.track.color_particle.color_contrast import ColorContrast
 from tricue.track.color_particle.color_models import Gaussian, Histogram, Lookup, Region
-from tricue.track.color_particle.observation_model import ObservationModel, WindowSamples, window_grid
+from tricue.track.color_particle.observation_model import (
+    ObservationModel,
+    Singles,
+    WindowSamples,
+    window_grid,
+)
 from tricue.track.color_particle.params import ColorParticleParams
 from tricue.track.color_particle.rank_models import RankSections, RankSpatial
 
@@ -34,6 +39,19 @@ STEP_BESIDE = 1.5  # semi-axes: windows beside the target overlap it by one seve
 BESIDE = np.tile(np.eye(4), (4, 1, 1))
 BESIDE[range(4), [2, 2, 3, 3], [0, 0, 1, 1]] = [-STEP_BESIDE, STEP_BESIDE, -STEP_BESIDE, STEP_BESIDE]
 BESIDE = np.ascontiguousarray(BESIDE.transpose(1, 0, 2)).reshape(4, 16)  # an ellipse times it: those windows
+
+
+class RankMeasurement(NamedTuple):
+    """Arguments that ``rank_likelihood`` and ``rank_filter`` share, in their order."""
+
+    inside: Floats  # (n, 2) sample positions in the window, semi-axes
+    around: Floats  # (m, 2) sample positions around it, semi-axes
+    maps: Singles
+    weights: Floats
+    nearest: bool  # whether the most similar of the maps counts alone
+    table: Singles
+    sharpness: float
+    contrast_weight: float
 
 
 class Appearance(NamedTuple):
@@ -76,12 +94,12 @@ class Appearance(NamedTuple):
         """Whether log-likelihoods come from color ranks and contrast, for which thresholds are known."""
         return self.contrast is not None and not self.linear and isinstance(self.model, RankSpatial)
 
-    def rank_look(self, searching: bool) -> tuple[Any, ...] | None:
-        """The measurement arguments of ``rank_likelihood`` and ``rank_filter``; None for other models."""
+    def rank_measurement(self, searching: bool) -> RankMeasurement | None:
+        """What the kernels measure windows by; None for models that they don't support."""
         model, contrast = self.model, self.contrast
         if contrast is None or self.linear or not isinstance(model, RankSpatial):
             return None
-        return (
+        return RankMeasurement(
             self.grid,
             self.ring,
             model.maps,
@@ -94,9 +112,9 @@ class Appearance(NamedTuple):
 
     def log_likelihood(self, k: Kernels, image: Image, ellipses: Floats, searching: bool = False) -> Floats:
         """(N,) log p(y | x), nats: equation (18), or its exponential form, times the color contrast term."""
-        look = self.rank_look(searching)
-        if look is not None:
-            return k.rank_likelihood(image, ellipses, *look)
+        measurement = self.rank_measurement(searching)
+        if measurement is not None:
+            return k.rank_likelihood(image, ellipses, *measurement)
         samples = self.sample(k, image, ellipses)
         distance = self.model.distance(k, *samples, searching).astype(np.float64)
         if self.linear:

@@ -1,56 +1,70 @@
 # SPDX-License-Identifier: MIT
 """One step of the particle filter, section III: resample, propose (30), weigh by (2) and (31), estimate."""
 
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.color_particle.appearance import Appearance
+from tricue.track.color_particle.appearance import Appearance, Floats, Image
 from tricue.track.color_particle.motion import EllipsePrediction
 from tricue.track.color_particle.rank_models import MIN_RANK_SPREAD, RankWindow
-from tricue.track.color_particle.skin_detection import SkinDetection
+from tricue.track.color_particle.skin_detection import NO_DETECTION, SkinDetection
 from tricue.track.color_particle.state import ParticleSet
-
-Floats = NDArray[Any]
 
 MIN_WEIGHT = 1e-300  # of a particle, to take the logarithm
 
 
+class StepNoise(NamedTuple):
+    """The random numbers of one step.
+
+    offset: of the systematic resampling's comb; None for no resampling. white: (N, 4) independent standard
+    normal numbers. correlation: to give those of the two semi-axes.
+    """
+
+    offset: float | None
+    white: Floats
+    correlation: float
+
+
+class Proposal(NamedTuple):
+    """Where the particles of one step are drawn from, (30): the motion, and a share from the detection."""
+
+    prediction: EllipsePrediction
+    detection: SkinDetection = NO_DETECTION
+
+
 def filter_step(
     k: Kernels,
-    image: NDArray[np.uint8],
+    image: Image,
     appearance: Appearance,
     particles: Floats,
     weights: Floats,
-    offset: float | None,
-    noise: Floats,
-    correlation: float,
-    prediction: EllipsePrediction,
-    detection: SkinDetection,
+    noise: StepNoise,
+    proposal: Proposal,
     searching: bool,
 ) -> ParticleSet:
     """The particles (N, 4) of the next frame; a single kernel does it all if it supports the likelihood.
 
-    offset: of the systematic resampling's comb; None for no resampling. noise: (N, 4) independent standard
-    normal numbers. correlation: of the noise of the two semi-axes. searching: whether for a lost target.
+    searching: whether for a lost target.
     """
-    look = appearance.rank_look(searching)
-    if look is not None:
+    prediction, detection = proposal
+    measurement = appearance.rank_measurement(searching)
+    if measurement is not None:
         step = k.rank_filter(
-            *(image, particles, weights, offset, noise, correlation, *prediction, *detection),
-            *(*look, MIN_RANK_SPREAD),
+            *(image, particles, weights, *noise, *prediction, *detection, *measurement, MIN_RANK_SPREAD)
         )
         return ParticleSet(*step[:5], RankWindow(*step[5:]))
     log_weights = np.zeros(len(weights))
-    if offset is None:
+    if noise.offset is None:
         log_weights = np.log(np.maximum(weights, MIN_WEIGHT))
     else:
-        particles = particles.take(k.resample(weights, offset), axis=0)
+        particles = particles.take(k.resample(weights, noise.offset), axis=0)
     drift, scale, lower, upper = map(np.array, prediction)
     detected = detection.arrays()
-    moved = k.propose(particles, drift, scale, mix_sizes(noise, correlation), *detected, lower, upper)
+    moved = k.propose(
+        particles, drift, scale, mix_sizes(noise.white, noise.correlation), *detected, lower, upper
+    )
     log_likelihood = appearance.log_likelihood(k, image, moved, searching) + log_weights
     posterior, _ = k.reweight(log_likelihood, moved, particles, drift, scale, *detected)
     ellipse, _, effective = k.summarize(moved, posterior)

@@ -16,17 +16,11 @@ from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase, read_only
 from tricue.track.base.traits import Channels, Traits
 from tricue.track.color_particle.appearance import Appearance, probability
-from tricue.track.color_particle.filter_step import filter_step
+from tricue.track.color_particle.filter_step import Proposal, StepNoise, filter_step
 from tricue.track.color_particle.motion import EllipseMotion, EllipsePrediction, size_correlation
 from tricue.track.color_particle.params import NEVER, ColorParticleParams
 from tricue.track.color_particle.realignment import GAIN_TO_FORGET, moved, realign
-from tricue.track.color_particle.skin_detection import (
-    NO_DETECTION,
-    SkinDetection,
-    detect_skin,
-    draw_candidates,
-    reference_color,
-)
+from tricue.track.color_particle.skin_detection import detect_skin, draw_candidates, reference_color
 from tricue.track.color_particle.state import ParticleSet, State
 from tricue.track.head_detection.start_box import head_or_face_to_start_on
 
@@ -161,7 +155,8 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         last = state.particles
         scarce = last.effective < p.resample_below * len(last.weights)
         offset = self._rng.random() if scarce else None
-        particles = self._filter(state, image, last.particles, last.weights, prediction, detection, offset)
+        proposal = Proposal(prediction, detection)
+        particles = self._filter(state, image, last.particles, last.weights, proposal, offset)
         if particles.log_likelihood < state.mean_log_likelihood - p.likelihood_drop:
             particles = self._search_wide(state, image, particles, prediction)
         first_log_likelihood = None
@@ -182,16 +177,16 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         image: Image,
         particles: Floats,
         weights: Floats,
-        prediction: EllipsePrediction,
-        detection: SkinDetection = NO_DETECTION,
+        proposal: Proposal,
         offset: float | None = None,
+        searching: bool = False,
     ) -> ParticleSet:
-        """One step of the particle filter. offset: of the resampling's comb; None for no resampling."""
-        noise = self._rng.standard_normal(particles.shape)
-        return filter_step(
-            *(self._k, image, state.appearance, particles, weights, offset, noise, self._correlation),
-            *(prediction, detection, state.lost(self.params)),
-        )
+        """One step of the particle filter. offset: of the resampling's comb; None for no resampling.
+
+        searching: whether for a lost target.
+        """
+        noise = StepNoise(offset, self._rng.standard_normal(particles.shape), self._correlation)
+        return filter_step(self._k, image, state.appearance, particles, weights, noise, proposal, searching)
 
     def _search_wide(
         self, state: State, image: Image, narrow: ParticleSet, prediction: EllipsePrediction
@@ -200,11 +195,11 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         spread = self.params.wide_search_spread * state.motion.side
         last = np.array(state.motion.ellipse)
         wide_prediction = prediction._replace(drift=NO_DRIFT, scale=(spread, spread, *prediction.scale[2:]))
-        wide = self._filter(state, image, *self._particles_at(last), wide_prediction)
+        wide = self._filter(state, image, *self._particles_at(last), Proposal(wide_prediction))
         best = wide.particles[np.argmax(wide.weights)]
         x, y, minor, major = prediction.scale
         close_prediction = prediction._replace(drift=NO_DRIFT, scale=(x / 2, y / 2, minor / 2, major / 2))
-        close = self._filter(state, image, *self._particles_at(best), close_prediction)
+        close = self._filter(state, image, *self._particles_at(best), Proposal(close_prediction))
         return max(narrow, close, key=lambda each: each.log_likelihood)
 
     def _redetect(self, state: State, image: Image) -> State:
@@ -214,8 +209,8 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         log_likelihood = appearance.log_likelihood(k, image, candidates, searching=True)
         best = candidates[np.argmax(log_likelihood)]
         motion = state.motion.restart_at(tuple(best.tolist()))
-        prediction = motion.predict(p, state.shape)
-        particles = self._filter(state, image, *self._particles_at(best), prediction)
+        proposal = Proposal(motion.predict(p, state.shape))
+        particles = self._filter(state, image, *self._particles_at(best), proposal, searching=True)
         recognized = appearance.recognition(k, particles.seen, searching=True) >= p.min_score_to_redetect
         background = float(np.median(log_likelihood))
         required = background + REDETECTION_SHARE * (state.recognized_mean - background)
