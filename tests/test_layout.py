@@ -16,7 +16,18 @@ HELPERS = {"base", "detail"}
 """Folders whose files serve kernels and are none."""
 TRACKERS = {"color_particle", "depth_particle", "flow_depth", "fused", "stereo_head"}
 UPPER = {"track", "evaluation", "papers", "scenes", "draw", "export", "app", "cli"}
-PARTS = {"camera", "data", "errors", "former_names", "imgproc", "kernels", "reference", "rerun", "_core"}
+PARTS = {
+    "arrays",
+    "camera",
+    "data",
+    "errors",
+    "former_names",
+    "imgproc",
+    "kernels",
+    "reference",
+    "rerun",
+    "_core",
+}
 NOTEBOOK = "notebook"
 """The folder of what ``_repr_html_`` methods return, which these alone import."""
 FORBIDDEN = {

@@ -19,6 +19,7 @@ from typing import Any
 import cv2
 import numpy as np
 import tricue
+from tricue.arrays import Image
 from tricue.cli.outputs import Step
 from tricue.cli.steps import RunClock, steps
 from tricue.draw import (
@@ -32,7 +33,6 @@ from tricue.draw import (
     stereo_overlay,
     targets_overlay,
 )
-from tricue.draw.canvas import Image
 from tricue.scenes import crossing, face_over_clutter, head, overtaking, room_scene, stress_scene
 
 JPEG_QUALITY = 88

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue._core import _imgproc
+from tricue.arrays import Singles
 
 __all__ = [
     "bgr_to_gray",
@@ -34,7 +35,6 @@ __all__ = [
 Scalar = TypeVar("Scalar", bound=np.generic)
 MAX_SIGMA = 1000  # pixels
 MIDDLE = -1  # the anchor in the middle of a square
-Floats = NDArray[np.float32]
 
 
 def resize(
@@ -96,8 +96,8 @@ def warp_perspective(
 
 def remap(
     image: NDArray[Scalar],
-    columns: Floats,
-    rows: Floats,
+    columns: Singles,
+    rows: Singles,
     border: Literal["constant", "replicate", "wrap"] = "constant",
 ) -> NDArray[Scalar]:
     """The image at ``columns`` and ``rows`` (h, w), interpolated linearly. border: "constant" is 0."""
@@ -109,9 +109,9 @@ def copy_where(source: NDArray[Scalar], where: NDArray[np.bool_], target: NDArra
     _imgproc.copy_where(source, where, target)
 
 
-def fill_polygon(points: NDArray[np.int32], height: int, width: int) -> Floats:
+def fill_polygon(points: NDArray[np.int32], height: int, width: int) -> Singles:
     """An image of 1 in a polygon (n, 2) of columns and rows, its outline included, and 0 outside."""
-    return cast("Floats", _imgproc.fill_polygon(points, height, width))
+    return cast("Singles", _imgproc.fill_polygon(points, height, width))
 
 
 def bgr_to_gray(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
@@ -119,11 +119,11 @@ def bgr_to_gray(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
     return cast("NDArray[np.uint8]", _imgproc.bgr_to_gray(image))
 
 
-def bgr_to_lab(image: Floats) -> Floats:
+def bgr_to_lab(image: Singles) -> Singles:
     """CIE L*a*b* (H, W, 3), L* from 0 to 100, of BGR in [0, 1]."""
-    return cast("Floats", _imgproc.bgr_to_lab(image))
+    return cast("Singles", _imgproc.bgr_to_lab(image))
 
 
-def lab_to_bgr(image: Floats) -> Floats:
+def lab_to_bgr(image: Singles) -> Singles:
     """BGR (H, W, 3) in [0, 1] of CIE L*a*b*."""
-    return cast("Floats", _imgproc.lab_to_bgr(image))
+    return cast("Singles", _imgproc.lab_to_bgr(image))

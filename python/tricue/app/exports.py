@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from tricue.app.frames import Recording
 from tricue.app.project import Project, Target
+from tricue.arrays import Image
 from tricue.camera.frame import Frame
 from tricue.data.streams import image_names
-from tricue.draw.canvas import STATUS_COLORS, Image, choose_scale, draw_box, enlarge, put_text, to_bgr
+from tricue.draw.canvas import STATUS_COLORS, choose_scale, draw_box, enlarge, put_text, to_bgr
 from tricue.draw.depth_pictures import depth_picture
 from tricue.draw.targets import target_color
 from tricue.draw.trail import Trail

@@ -15,7 +15,7 @@ import numpy as np
 from av.video.reformatter import VideoReformatter
 from numpy.typing import NDArray
 
-from tricue.data.streams import FIRST_FRAMES, Image, checked_fps, plausible_fps
+from tricue.data.streams import FIRST_FRAMES, AnyImage, checked_fps, plausible_fps
 
 KEPT_BYTES = 128 << 20  # of decoded frames, in YUV, kept for stepping and tracking backward
 MIN_KEPT = 4  # frames to keep, however large
@@ -105,18 +105,18 @@ class SeekableVideo:
         """The same video for another thread."""
         return SeekableVideo(self.path, self.index)
 
-    def __iter__(self) -> Iterator[tuple[float, Image]]:
+    def __iter__(self) -> Iterator[tuple[float, AnyImage]]:
         return self.at(range(self.length))
 
-    def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
+    def at(self, indices: Sequence[int]) -> Iterator[tuple[float, AnyImage]]:
         for number in indices:
             if not 0 <= number < self.length:
                 raise ValueError(f"{self.path}: expected frame 0 to {self.length - 1}, got {number}")
             yield self.index.seconds(number), self._bgr(self._find(number))
 
-    def _bgr(self, frame: Any) -> Image:
+    def _bgr(self, frame: Any) -> AnyImage:
         """The frame as BGR, (H, W, 3), upright as a phone held it."""
-        image: Image = self._reformatter.reformat(frame, format="bgr24").to_ndarray()
+        image: AnyImage = self._reformatter.reformat(frame, format="bgr24").to_ndarray()
         turns = round(frame.rotation / 90) % 4
         return np.ascontiguousarray(np.rot90(image, turns)) if turns else image
 

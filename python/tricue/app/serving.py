@@ -12,9 +12,9 @@ from tricue.app.frames import Recording
 from tricue.app.local_server import Served
 from tricue.app.session import Session
 from tricue.app.trackers import default_tracker
+from tricue.arrays import Image
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
-from tricue.draw.canvas import Image
 from tricue.draw.depth_pictures import depth_range
 
 

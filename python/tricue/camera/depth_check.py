@@ -12,10 +12,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Plane
 from tricue.camera.frame import Frame
 from tricue.camera.shared_frame import messages_of, warn_of_frame
-
-Plane = NDArray[np.float32]
 
 CELLS = 160  # across the thinned images, approximately
 MAX_SHIFT = 10  # cells along x and y

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Floats = NDArray[np.float64]
+from tricue.arrays import Floats
 
 MAX_SKEW = 1e-3
 """How much RᵀR may differ from the identity: enough for a rotation written with few digits."""

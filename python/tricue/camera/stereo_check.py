@@ -11,10 +11,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.camera.frame import Frame
 from tricue.camera.shared_frame import messages_of, warn_of_frame
-
-Array = NDArray[np.float64]
 
 MAX_ROW_ERROR = 1.5  # pixels between a point's rows in both images, root mean square over the image
 MIN_PAIR_DISPARITY = -0.5  # pixels; a smaller one counts as negative
@@ -89,7 +88,7 @@ def _gray(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
     return np.asarray(cv2.cvtColor(image, cv2.COLOR_BGR2GRAY) if image.ndim == 3 else image, np.uint8)
 
 
-def _track_corners(left: NDArray[np.uint8], right: NDArray[np.uint8]) -> tuple[Array, Array]:
+def _track_corners(left: NDArray[np.uint8], right: NDArray[np.uint8]) -> tuple[Floats, Floats]:
     """Corners (n, 2) of the left image that track there and back, and their places in the right image."""
     min_distance = max(5, left.shape[1] // 60)
     corners = cv2.goodFeaturesToTrack(left, MAX_CORNERS, 0.01, min_distance)
@@ -107,7 +106,7 @@ def _track_corners(left: NDArray[np.uint8], right: NDArray[np.uint8]) -> tuple[A
     return corners[good, 0].astype(np.float64), there[good, 0].astype(np.float64)
 
 
-def _mean_row_error(points: Array, errors: Array, shape: tuple[int, ...]) -> float:
+def _mean_row_error(points: Floats, errors: Floats, shape: tuple[int, ...]) -> float:
     """The root mean square over the image of a plane fitted to the row errors (n,) at points (n, 2).
 
     Outliers are trimmed: each iteration fits the points whose residuals are at most three times the median.

@@ -16,10 +16,11 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Image
 from tricue.camera.frame import Frame
 from tricue.camera.rig import StereoRig
 from tricue.cli.lost_ranges import LostRanges, as_json
-from tricue.draw.canvas import Image, choose_scale
+from tricue.draw.canvas import choose_scale
 from tricue.draw.depth_pictures import depth_picture, depth_range
 from tricue.draw.masks import flow_depth_overlay
 from tricue.draw.overlays import depth_overlay, overlay

@@ -28,13 +28,13 @@ MAX_DAMAGED = 100  # frames in a row that can't be decoded, before the video cou
 DOUBTED_FPS = 60.0  # if a container states no rate, FFmpeg may give a higher one, derived from its time unit
 FIRST_FRAMES = 16  # whose times are used to check such a rate
 
-Image = NDArray[Any]
-ImageReader = Callable[[Path], Image]
+AnyImage = NDArray[Any]
+ImageReader = Callable[[Path], AnyImage]
 TimedPaths = list[tuple[float, Path]]
 """Times in seconds, and the image files of these times."""
 
 
-def read_color(path: Path) -> Image:
+def read_color(path: Path) -> AnyImage:
     """Read an image as BGR, (H, W, 3) uint8; ValueError or FileNotFoundError names the file."""
     return read_image(path, cv2.IMREAD_COLOR)
 
@@ -58,9 +58,9 @@ class Stream(Protocol):
     def length(self) -> int | None:
         """The number of images; None if it isn't known before reading them."""
 
-    def __iter__(self) -> Iterator[tuple[float, Image]]: ...
+    def __iter__(self) -> Iterator[tuple[float, AnyImage]]: ...
 
-    def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
+    def at(self, indices: Sequence[int]) -> Iterator[tuple[float, AnyImage]]:
         """Only the images with these increasing indices; ValueError for an index beyond the last image."""
 
 
@@ -92,10 +92,10 @@ class Images:
     def size(self) -> tuple[int, int]:
         return _size(self.read(self.paths[0]))
 
-    def __iter__(self) -> Iterator[tuple[float, Image]]:
+    def __iter__(self) -> Iterator[tuple[float, AnyImage]]:
         return self.at(range(len(self.paths)))
 
-    def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
+    def at(self, indices: Sequence[int]) -> Iterator[tuple[float, AnyImage]]:
         for index in indices:
             if index >= len(self.paths):
                 raise ValueError(
@@ -183,12 +183,12 @@ class Video:
         finally:
             capture.release()
 
-    def __iter__(self) -> Iterator[tuple[float, Image]]:
+    def __iter__(self) -> Iterator[tuple[float, AnyImage]]:
         """A damaged frame between others gets the previous image, so that later frames keep their numbers."""
         capture, count, times = self._open(), 0, FrameTimes(self.fps)
         stated = capture.get(cv2.CAP_PROP_FRAME_COUNT)
         rate = plausible_fps(capture.get(cv2.CAP_PROP_FPS)) or self.fps
-        image: Image | None = None
+        image: AnyImage | None = None
         damaged = []
         try:
             for seconds, is_whole in self._grab(capture, times):
@@ -213,7 +213,7 @@ class Video:
         if missing and not self._is_read_whole(count, stated / rate):
             warnings.warn(f"{self.place}: only {missing} can be decoded; is it cut off?", stacklevel=2)
 
-    def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
+    def at(self, indices: Sequence[int]) -> Iterator[tuple[float, AnyImage]]:
         """Reads all frames up to the last index, because seeking in videos isn't reliable."""
         capture, index, whole = self._open(), -1, 0
         frames = self._grab(capture, FrameTimes(self.fps))
@@ -298,7 +298,7 @@ def _missing(count: int, times: FrameTimes, stated: float, fps: float) -> str:
     return f"{decoded:.2f} of its {duration:.2f} seconds" if decoded < MIN_DECODED_SHARE * duration else ""
 
 
-def read_image(path: Path, flag: int) -> Image:
+def read_image(path: Path, flag: int) -> AnyImage:
     """The image in a file as cv2.imdecode gives it; ValueError or FileNotFoundError names the file."""
     if not path.exists():
         raise FileNotFoundError(f"{path}: there is no such file")
@@ -330,10 +330,10 @@ def checked_fps(fps: float | None, times: Sequence[float]) -> float | None:
     return plausible_fps(1 / step) if doubted and step > 0 else fps
 
 
-def _retrieved(capture: cv2.VideoCapture) -> Image | None:
+def _retrieved(capture: cv2.VideoCapture) -> AnyImage | None:
     there, image = capture.retrieve()
     return image if there else None
 
 
-def _size(image: Image) -> tuple[int, int]:
+def _size(image: AnyImage) -> tuple[int, int]:
     return image.shape[1], image.shape[0]

@@ -7,10 +7,10 @@ import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tricue.arrays import Image
 from tricue.camera.box import Box
 from tricue.track.base.track import Status
 
-Image = NDArray[np.uint8]
 Color = tuple[int, int, int]
 """BGR."""
 

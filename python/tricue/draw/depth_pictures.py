@@ -5,7 +5,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.draw.canvas import Image
+from tricue.arrays import Image
 
 MIN_RANGE = 0.01  # meters
 _DEPTH_COLORMAP = cv2.COLORMAP_CIVIDIS  # perceptually uniform, and readable with red-green color blindness

@@ -8,8 +8,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Image
 from tricue.camera.box import Box
-from tricue.draw.canvas import BLACK, STATUS_COLORS, WHITE, Color, Image, to_bgr, to_pixels
+from tricue.draw.canvas import BLACK, STATUS_COLORS, WHITE, Color, to_bgr, to_pixels
 from tricue.draw.overlays import overlay
 from tricue.track.base.track import Status, Track
 

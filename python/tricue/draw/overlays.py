@@ -9,12 +9,12 @@ import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tricue.arrays import Image
 from tricue.camera.box import Box
 from tricue.draw.canvas import (
     BLACK,
     STATUS_COLORS,
     WHITE,
-    Image,
     choose_scale,
     draw_box,
     draw_dots,

@@ -3,7 +3,8 @@
 
 import numpy as np
 
-from tricue.draw.canvas import STATUS_COLORS, Image
+from tricue.arrays import Image
+from tricue.draw.canvas import STATUS_COLORS
 from tricue.track.base.track import Status
 
 MIN_HEIGHT = 6  # pixels

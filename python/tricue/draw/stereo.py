@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue import kernels
+from tricue.arrays import Image
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.camera.rig import StereoRig
-from tricue.draw.canvas import STATUS_COLORS, WHITE, Image, choose_font_scale, put_text, to_gray
+from tricue.draw.canvas import STATUS_COLORS, WHITE, choose_font_scale, put_text, to_gray
 from tricue.draw.depth_pictures import depth_picture
 from tricue.draw.overlays import overlay
 from tricue.track.base.track import Track

@@ -7,11 +7,11 @@ from typing import Any
 import cv2
 from numpy.typing import NDArray
 
+from tricue.arrays import Image
 from tricue.draw.canvas import (
     BLACK,
     WHITE,
     Color,
-    Image,
     choose_font_scale,
     choose_scale,
     draw_box,

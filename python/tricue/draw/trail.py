@@ -7,8 +7,9 @@ from itertools import pairwise
 import cv2
 import numpy as np
 
+from tricue.arrays import Image
 from tricue.camera.numbers import positive
-from tricue.draw.canvas import BLACK, Color, Image, to_pixels
+from tricue.draw.canvas import BLACK, Color, to_pixels
 from tricue.track.base.track import Status, Track
 
 DEFAULT_SECONDS = 2.0

@@ -8,7 +8,7 @@ from types import TracebackType
 import cv2
 import numpy as np
 
-from tricue.draw.canvas import Image
+from tricue.arrays import Image
 from tricue.draw.video_encoders import Encoder, OpenCVEncoder, PyAVEncoder, count_packets, ffmpeg_name
 from tricue.draw.writable import check_writable
 

@@ -14,7 +14,7 @@ from typing import Any, Protocol
 
 import cv2
 
-from tricue.draw.canvas import Image
+from tricue.arrays import Image
 
 MAX_DENOMINATOR = 1001  # of frames per second, as in 30000/1001
 MIN_TICKS = 10_000  # per second, the resolution of frames' times

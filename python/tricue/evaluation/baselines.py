@@ -19,7 +19,6 @@ from tricue.camera.frame import Frame
 from tricue.evaluation.one_pass import AnyTracker
 from tricue.track.base.track import Status, Track
 
-Image = NDArray[np.uint8]
 NAMES = (
     *("CSRT", "KCF", "KCF-0.1", "MIL", "MOSSE", "MedianFlow"),  # of cv2, if the installed version has them
     *("CamShift", "meanShift", "script-pf", "still-box"),

@@ -15,9 +15,9 @@ from itertools import accumulate
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from tricue.arrays import Floats
 
 LEVEL, DRAWS, SEED = 0.95, 10_000, 0
 MIN_CLUSTERS = 6  # for an interval and a test
@@ -107,14 +107,14 @@ def holm(p_values: Sequence[float]) -> list[float]:
 
 
 @lru_cache(maxsize=4)
-def _drawn(size: int) -> Array:
+def _drawn(size: int) -> Floats:
     """How often each cluster is in each draw, (DRAWS, size)."""
     indices = np.random.default_rng(SEED).integers(size, size=(DRAWS, size))
     return np.array([np.bincount(each, minlength=size) for each in indices], dtype=np.float64)
 
 
 @lru_cache(maxsize=4)
-def _signs(size: int) -> Array:
+def _signs(size: int) -> Floats:
     """All sign combinations of ``size`` differences, or SIGN_DRAWS draws of them, (N, size)."""
     if size <= MAX_EXACT:
         bits = (np.arange(2**size)[:, None] >> np.arange(size)) & 1
@@ -123,7 +123,7 @@ def _signs(size: int) -> Array:
     return (1 - 2 * bits).astype(np.float64)
 
 
-def _by_cluster(values: ArrayLike, clusters: Sequence[str]) -> tuple[Array, Array]:
+def _by_cluster(values: ArrayLike, clusters: Sequence[str]) -> tuple[Floats, Floats]:
     """The sum of each cluster's values, and their number."""
     value = np.asarray(values, np.float64)
     if not value.size or value.shape != (len(clusters),):

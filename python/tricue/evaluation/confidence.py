@@ -11,10 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tricue.arrays import Flags, Floats
 from tricue.evaluation.metrics import as_flags, share
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 LOST_OVERLAP = 0.1
 """Below this overlap a box counts as off the target."""
@@ -33,13 +31,13 @@ class FalselyTracked(NamedTuple):
 class Reliability:
     """The mean overlap at each score: B bins of equal width over the scores [0, 1]."""
 
-    edges: Array
+    edges: Floats
     """(B + 1,) from 0 to 1; a score on an inner edge belongs to the upper bin."""
     counts: NDArray[np.int64]
     """(B,) frames in each bin."""
-    scores: Array
+    scores: Floats
     """(B,) mean score in each bin, NaN where it is empty."""
-    overlaps: Array
+    overlaps: Floats
     """(B,) mean overlap in each bin, NaN where it is empty."""
 
 
@@ -111,7 +109,7 @@ def reliability(
     )
 
 
-def _frames(overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None) -> tuple[Array, Array, Flags]:
+def _frames(overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None) -> tuple[Floats, Floats, Flags]:
     """Overlaps, scores and absence of the frames with known truth."""
     overlap, score = np.asarray(overlaps, dtype=np.float64), np.asarray(scores, dtype=np.float64)
     if overlap.ndim != 1:
@@ -123,15 +121,15 @@ def _frames(overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None) ->
     return overlap[known], score[known], gone[known]
 
 
-def _known(overlap: Array, bad: Flags) -> Flags:
+def _known(overlap: Floats, bad: Flags) -> Flags:
     """The frames with known truth. bad: those that are lost, or without the target."""
     known: Flags = bad | ~np.isnan(overlap)
     return known
 
 
-def _ranks(values: Array) -> Array:
+def _ranks(values: Floats) -> Floats:
     """Ranks from 1; equal values get their mean rank."""
     _, group, counts = np.unique(values, return_inverse=True, return_counts=True)
     last = np.cumsum(counts)
-    ranks: Array = (last - (counts - 1) / 2)[group]
+    ranks: Floats = (last - (counts - 1) / 2)[group]
     return ranks

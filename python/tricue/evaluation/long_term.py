@@ -10,12 +10,10 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from tricue.arrays import Flags, Floats
 from tricue.evaluation.metrics import as_flags, overlaps, share
-
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 FOUND_OVERLAP = 0.5
 """The overlap from which on OxUvA counts the target as found (section 4)."""
@@ -35,8 +33,8 @@ class Rates(NamedTuple):
 class Frames(NamedTuple):
     """A sequence as the VOT toolkit counts it: arrays with one value per frame."""
 
-    overlaps: Array
-    scores: Array
+    overlaps: Floats
+    scores: Floats
     visible: Flags
 
 
@@ -44,14 +42,14 @@ class Frames(NamedTuple):
 class PrecisionRecall:
     """Arrays with one point per threshold, in [0, 1]; thresholds fall from inf to -inf."""
 
-    thresholds: Array
-    precision: Array
+    thresholds: Floats
+    precision: Floats
     """Mean overlap of the frames with a score of at least the threshold; 1 if there are none."""
-    recall: Array
+    recall: Floats
     """Sum of those overlaps divided by the number of visible frames."""
 
     @property
-    def f(self) -> Array:
+    def f(self) -> Floats:
         """Harmonic mean of precision and recall at each threshold, 0 where both are 0."""
         total = self.precision + self.recall
         return 2 * self.precision * self.recall / np.where(total > 0, total, 1.0)
@@ -116,7 +114,7 @@ def precision_recall(sequences: Sequence[Frames]) -> PrecisionRecall:
     return PrecisionRecall(limits, precision, recall)
 
 
-def thresholds(scores: ArrayLike, resolution: int = RESOLUTION) -> Array:
+def thresholds(scores: ArrayLike, resolution: int = RESOLUTION) -> Floats:
     """At most ``resolution`` thresholds, from inf to -inf, that cut the sorted scores into equal shares.
 
     The toolkit's ``determine_thresholds``: NaN scores are left out; if there are few scores, all are
@@ -133,7 +131,9 @@ def thresholds(scores: ArrayLike, resolution: int = RESOLUTION) -> Array:
     return np.concatenate([[np.inf], falling, [-np.inf]])
 
 
-def _curve(overlap: Array, scores: Array, visible: Flags, limits: Array, index: int) -> tuple[Array, Array]:
+def _curve(
+    overlap: Floats, scores: Floats, visible: Flags, limits: Floats, index: int
+) -> tuple[Floats, Floats]:
     """Precision and recall of one sequence at each threshold (Lukezic et al. 2018, eq. 1 and 2)."""
     if not visible.any():
         raise ValueError(f"sequences: expected visible frames in each, got none in sequences[{index}]")
@@ -142,7 +142,7 @@ def _curve(overlap: Array, scores: Array, visible: Flags, limits: Array, index: 
     return np.where(count > 0, total / np.maximum(count, 1), 1.0), total / visible.sum()
 
 
-def _values(value: ArrayLike, name: str, count: int) -> Array:
+def _values(value: ArrayLike, name: str, count: int) -> Floats:
     array = np.asarray(value, dtype=np.float64)
     if array.shape != (count,):
         raise ValueError(f"{name}: expected an array of shape ({count},), got {array.shape}")

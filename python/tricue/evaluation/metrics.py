@@ -15,13 +15,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Array = NDArray[np.float64]
+from tricue.arrays import Floats
 
-OVERLAP_THRESHOLDS: Array = np.linspace(0.0, 1.0, 21)
+OVERLAP_THRESHOLDS: Floats = np.linspace(0.0, 1.0, 21)
 """OTB's: 0, 0.05, ..., 1."""
-PRECISION_THRESHOLDS: Array = np.arange(51.0)
+PRECISION_THRESHOLDS: Floats = np.arange(51.0)
 """OTB's: 0, 1, ..., 50 px."""
-NORM_PRECISION_THRESHOLDS: Array = np.arange(51) / 100.0
+NORM_PRECISION_THRESHOLDS: Floats = np.arange(51) / 100.0
 """TrackingNet's: 0, 0.01, ..., 0.5 of the true box's size."""
 
 
@@ -41,7 +41,7 @@ class Score:
     """Mean center error in pixels."""
 
 
-def overlaps(boxes: ArrayLike, truth: ArrayLike) -> Array:
+def overlaps(boxes: ArrayLike, truth: ArrayLike) -> Floats:
     """Intersection over union, row by row, (M,), in [0, 1]; 0 for a missing box, NaN without truth."""
     found, true = _pairs(boxes, truth)
     low = np.maximum(found[:, :2], true[:, :2])
@@ -52,13 +52,13 @@ def overlaps(boxes: ArrayLike, truth: ArrayLike) -> Array:
     return _missing(np.minimum(common / union, 1.0), found, true, 0.0)
 
 
-def center_errors(boxes: ArrayLike, truth: ArrayLike) -> Array:
+def center_errors(boxes: ArrayLike, truth: ArrayLike) -> Floats:
     """Distance between the centers, row by row, (M,), pixels; inf for a missing box, NaN without truth."""
     found, true = _pairs(boxes, truth)
     return _missing(_lengths(_centers(found) - _centers(true)), found, true, np.inf)
 
 
-def normalized_center_errors(boxes: ArrayLike, truth: ArrayLike) -> Array:
+def normalized_center_errors(boxes: ArrayLike, truth: ArrayLike) -> Floats:
     """As center_errors, with the offset along x divided by the true width, along y by the true height.
 
     P_norm of Mueller et al. 2018 (eq. 2).
@@ -67,7 +67,7 @@ def normalized_center_errors(boxes: ArrayLike, truth: ArrayLike) -> Array:
     return _missing(_lengths((_centers(found) - _centers(true)) / true[:, 2:]), found, true, np.inf)
 
 
-def position_errors(found: ArrayLike, true: ArrayLike) -> Array:
+def position_errors(found: ArrayLike, true: ArrayLike) -> Floats:
     """Distance between positions in the camera frame, row by row, (M,), meters; both arguments are (M, 3).
 
     If the truth has only a depth (x or y is NaN), the error along z. NaN if the truth has no depth or the
@@ -80,14 +80,14 @@ def position_errors(found: ArrayLike, true: ArrayLike) -> Array:
     return np.where(np.isnan(known[:, :2]).any(axis=1), np.abs(offset[:, 2]), _lengths(offset))
 
 
-def success_curve(overlap: ArrayLike, thresholds: ArrayLike = OVERLAP_THRESHOLDS) -> Array:
+def success_curve(overlap: ArrayLike, thresholds: ArrayLike = OVERLAP_THRESHOLDS) -> Floats:
     """Share of the frames with truth whose overlap is above each threshold; NaN if no frame has truth."""
     return _share(
         np.asarray(overlap, dtype=np.float64), lambda known: known > np.asarray(thresholds)[:, None]
     )
 
 
-def precision_curve(error: ArrayLike, thresholds: ArrayLike = PRECISION_THRESHOLDS) -> Array:
+def precision_curve(error: ArrayLike, thresholds: ArrayLike = PRECISION_THRESHOLDS) -> Floats:
     """Share of the frames with truth whose error is at most each threshold; NaN if no frame has truth."""
     return _share(np.asarray(error, dtype=np.float64), lambda known: known <= np.asarray(thresholds)[:, None])
 
@@ -105,18 +105,18 @@ def score(boxes: ArrayLike, truth: ArrayLike) -> Score:
     )
 
 
-def _centers(boxes: Array) -> Array:
+def _centers(boxes: Floats) -> Floats:
     """The centers (M, 2) of boxes of whole pixels, half a pixel off the corners' middle, as in OTB's code."""
-    center: Array = boxes[:, :2] + (boxes[:, 2:] - 1) / 2
+    center: Floats = boxes[:, :2] + (boxes[:, 2:] - 1) / 2
     return center
 
 
-def _lengths(vectors: Array) -> Array:
-    length: Array = np.sqrt(np.sum(np.power(vectors, 2), axis=1))
+def _lengths(vectors: Floats) -> Floats:
+    length: Floats = np.sqrt(np.sum(np.power(vectors, 2), axis=1))
     return length
 
 
-def _share(values: Array, holds: Callable[[Array], NDArray[np.bool_]]) -> Array:
+def _share(values: Floats, holds: Callable[[Floats], NDArray[np.bool_]]) -> Floats:
     known = values[~np.isnan(values)]
     passed = holds(known)
     return passed.mean(axis=1) if known.size else np.full(passed.shape[0], np.nan)
@@ -135,20 +135,20 @@ def as_flags(value: ArrayLike, name: str, shape: tuple[int, ...]) -> NDArray[np.
     return array
 
 
-def _missing(values: Array, found: Array, true: Array, miss: float) -> Array:
+def _missing(values: Floats, found: Floats, true: Floats, miss: float) -> Floats:
     values[np.isnan(found).any(axis=1)] = miss
     values[np.isnan(true).any(axis=1)] = np.nan
     return values
 
 
-def _pairs(boxes: ArrayLike, truth: ArrayLike) -> tuple[Array, Array]:
+def _pairs(boxes: ArrayLike, truth: ArrayLike) -> tuple[Floats, Floats]:
     found, true = _boxes(boxes, "boxes"), _boxes(truth, "truth")
     if found.shape != true.shape:
         raise ValueError(f"boxes: expected as many rows as truth ({len(true)}), got {len(found)}")
     return found, true
 
 
-def _boxes(value: ArrayLike, name: str) -> Array:
+def _boxes(value: ArrayLike, name: str) -> Floats:
     array = np.asarray(value, dtype=np.float64)
     if array.ndim != 2 or array.shape[1] != 4:
         raise ValueError(f"{name}: expected an array of shape (M, 4), got {array.shape}")
@@ -158,7 +158,7 @@ def _boxes(value: ArrayLike, name: str) -> Array:
     return array
 
 
-def _positions(value: ArrayLike, name: str) -> Array:
+def _positions(value: ArrayLike, name: str) -> Floats:
     array = np.asarray(value, dtype=np.float64)
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"{name}: expected an array of shape (M, 3), got {array.shape}")

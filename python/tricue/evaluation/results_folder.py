@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.data.otb import has_otb_truth
 from tricue.data.truth import read_box, read_lines
 from tricue.evaluation.dataset import Entry, OpenedSequence
@@ -22,7 +23,6 @@ from tricue.evaluation.tracker_spec import SequenceInfo, TrackerSpec
 from tricue.track.base.track import Status
 from tricue.track.base.traits import Channels, Traits
 
-Array = NDArray[np.float64]
 OTB, GOT10K, VOT = "otb", "got10k", "vot"
 FIRST_PIXELS = {"otb0": 0.0, "otb1": 1.0}
 """Forms that state from which number OTB's files count pixels."""
@@ -105,7 +105,7 @@ class _Files(NamedTuple):
     """The files of a sequence. times: seconds per frame for each run, None if unknown."""
 
     runs: list[Path]
-    times: list[Array | None]
+    times: list[Floats | None]
     supervised: bool
 
 
@@ -213,7 +213,7 @@ def _code(line: str) -> float | None:
         return None
 
 
-def _read_times(folder: Path, name: str, runs: int) -> list[Array | None]:
+def _read_times(folder: Path, name: str, runs: int) -> list[Floats | None]:
     """Seconds per frame for each run, from a file with one column per run."""
     for path in (folder / f"{name}_time.txt", folder / "times" / f"{name}_time.txt"):
         if path.is_file():
@@ -232,7 +232,7 @@ def _numbers(line: str) -> list[float]:
 
 
 def _read_run(
-    spec: ResultsSpec, opened: OpenedSequence, path: Path, times: Array | None
+    spec: ResultsSpec, opened: OpenedSequence, path: Path, times: Floats | None
 ) -> tuple[Record, float]:
     """The run in a file, and the first pixel's coordinate in it."""
     frames, rows, start = opened.source.length or len(opened.boxes), len(opened.boxes), opened.start
@@ -269,7 +269,7 @@ def _read_box(line: str, path: Path, number: int) -> Sequence[float]:
     return box if box[2] > 0 and box[3] > 0 else (np.nan,) * 4
 
 
-def _first_pixel(spec: ResultsSpec, opened: OpenedSequence, boxes: Array) -> float:
+def _first_pixel(spec: ResultsSpec, opened: OpenedSequence, boxes: Floats) -> float:
     """The first pixel's coordinate: the given one; else the one by which the first box equals the true one;
     else, in OTB's form, that of the file of true boxes.
     """
@@ -286,9 +286,9 @@ def _first_pixel(spec: ResultsSpec, opened: OpenedSequence, boxes: Array) -> flo
 def _record(
     spec: ResultsSpec,
     path: Path,
-    boxes: Array,
+    boxes: Floats,
     starts: Sequence[int],
-    times: Array | None,
+    times: Floats | None,
     told: slice,
 ) -> Record:
     """The run with these boxes. told: the frames for which the file has lines."""
@@ -316,13 +316,13 @@ def _record(
     return Record(run, tuple(starts), trouble)
 
 
-def _read_scores(path: Path, scores: Array) -> Array:
+def _read_scores(path: Path, scores: Floats) -> Floats:
     """VOT's confidences; where missing, 1 with a box and 0 without."""
     told = _read_values(path, "confidence", len(scores))
     return scores if told is None else np.where(np.isfinite(told), told, scores)
 
 
-def _read_values(path: Path, name: str, frames: int) -> Array | None:
+def _read_values(path: Path, name: str, frames: int) -> Floats | None:
     """A number per frame from a companion file, NaN where missing; None without a matching file. Some files
     leave out the first frame.
     """

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.evaluation import confidence, long_term, metrics, restarts
 from tricue.evaluation.dataset import OpenedSequence
 from tricue.evaluation.one_pass import Run
@@ -16,7 +17,6 @@ from tricue.evaluation.protocols import ONE_PASS
 from tricue.evaluation.record import Record
 from tricue.track.base.track import Status
 
-Array = NDArray[np.float64]
 _OF_TRUTH = ("truth", "overlaps", "position_errors")
 
 
@@ -29,14 +29,14 @@ class ScoredRun:
     """
 
     start: int
-    boxes: Array
-    truth: Array
+    boxes: Floats
+    truth: Floats
     absent: NDArray[np.bool_]
-    overlaps: Array
-    scores: Array
+    overlaps: Floats
+    scores: Floats
     statuses: tuple[Status, ...]
     tracked: NDArray[np.bool_]
-    position_errors: Array
+    position_errors: Floats
     error: str = ""
     frames: NDArray[np.intp] | None = None
 
@@ -207,11 +207,11 @@ def measure_robustness(record: Record, opened: OpenedSequence) -> restarts.Robus
     return restarts.robustness(record, overlaps)
 
 
-def _mean(values: Array) -> float:
+def _mean(values: Floats) -> float:
     known = values[~np.isnan(values)]
     return float(known.mean()) if known.size else float("nan")
 
 
-def _median(values: Array) -> float:
+def _median(values: Floats) -> float:
     known = values[np.isfinite(values)]
     return float(np.median(known)) if known.size else float("nan")

@@ -6,12 +6,9 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Flags, Floats
 from tricue.track.base.track import Status
-
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 
 MIN_OVERLAP = 0.5
 """Above this intersection over union the box is on the target."""

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.papers.curves import MIN_VISIBLE, Flags, Floats
+from tricue.arrays import Flags, Floats
+from tricue.papers.curves import MIN_VISIBLE
 
 HIDDEN_SHADE = "0.88"
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue import kernels
+from tricue.arrays import Image
 
 LOWEST_SKIN_THRESHOLD = -1.0
 """The lowest threshold that trackers accept; a curve's last one is below it, so that all pixels are above."""
@@ -21,7 +22,6 @@ LOWEST_SKIN_THRESHOLD = -1.0
 LOW, HIGH = -255, 255
 """Range of the scores."""
 
-Image = NDArray[np.uint8]
 Mask = NDArray[np.bool_]
 
 

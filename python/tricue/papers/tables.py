@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.papers.curves import AnyCurve, Floats, models_of, runs_of, scenes_of
+from tricue.arrays import Floats
+from tricue.papers.curves import AnyCurve, models_of, runs_of, scenes_of
 
 
 def scene_table(

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from tricue.arrays import Floats, Image
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
-from tricue.cli.demos.metric import Floats, SceneResult, follow_all
+from tricue.cli.demos.metric import SceneResult, follow_all
 from tricue.cli.outputs import Step
 from tricue.cli.steps import steps
-from tricue.draw.canvas import Image
 from tricue.draw.overlays import depth_overlay, overlay
 from tricue.draw.video import OverlayWriter
 from tricue.scenes.stress.scene import StressScene, stress_scene

@@ -8,6 +8,7 @@ from typing import Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.cli.progress import Progress
 from tricue.cli.steps import RunClock
 from tricue.draw.video import OverlayWriter
@@ -17,7 +18,6 @@ from tricue.scenes import DepthScene, StereoScene, WalkScene
 from tricue.scenes.stress.scene import StressScene
 from tricue.track.base.track import Status, Track
 
-Floats = NDArray[np.float64]
 S = TypeVar("S", DepthScene, StereoScene, WalkScene, StressScene)
 
 

@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from tricue.cli.demos.metric import Floats, SceneResult, follow_all
+from tricue.arrays import Floats
+from tricue.cli.demos.metric import SceneResult, follow_all
 from tricue.cli.steps import steps
 from tricue.draw.stereo import stereo_overlay
 from tricue.draw.video import OverlayWriter

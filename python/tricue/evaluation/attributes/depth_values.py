@@ -4,11 +4,9 @@
 from collections.abc import Iterable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.camera.frame import Frame
-
-Array = NDArray[np.float64]
 
 NEARER = 0.9  # of the target's distance; nearer surfaces hide it
 WINDOW = 5  # frames before and after, over whose depths the median is the target's distance
@@ -16,7 +14,7 @@ MAX_PIXELS = 400  # sampled in the inner half of the box
 MIN_PIXELS = 20  # with measured depth
 
 
-def depth_values(frames: Iterable[Frame], boxes: Array) -> dict[str, Array]:
+def depth_values(frames: Iterable[Frame], boxes: Floats) -> dict[str, Floats]:
     """{"occlusion": (M,)}; boxes: (M, 4) in the depth image. NaN without a true box or depth."""
     inner = [_inner_depths(frame, box) for frame, box in zip(frames, boxes, strict=False)]
     medians = np.full(len(boxes), np.nan)
@@ -31,7 +29,7 @@ def depth_values(frames: Iterable[Frame], boxes: Array) -> dict[str, Array]:
     return {"occlusion": found}
 
 
-def _inner_depths(frame: Frame, box: Array) -> Array:
+def _inner_depths(frame: Frame, box: Floats) -> Floats:
     """Some measured depths in the middle half of a box, meters."""
     if frame.depth is None or np.isnan(box).any():
         return np.empty(0)

@@ -7,10 +7,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Floats, Image
 from tricue.camera.frame import Frame
-
-Array = NDArray[np.float64]
-Image = NDArray[np.uint8]
 
 CAMERA_WIDTH = 160  # pixels of the image in which the camera's motion is measured
 MAX_CAMERA_SHIFT = 0.25  # of the image's diagonal; a larger shift is a wrong match
@@ -26,13 +24,13 @@ SHARP = 90  # percentile of their sharpness that counts as sharp
 IMAGE_KEYS = ("blur", "light", "look_alike", "clutter", "camera")
 
 
-def image_values(frames: Iterable[Frame], boxes: Array) -> dict[str, Array]:
+def image_values(frames: Iterable[Frame], boxes: Floats) -> dict[str, Floats]:
     """Values (M,) by attribute key; boxes: (M, 4). NaN without a true box, if the box's part in the image is
     under four pixels wide or high, and in frames without color.
     """
     found = {key: np.full(len(boxes), np.nan) for key in IMAGE_KEYS}
     surround = np.full(len(boxes), np.nan)
-    before: Array | None = None
+    before: Floats | None = None
     for index, (frame, box) in enumerate(zip(frames, boxes, strict=False)):
         if frame.color is None:
             continue
@@ -58,14 +56,14 @@ def _bgr(color: Image) -> Image:
     return color if color.ndim == 3 else np.asarray(cv2.cvtColor(color, cv2.COLOR_GRAY2BGR), np.uint8)
 
 
-def _small(image: Image) -> Array:
+def _small(image: Image) -> Floats:
     height, width = image.shape[:2]
     size = CAMERA_WIDTH, max(1, round(CAMERA_WIDTH * height / width))
     gray = cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
     return np.asarray(cv2.resize(gray, size, interpolation=cv2.INTER_AREA), np.float64)
 
 
-def _shift(before: Array, now: Array) -> float:
+def _shift(before: Floats, now: Floats) -> float:
     """The shift between two images, relative to their diagonal."""
     height, width = now.shape
     (x, y), _ = cv2.phaseCorrelate(before, now, cv2.createHanningWindow((width, height), cv2.CV_64F))
@@ -73,13 +71,13 @@ def _shift(before: Array, now: Array) -> float:
     return shift if shift < MAX_CAMERA_SHIFT else float("nan")
 
 
-def _surround_gray(image: Image, box: Array) -> float:
+def _surround_gray(image: Image, box: Floats) -> float:
     """The mean gray value in and around the box, plus 1."""
     around = _crop(image, box, 2.0)
     return float("nan") if around is None else float(cv2.cvtColor(around, cv2.COLOR_BGR2GRAY).mean()) + 1
 
 
-def _common_change(inside: Array, around: Array) -> Array:
+def _common_change(inside: Floats, around: Floats) -> Floats:
     """The change since the first frame that the box and its surround have in common: the ratio nearer to 1,
     or 1 if they change in opposite directions. A turn or an occlusion changes only the box, a new background
     only the surround, light both.
@@ -93,13 +91,13 @@ def _common_change(inside: Array, around: Array) -> Array:
     return np.asarray(np.exp(np.where(np.isnan(one + other), np.nan, smaller)))
 
 
-def _crop(image: Image, box: Array, scale: float = 1.0) -> Image | None:
+def _crop(image: Image, box: Floats, scale: float = 1.0) -> Image | None:
     """The part of the image in a box scaled about its center; None if a side is under 4 pixels."""
     left, top, right, bottom = _corners(image, box, scale)
     return image[top:bottom, left:right] if min(right - left, bottom - top) >= 4 else None
 
 
-def _corners(image: Image, box: Array, scale: float) -> tuple[int, int, int, int]:
+def _corners(image: Image, box: Floats, scale: float) -> tuple[int, int, int, int]:
     x, y, width, height = box.tolist()
     far_x, far_y = scale * width / 2, scale * height / 2
     center_x, center_y = x + width / 2, y + height / 2
@@ -115,7 +113,7 @@ def _sharpness(gray: NDArray[np.uint8]) -> float:
     return float(cv2.Laplacian(smooth, cv2.CV_32F).var() / max(float(smooth.var()), 1.0))
 
 
-def _relative_sharpness(values: Array) -> Array:
+def _relative_sharpness(values: Floats) -> Floats:
     """Each value over the SHARP percentile of those near it in time; size and background change slowly."""
     relative = np.full(len(values), np.nan)
     for index in np.flatnonzero(~np.isnan(values)):
@@ -124,7 +122,7 @@ def _relative_sharpness(values: Array) -> Array:
     return relative
 
 
-def _best_elsewhere(image: Image, box: Array) -> float:
+def _best_elsewhere(image: Image, box: Floats) -> float:
     """The highest similarity of any place beside the box to the box. A place's similarity is the lower of the
     pixels' correlation and the intersection of color histograms.
     """
@@ -147,7 +145,7 @@ def _best_elsewhere(image: Image, box: Array) -> float:
     return best if np.isfinite(best) and best > -1 else float("nan")
 
 
-def _intersections(region: Image, target: Image) -> Array:
+def _intersections(region: Image, target: Image) -> Floats:
     """The histogram intersection of the target with each window of its size in the region, in [0, 1]."""
     height, width = target.shape[:2]
     own = _histogram(target) / (height * width)
@@ -162,7 +160,7 @@ def _intersections(region: Image, target: Image) -> Array:
     return np.asarray(total / own[frequent].sum())
 
 
-def _common_colors(image: Image, box: Array) -> float:
+def _common_colors(image: Image, box: Floats) -> float:
     """The Bhattacharyya coefficient of the histograms of the box and of its surround."""
     outer = _crop(image, box, 2.0)
     inner = _crop(image, box)
@@ -175,7 +173,7 @@ def _common_colors(image: Image, box: Array) -> float:
     return float(np.sqrt(inside * around).sum() / np.sqrt(inside.sum() * around.sum()))
 
 
-def _histogram(image: Image) -> Array:
+def _histogram(image: Image) -> Floats:
     return np.bincount(_bins(image).ravel(), minlength=BINS**3).astype(np.float64)
 
 

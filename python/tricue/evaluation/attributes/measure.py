@@ -15,13 +15,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.evaluation.attributes.definitions import ATTRIBUTES, BY_KEY
 from tricue.evaluation.attributes.depth_values import depth_values
 from tricue.evaluation.attributes.image_values import image_values
 from tricue.evaluation.attributes.truth_values import truth_values
 from tricue.evaluation.dataset import OpenedSequence
-
-Array = NDArray[np.float64]
 
 FOLDER = "attributes"  # in an evaluation's folder
 
@@ -30,7 +29,7 @@ FOLDER = "attributes"  # in an evaluation's folder
 class SequenceAttributes:
     """A sequence's attributes. values: (M,) for the labeled frames, by attribute key; NaN where unknown."""
 
-    values: Mapping[str, Array]
+    values: Mapping[str, Floats]
 
     def known(self, key: str) -> int:
         """The number of frames in which an attribute is known."""

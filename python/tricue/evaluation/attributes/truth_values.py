@@ -2,14 +2,12 @@
 """Attributes measured from the true boxes and the frame rate: a value for each labeled frame."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.evaluation.dataset import OpenedSequence
 
-Array = NDArray[np.float64]
 
-
-def truth_values(opened: OpenedSequence) -> dict[str, Array]:
+def truth_values(opened: OpenedSequence) -> dict[str, Floats]:
     """Values (M,) by attribute key; NaN without a true box, or where unknown."""
     boxes = opened.boxes[: opened.source.length]
     first = boxes[opened.start]
@@ -29,7 +27,7 @@ def truth_values(opened: OpenedSequence) -> dict[str, Array]:
     }
 
 
-def _outside(boxes: Array, opened: OpenedSequence) -> Array:
+def _outside(boxes: Floats, opened: OpenedSequence) -> Floats:
     """The share of each box outside the image; for clipped boxes 1 if they touch its edge."""
     low, high = boxes[:, :2], boxes[:, :2] + boxes[:, 2:]
     if opened.clipped:

@@ -4,34 +4,32 @@
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.evaluation import confidence, metrics
 from tricue.evaluation.evaluate import RunResult
 
-Array = NDArray[np.float64]
 
-
-def success(results: Sequence[RunResult]) -> Array:
+def success(results: Sequence[RunResult]) -> Floats:
     """(21,) share of frames with an overlap above each of metrics.OVERLAP_THRESHOLDS; NaN where unknown."""
     return _mean(results, lambda each: metrics.success_curve(each.scored.overlaps))
 
 
-def precision(results: Sequence[RunResult]) -> Array:
+def precision(results: Sequence[RunResult]) -> Floats:
     """(51,) share with a center error of at most each of metrics.PRECISION_THRESHOLDS; NaN where unknown."""
 
-    def curve(each: RunResult) -> Array:
+    def curve(each: RunResult) -> Floats:
         return metrics.precision_curve(metrics.center_errors(each.scored.boxes, each.scored.truth))
 
     return _mean(results, curve)
 
 
-def norm_precision(results: Sequence[RunResult]) -> Array:
+def norm_precision(results: Sequence[RunResult]) -> Floats:
     """(51,) share with a normalized center error of at most each of metrics.NORM_PRECISION_THRESHOLDS; NaN
     where unknown.
     """
 
-    def curve(each: RunResult) -> Array:
+    def curve(each: RunResult) -> Floats:
         errors = metrics.normalized_center_errors(each.scored.boxes, each.scored.truth)
         return metrics.precision_curve(errors, metrics.NORM_PRECISION_THRESHOLDS)
 
@@ -47,8 +45,8 @@ def reliability(results: Sequence[RunResult]) -> confidence.Reliability:
     return confidence.reliability(overlaps, scores, absent)
 
 
-def _mean(results: Sequence[RunResult], curve: Callable[[RunResult], Array]) -> Array:
-    by_sequence: dict[str, list[Array]] = {}
+def _mean(results: Sequence[RunResult], curve: Callable[[RunResult], Floats]) -> Floats:
+    by_sequence: dict[str, list[Floats]] = {}
     for each in results:
         by_sequence.setdefault(each.row.sequence, []).append(curve(each))
     means = np.array([np.mean(curves, axis=0) for curves in by_sequence.values()])

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from tricue.evaluation.report.markup import Html, tag
 from tricue.evaluation.rows import ScoredRun
 
-Array = NDArray[np.float64]
-
 MAX_COLUMNS = 160
 """Columns of the picture; in longer runs each column shows the worst of several frames."""
 SHADES = ("#7a1020", "#c9452f", "#f0a04b", "#f7e0a3", "#b7dfc4", "#8fcbaa")

@@ -8,16 +8,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.papers import tables
-from tricue.papers.curves import (
-    HIDDEN_BELOW,
-    MIN_OVERLAP,
-    MIN_VISIBLE,
-    Floats,
-    OcclusionCurve,
-    runs_of,
-    scenes_of,
-)
+from tricue.papers.curves import HIDDEN_BELOW, MIN_OVERLAP, MIN_VISIBLE, OcclusionCurve, runs_of, scenes_of
 
 FUSED, UNFUSED = "fused (default)", "unfused"
 PRINTED, PRINTED_UNFUSED = "as printed", "as printed, unfused"

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.camera.rig import StereoRig
 from tricue.draw.figures import COLORS
 from tricue.papers import tables
@@ -23,8 +23,6 @@ from tricue.scenes import StereoScene, static_head
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.static_head import measure_static_head, split_noise
 from tricue.track.stereo_head.stereo_geometry import StereoGeometry, fit_polynomials
-
-Floats = NDArray[np.float64]
 
 DISTANCES = (1.0, 1.4, 1.8, 2.2, 2.6, 3.0, 3.5, 4.0)
 """Distances of the head's center, meters."""

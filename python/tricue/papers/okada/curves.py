@@ -9,9 +9,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Flags, Floats
 from tricue.camera.box import Box
 from tricue.papers import tables
-from tricue.papers.curves import MIN_OVERLAP, Flags, Floats, OcclusionCurve
+from tricue.papers.curves import MIN_OVERLAP, OcclusionCurve
 from tricue.scenes import Events
 from tricue.track.base.track import Status
 

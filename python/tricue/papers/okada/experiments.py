@@ -14,11 +14,11 @@ from typing import Any
 import numpy as np
 
 import tricue
+from tricue.arrays import Floats
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import metrics
 from tricue.evaluation.one_pass import AnyTracker, run
-from tricue.papers.curves import Floats
 from tricue.papers.experiment import Case, Experiment, Maker
 from tricue.papers.okada import curves, figures, following, vergence
 from tricue.papers.okada.curves import Snapshot, WalkCurve

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
+from tricue.arrays import Floats
 from tricue.papers import tables
-from tricue.papers.curves import MIN_OVERLAP, Floats, OcclusionCurve
+from tricue.papers.curves import MIN_OVERLAP, OcclusionCurve
 
 COLUMNS = (
     *("scene", "tracker", "IoU > 0.5", "depth error m: median", "90 %", "depth error m, signed: median"),

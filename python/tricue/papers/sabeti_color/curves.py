@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
+from tricue.arrays import Floats
 from tricue.papers import tables
-from tricue.papers.curves import HIDDEN_BELOW, MIN_OVERLAP, MIN_VISIBLE, Floats, VisibilityCurve, models_of
+from tricue.papers.curves import HIDDEN_BELOW, MIN_OVERLAP, MIN_VISIBLE, VisibilityCurve, models_of
 
 MAX_CENTER_ERROR = 25.0
 """Pixels; beyond this a face counts as lost."""

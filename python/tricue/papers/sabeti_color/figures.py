@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue import kernels
+from tricue.arrays import Floats
 from tricue.draw.figures import COLORS, draw_box
-from tricue.papers.curves import Floats, first_runs, models_of, stacked
+from tricue.papers.curves import first_runs, models_of, stacked
 from tricue.papers.plots import plot_band, shade_hidden, show_frame
 from tricue.papers.sabeti_color.curves import MAX_CENTER_ERROR, MIN_FAST_STEP, ColorCurve
 from tricue.scenes import Scene

@@ -8,10 +8,10 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Image
 from tricue.data.skin_masks import find_masked_images
 from tricue.scenes import skin_picture
 
-Image = NDArray[np.uint8]
 Mask = NDArray[np.bool_]
 
 

@@ -12,13 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue import kernels
+from tricue.arrays import Image
 from tricue.draw import figures
 from tricue.draw.writable import check_writable
 from tricue.papers import tables
 from tricue.papers.experiment import Report
 from tricue.papers.plots import show_frame
 from tricue.papers.roc import LOWEST_SKIN_THRESHOLD, Roc, round_up, skin_roc
-from tricue.papers.sabeti_color.skin_images import Image, Mask, RenderedSkin, SkinFolder, SkinImages
+from tricue.papers.sabeti_color.skin_images import Mask, RenderedSkin, SkinFolder, SkinImages
 from tricue.track.color_particle.params import ColorParticleParams
 
 NAME = "sabeti-roc"

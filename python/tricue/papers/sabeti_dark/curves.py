@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
+from tricue.arrays import Floats
 from tricue.papers import tables
-from tricue.papers.curves import MIN_OVERLAP, Curve, Floats
+from tricue.papers.curves import MIN_OVERLAP, Curve
 
 COLUMNS = ("scene", "tracker", "IoU: all frames", "first sixth", "last sixth", "frames IoU > 0.5", "runs")
 CSV_COLUMNS = ("model", "scene", "seed", "frame", "light", "iou")

@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from tricue.arrays import Floats
 from tricue.draw.depth_pictures import depth_picture
 from tricue.draw.figures import COLORS, draw_box
-from tricue.papers.curves import Floats, first_runs, models_of, stacked
+from tricue.papers.curves import first_runs, models_of, stacked
 from tricue.papers.plots import plot_band, show_frame
 from tricue.papers.sabeti_dark.curves import LitCurve
 from tricue.papers.sabeti_dark.names import DUSK, HEAD_MODELS, RANGE_SCENES, SUNRISE

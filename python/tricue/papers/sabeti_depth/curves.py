@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
+from tricue.arrays import Flags, Floats
 from tricue.papers import tables
-from tricue.papers.curves import HIDDEN_BELOW, MIN_OVERLAP, MIN_VISIBLE, Flags, Floats, OcclusionCurve
+from tricue.papers.curves import HIDDEN_BELOW, MIN_OVERLAP, MIN_VISIBLE, OcclusionCurve
 from tricue.track.base.track import Status
 
 MAX_PERSON_OCCLUDED_DELAY = 3

@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 
 import tricue
+from tricue.arrays import Flags, Floats
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.errors import TargetNotFoundError
 from tricue.evaluation import metrics
 from tricue.evaluation.one_pass import run
-from tricue.papers.curves import MIN_OVERLAP, Flags, Floats
+from tricue.papers.curves import MIN_OVERLAP
 from tricue.papers.experiment import Case, Experiment, Maker
 from tricue.papers.sabeti_depth import curves, figures
 from tricue.papers.sabeti_depth.curves import DepthCurve

@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from tricue.arrays import Floats
 from tricue.draw.depth_pictures import depth_picture
 from tricue.draw.figures import COLORS, draw_box
-from tricue.papers.curves import MIN_VISIBLE, Floats, first_runs, models_of, stacked
+from tricue.papers.curves import MIN_VISIBLE, first_runs, models_of, stacked
 from tricue.papers.plots import plot_band, shade_hidden, show_frame
 from tricue.papers.sabeti_depth.curves import DepthCurve
 from tricue.scenes import DepthScene

@@ -6,7 +6,7 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from tricue.reference.base.arrays import Floats
 
 MAX_IMAGE_SIDE = 16384  # of an image that a kernel makes, pixels
 MAX_GRID_SIDE = 4096  # of a grid of depths

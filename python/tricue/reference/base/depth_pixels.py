@@ -4,9 +4,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Depth
 from tricue.reference.base.checks import refuse, require_finite, require_shape
-
-Depth = NDArray[np.float32]
 
 
 def has_depth(depth: Depth) -> NDArray[np.bool_]:

@@ -4,11 +4,9 @@
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse
-
-Floats = NDArray[np.float64]
 
 REACH = 3.5  # sigmas on each side, to the outer edge of the last pixel
 

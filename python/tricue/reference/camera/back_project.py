@@ -2,12 +2,10 @@
 """Points from a stereo pair's measurements (Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.2)."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse, require_covariance, require_shape
 from tricue.reference.base.depth_pixels import require_camera
-
-Floats = NDArray[np.float64]
 
 
 def back_project(

@@ -2,12 +2,9 @@
 """The right image of a verged pair, rectified (Okada, Shirai, Miura 1996, section 3.1, equation (8))."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats, Image
 from tricue.reference.base.checks import refuse
-
-Image = NDArray[np.uint8]
-Floats = NDArray[np.float64]
 
 UNIT = 2048  # places are rounded to this fraction of a pixel
 

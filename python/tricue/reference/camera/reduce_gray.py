@@ -2,11 +2,10 @@
 """The mean gray level of each cell of an image."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Image
 from tricue.reference.base.checks import refuse
 
-Image = NDArray[np.uint8]
 WEIGHTS = 3735, 19235, 9798  # of blue, green and red, in parts of 2^15
 
 

@@ -4,11 +4,11 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import require_shape
 from tricue.reference.fuse.detail.rectangle_pixels import rectangle_pixels
 
 Counts = NDArray[np.int64]
-Floats = NDArray[np.float64]
 
 MIN_MEASURED_SHARE = 0.2  # of a block's pixels; the mean of fewer disparities isn't used
 

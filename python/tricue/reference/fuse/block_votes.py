@@ -4,12 +4,11 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Flags, Floats
 from tricue.reference.base.checks import refuse
 from tricue.reference.fuse.block_counts import MIN_MEASURED_SHARE
 
 Counts = NDArray[np.int64]
-Flags = NDArray[np.bool_]
-Floats = NDArray[np.float64]
 
 MAX_FRAMES = 2**31 - 1
 OTHER, TARGET, OCCLUDED = 0, 1, 2

@@ -2,11 +2,10 @@
 """P(target | two cues) of every pixel."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Plane
 from tricue.reference.base.checks import refuse
 
-Plane = NDArray[np.float32]
 LEAST_SUM = np.float32(1e-9)  # so that contradictory posteriors, 0 and 1, give a finite result
 
 

@@ -4,13 +4,13 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Singles
 from tricue.reference.base.checks import refuse
 
-Floats = NDArray[np.float32]
 Complexes = NDArray[np.complex64]
 
 
-def correlation_response(cells: Floats, filters: Complexes) -> Floats:
+def correlation_response(cells: Singles, filters: Complexes) -> Singles:
     """Computes F⁻¹{sum_k A_k Z_k} with numpy.fft."""
     require_filters(cells, filters)
     spectrum = np.fft.rfft2(cells.astype(np.float64))
@@ -18,7 +18,7 @@ def correlation_response(cells: Floats, filters: Complexes) -> Floats:
     return np.fft.fftshift(answers, axes=(1, 2)).astype(np.float32)
 
 
-def require_filters(cells: Floats, filters: Complexes) -> None:
+def require_filters(cells: Singles, filters: Complexes) -> None:
     """Refuse empty cells, missing filters, and filters of another size than the cells."""
     require_cells(cells)
     channels, rows, columns = cells.shape
@@ -29,13 +29,13 @@ def require_filters(cells: Floats, filters: Complexes) -> None:
         refuse("filters", f"shape {expected}", filters.shape)
 
 
-def require_cells(cells: Floats) -> None:
+def require_cells(cells: Singles) -> None:
     """Refuse empty cells."""
     if cells.size < 1:
         refuse("cells", "at least one channel and cell", cells.shape)
 
 
-def require_filter(cells: Floats, numerator: Complexes, denominator: Floats) -> None:
+def require_filter(cells: Singles, numerator: Complexes, denominator: Singles) -> None:
     """Refuse empty cells, and a filter of another size than the cells."""
     require_cells(cells)
     count, rows, columns = cells.shape

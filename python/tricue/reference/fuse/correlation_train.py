@@ -3,17 +3,18 @@
 
 import numpy as np
 
+from tricue.reference.base.arrays import Singles
 from tricue.reference.base.checks import refuse
-from tricue.reference.fuse.correlation_response import Complexes, Floats, require_filter
+from tricue.reference.fuse.correlation_response import Complexes, require_filter
 
 
 def correlation_train(
-    cells: Floats,
+    cells: Singles,
     label: Complexes,
     numerator: Complexes,
-    denominator: Floats,
+    denominator: Singles,
     rate: float,
-) -> tuple[Complexes, Floats]:
+) -> tuple[Complexes, Singles]:
     """Computes the spectra with numpy.fft, and blends numerator and denominator."""
     require_filter(cells, numerator, denominator)
     require_rate(rate)

@@ -6,9 +6,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Plane
 from tricue.reference.base.checks import refuse
 
-Plane = NDArray[np.float32]
 MAX_OFFSET = 0.5  # cells; a peak farther off would be in the next cell
 
 

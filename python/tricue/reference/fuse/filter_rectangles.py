@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse, require_finite, require_shape
 from tricue.reference.cues.depth.depth_contrast import depth_contrast
 from tricue.reference.cues.depth.depth_distance import depth_distance
@@ -15,8 +16,6 @@ from tricue.reference.fuse.rectangle_prior import rectangle_prior
 from tricue.reference.fuse.resample import resample
 from tricue.reference.fuse.reweight import reweight
 from tricue.reference.fuse.summarize import summarize
-
-Floats = NDArray[np.float64]
 
 NUMBERS = 5  # in a state
 MIN_LIKELIHOOD = 1e-12

@@ -1,13 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Kalman prediction (Kalman 1960; Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, equation (6))."""
 
-import numpy as np
-from numpy.typing import NDArray
-
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import require_covariance, require_finite, require_shape
 from tricue.reference.fuse.detail.gaussian_state import require_belief, symmetric
-
-Floats = NDArray[np.float64]
 
 
 def kalman_predict(

@@ -2,12 +2,10 @@
 """Kalman update in Joseph's form (Kalman 1960; Bucy, Joseph 1968)."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse, require_covariance, require_finite, require_shape
 from tricue.reference.fuse.detail.gaussian_state import require_belief, symmetric
-
-Floats = NDArray[np.float64]
 
 
 def kalman_update(

@@ -4,11 +4,11 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Plane
 from tricue.reference.base.checks import refuse
 from tricue.reference.cues.color.hog_color_cells import hog_color_cells
 from tricue.reference.fuse.regularized_filter import regularized_filter
 
-Plane = NDArray[np.float32]
 Complexes = NDArray[np.complex64]
 
 

@@ -6,13 +6,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Plane
 from tricue.reference.base.checks import refuse
 from tricue.reference.cues.color.hog_color_cells import hog_color_cells
 from tricue.reference.cues.color.pick_pixels import pick_pixels
 from tricue.reference.fuse.correlation_train import correlation_train
 from tricue.reference.fuse.learn_place_filter import require_share
 
-Plane = NDArray[np.float32]
 Complexes = NDArray[np.complex64]
 MIN_MEAN = 1e-12  # lower bound of a denominator's mean
 

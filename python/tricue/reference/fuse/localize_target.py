@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats, Image, Plane
 from tricue.reference.base.checks import refuse
 from tricue.reference.cues.color.box_contrast import box_contrast
 from tricue.reference.cues.color.color_posterior import color_posterior
@@ -15,10 +16,6 @@ from tricue.reference.cues.color.joint_histogram import joint_histogram
 from tricue.reference.fuse.combine_posteriors import combine_posteriors
 from tricue.reference.fuse.correlation_response import correlation_response
 from tricue.reference.fuse.evidence_peak import evidence_peak
-
-Image = NDArray[np.uint8]
-Plane = NDArray[np.float32]
-Floats = NDArray[np.float64]
 
 
 def localize_target(

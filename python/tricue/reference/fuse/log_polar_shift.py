@@ -6,12 +6,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Plane
 from tricue.reference.base.checks import refuse, require_count
 from tricue.reference.cues.color.hog_color_cells import hog_color_cells
 from tricue.reference.cues.color.pick_pixels import pick_pixels
 from tricue.reference.fuse.correlation_response import correlation_response
 
-Plane = NDArray[np.float32]
 MAX_OFFSET = 0.5  # cells; a peak farther off would be in the next cell
 MIN_SHARE = 0.05  # of the maximum: lower bound of a neighbor before its logarithm is taken
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats, Plane
 from tricue.reference.base.checks import refuse, require_shape
 from tricue.reference.fuse.block_counts import MIN_MEASURED_SHARE, block_counts
 from tricue.reference.fuse.detail.block_grid import Place, placed, require_numbers
@@ -13,8 +14,6 @@ from tricue.reference.fuse.detail.rectangle_pixels import Rectangle
 from tricue.reference.fuse.target_pixels import target_pixels
 from tricue.reference.fuse.temporal_window import temporal_window
 
-Plane = NDArray[np.float32]
-Floats = NDArray[np.float64]
 Counts = NDArray[np.int64]
 
 

@@ -4,6 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats, Singles
 from tricue.reference.base.checks import refuse, require_shape, require_weights
 from tricue.reference.cues.color.rank_likelihood import rank_likelihood
 from tricue.reference.cues.color.rank_window import rank_window
@@ -12,8 +13,6 @@ from tricue.reference.fuse.resample import resample
 from tricue.reference.fuse.reweight import reweight
 from tricue.reference.fuse.summarize import summarize
 
-Floats = NDArray[np.float64]
-Singles = NDArray[np.float32]
 Four = tuple[float, float, float, float]
 
 MIN_WEIGHT = 1e-300  # lower bound of a weight before its logarithm is taken

@@ -2,11 +2,9 @@
 """The prior of rectangles: by the target's mean size and a measured state."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse, require_finite, require_shape
-
-Floats = NDArray[np.float64]
 
 
 def rectangle_prior(

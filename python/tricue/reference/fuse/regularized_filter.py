@@ -3,13 +3,14 @@
 
 import numpy as np
 
+from tricue.reference.base.arrays import Singles
 from tricue.reference.base.checks import refuse
-from tricue.reference.fuse.correlation_response import Complexes, Floats, require_cells
+from tricue.reference.fuse.correlation_response import Complexes, require_cells
 
 
 def regularized_filter(
-    cells: Floats,
-    mask: Floats,
+    cells: Singles,
+    mask: Singles,
     label: Complexes,
     previous: Complexes,
     temporal_weight: float,
@@ -34,8 +35,8 @@ def regularized_filter(
 
 
 def _require_arguments(
-    cells: Floats,
-    mask: Floats,
+    cells: Singles,
+    mask: Singles,
     label: Complexes,
     previous: Complexes,
     temporal_weight: float,

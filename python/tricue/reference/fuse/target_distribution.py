@@ -2,11 +2,9 @@
 """The target's part of a histogram (Okada, Shirai, Miura 1996, section 4.2 and figure 6)."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse
-
-Floats = NDArray[np.float64]
 
 EQUAL = 1e-9  # of the peak; heights that differ by less are equal
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats, Plane
 from tricue.reference.base.checks import refuse, require_shape
 from tricue.reference.fuse.block_mask import block_mask
 from tricue.reference.fuse.detail.block_grid import Place, placed, require_numbers
@@ -15,9 +16,7 @@ from tricue.reference.fuse.detail.value_bins import require_range
 from tricue.reference.fuse.target_distribution import target_distribution
 from tricue.reference.fuse.weighted_histogram import weighted_histogram
 
-Plane = NDArray[np.float32]
 Mask = NDArray[np.uint8]
-Floats = NDArray[np.float64]
 Counts = NDArray[np.int64]
 Peak = tuple[float, float, float]
 Blocks = tuple[Floats, Place, Counts, Counts]

@@ -6,12 +6,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats, Plane
 from tricue.reference.base.checks import refuse, require_shape
 from tricue.reference.fuse.detail.rectangle_pixels import Rectangle, rectangle_pixels, require_finite_corners
 from tricue.reference.fuse.detail.value_bins import require_range, value_bins
-
-Plane = NDArray[np.float32]
-Floats = NDArray[np.float64]
 
 MAX_RATIO = 1e12  # the product of three fits in a float32
 

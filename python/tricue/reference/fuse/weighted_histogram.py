@@ -4,11 +4,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Plane
 from tricue.reference.base.checks import refuse
 from tricue.reference.fuse.detail.rectangle_pixels import Rectangle, rectangle_pixels
 from tricue.reference.fuse.detail.value_bins import require_range, value_bins
-
-Plane = NDArray[np.float32]
 
 
 def weighted_histogram(

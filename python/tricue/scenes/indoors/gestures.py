@@ -4,8 +4,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Image
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.camera.numbers import finite, positive_whole
@@ -22,8 +22,6 @@ from tricue.scenes.rendering.textures import Looks
 from tricue.scenes.rendering.zbuffer import box_of_mask
 from tricue.scenes.scene import Scene
 from tricue.scenes.seeds import make_generator
-
-Image = NDArray[np.uint8]
 
 FRAME_RATE = 30.0  # frames per second
 SHUTTER = 0.4  # of the time between two frames

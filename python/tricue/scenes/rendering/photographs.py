@@ -6,12 +6,10 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tricue import imgproc
+from tricue.arrays import Image
 from tricue.camera.box import Box
-
-Image = NDArray[np.uint8]
 
 # Cluttered photographs; wood, fur, retina and stained tissue have colors close to skin.
 BACKGROUNDS = ("coffee", "cat", "motorcycle", "retina", "immunohistochemistry")

@@ -10,9 +10,9 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tricue import imgproc
+from tricue.arrays import Image
 from tricue.camera.rig import Intrinsics
 from tricue.scenes.arrays import Array
 from tricue.scenes.rendering import photographs, textures
@@ -25,8 +25,6 @@ from tricue.scenes.stress.cards import (
     rectangle_outline,
     superellipse,
 )
-
-Image = NDArray[np.uint8]
 
 TARGET_PHOTOGRAPHS = ("astronaut", "coffee", "cat", "motorcycle", "immunohistochemistry", "rocket")
 WALL_PHOTOGRAPHS = ("astronaut", "coffee", "cat", "motorcycle", "immunohistochemistry")

@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: MIT
 """A limit on a position's covariance, which would grow without bound while a filter only predicts."""
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[Any]
+from tricue.arrays import Floats
 
 MAX_SIGMA = 100.0  # meters, standard deviation of a position; beyond it the position counts as unknown
 

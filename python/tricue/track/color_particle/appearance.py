@@ -5,23 +5,15 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats, Image, Singles
 from tricue.kernels import Kernels
 from tricue.track.base.ellipse_pattern import ring
 from tricue.track.color_particle.color_contrast import ColorContrast
 from tricue.track.color_particle.color_models import Gaussian, Histogram, Lookup, Region
-from tricue.track.color_particle.observation_model import (
-    ObservationModel,
-    Singles,
-    WindowSamples,
-    window_grid,
-)
+from tricue.track.color_particle.observation_model import ObservationModel, WindowSamples, window_grid
 from tricue.track.color_particle.params import ColorParticleParams
 from tricue.track.color_particle.rank_models import RankSections, RankSpatial
-
-Floats = NDArray[Any]
-Image = NDArray[np.uint8]
 
 OBSERVATION_MODELS: dict[str, type[Any]] = {
     "region": Region,

@@ -11,11 +11,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.kernels import Kernels
 from tricue.track.base.ellipse_pattern import ring
 
 Samples = NDArray[np.uint8]
-Floats = NDArray[np.float64]
 Table = NDArray[np.float32]
 
 CONTRAST_BINS = 16  # per channel

@@ -5,8 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tricue.arrays import Floats, Image
 from tricue.kernels import Kernels
-from tricue.track.color_particle.appearance import Appearance, Floats, Image
+from tricue.track.color_particle.appearance import Appearance
 from tricue.track.color_particle.motion import EllipsePrediction
 from tricue.track.color_particle.rank_models import MIN_RANK_SPREAD, RankWindow
 from tricue.track.color_particle.skin_detection import NO_DETECTION, SkinDetection

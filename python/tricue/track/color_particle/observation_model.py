@@ -10,13 +10,12 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Floats, Singles
 from tricue.kernels import Kernels
 from tricue.track.base.ellipse_pattern import grid
 from tricue.track.color_particle.params import ColorParticleParams
 
 Samples = NDArray[np.uint8]
-Floats = NDArray[np.float64]
-Singles = NDArray[np.float32]
 
 NO_MODEL: Singles = np.empty(0, np.float32)  # before the first frame is learned
 

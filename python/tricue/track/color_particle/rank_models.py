@@ -5,12 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tricue.arrays import Floats, Singles
 from tricue.kernels import Kernels
 from tricue.track.color_particle.observation_model import (
     NO_MODEL,
-    Floats,
     Samples,
-    Singles,
     WindowSamples,
     blend,
     recognition_by_distance,

@@ -9,14 +9,11 @@ target.
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats, Image
 from tricue.kernels import Kernels
 from tricue.track.color_particle.appearance import Appearance
 from tricue.track.color_particle.state import ParticleSet
-
-Floats = NDArray[np.float64]
-Image = NDArray[np.uint8]
 
 WINDOWS, BLOCKS = 48, 32  # windows per frame; blocks of windows, used in turn
 NEAR, FAR = 0.1, 0.3  # standard deviations of the windows' positions, in target sides; half of them each

@@ -4,14 +4,12 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats, Image
 from tricue.kernels import Kernels
 from tricue.track.color_particle.motion import Ellipse, EllipseMotion, EllipsePrediction
 from tricue.track.color_particle.params import ColorParticleParams
 
-Floats = NDArray[np.float64]
-Image = NDArray[np.uint8]
 Region = tuple[int, int, int, int]
 
 SKIN_PATCH = 1 / 3  # of the target's width and height: the central patch that gives its reference color

@@ -6,11 +6,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.track.color_particle.appearance import Appearance
 from tricue.track.color_particle.motion import EllipseMotion
 from tricue.track.color_particle.params import ColorParticleParams
-
-Floats = NDArray[np.float64]
 
 MIN_MISSED_FRAMES = 5  # consecutive, before the target is LOST
 

@@ -5,9 +5,9 @@ import math
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tricue import kernels as kernel_sets
+from tricue.arrays import Floats, Image
 from tricue.camera.box import Box, BoxLike
 from tricue.camera.frame import FrameLike, as_frame
 from tricue.track.base import validation
@@ -23,9 +23,6 @@ from tricue.track.color_particle.realignment import GAIN_TO_FORGET, moved, reali
 from tricue.track.color_particle.skin_detection import detect_skin, draw_candidates, reference_color
 from tricue.track.color_particle.state import ParticleSet, State
 from tricue.track.head_detection.start_box import head_or_face_to_start_on
-
-Floats = NDArray[np.float64]
-Image = NDArray[np.uint8]
 
 MEAN_RATE = 0.05  # per frame, of the running means of the log-likelihood
 LEAD_EVERY = 4  # frames; the lead of a followed target is measured in one of this many

@@ -2,12 +2,9 @@
 """The floor's plane, from random samples of the depth image; kept while the camera doesn't move."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Depth, Floats
 from tricue.kernels import Kernels
-
-Floats = NDArray[np.float64]
-Depth = NDArray[np.float32]
 
 NO_FLOOR = np.zeros(6)
 UP = np.array([0.0, -1.0, 0.0])  # camera frame

@@ -7,14 +7,11 @@ Gaps are filled first in images with many, because bodies would fall apart other
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Depth, Floats
 from tricue.kernels import Kernels
 from tricue.track.depth_objects.floor import FLOOR_TOLERANCE, find_floor, floor_step, is_supported
 from tricue.track.depth_objects.params import SegmentationParams
-
-Floats = NDArray[np.float64]
-Depth = NDArray[np.float32]
 
 MAX_MARGIN = 0.05  # of an image side; a margin without depth that registration may leave
 

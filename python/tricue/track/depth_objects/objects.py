@@ -6,14 +6,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Floats, Singles
 from tricue.camera.box import Box
 from tricue.kernels import Kernels
 from tricue.track.depth_objects.foreground import Foreground
 from tricue.track.depth_objects.params import SegmentationParams
 from tricue.track.depth_objects.projection import project_box
-
-Floats = NDArray[np.float64]
-Singles = NDArray[np.float32]
 
 DISTRIBUTION_BINS = 16  # of an object's horizontal distribution, and of its vertical one
 BORDER = 2  # pixels; an object this near the image's border may continue outside

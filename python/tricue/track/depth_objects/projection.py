@@ -6,11 +6,9 @@ A camera (4,) is fx, fy, cx, cy, pixels.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.camera.box import Box
-
-Floats = NDArray[np.float64]
 
 
 def project_rectangle(state: Floats, camera: Floats) -> list[float]:

@@ -10,13 +10,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tricue.arrays import Floats, Plane
 from tricue.camera.box import Box
 from tricue.track.base.validation import ADDED_TIME_ERROR
 from tricue.track.depth_objects.floor import NO_FLOOR
 from tricue.track.depth_objects.foreground import Foreground, extract_foreground
 from tricue.track.depth_objects.objects import EVERYWHERE, Region, segment
 from tricue.track.depth_objects.params import SegmentationParams
-from tricue.track.fused.arrays import Floats, Plane
 from tricue.track.fused.depth_sources import DepthImageSource
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation

@@ -7,9 +7,9 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Floats, Image, Plane
 from tricue.camera.rig import StereoRig
 from tricue.kernels import Kernels
-from tricue.track.fused.arrays import Floats, Image, Plane
 
 GATE_SIGMAS = 3  # standard deviations from the expected depth within which a pixel may be the target's
 MAX_EXPECTED_SIGMA = 0.5  # meters; a less certain expected depth isn't used

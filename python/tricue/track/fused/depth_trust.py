@@ -12,9 +12,9 @@ import cv2
 import numpy as np
 
 from tricue import imgproc
+from tricue.arrays import Image, Plane
 from tricue.camera.shared_frame import warn_of_frame
 from tricue.track.base.validation import ADDED_TIME_ERROR
-from tricue.track.fused.arrays import Image, Plane
 from tricue.track.fused.depth_sources import DepthImageSource
 from tricue.track.fused.frame_observation import FrameObservation
 

@@ -6,12 +6,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from tricue.arrays import Image
 from tricue.camera.frame import Frame, FrameLike, as_frame
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.camera.shared_frame import messages_of, once
 from tricue.kernels import Kernels
 from tricue.track.base import validation
-from tricue.track.fused.arrays import Image
 from tricue.track.fused.depth_sources import DepthImageSource, DepthSource, ExpectedDepth, StereoSource
 from tricue.track.fused.target_observation import TargetObservation
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tricue.track.fused.arrays import Floats, Image, Plane
+from tricue.arrays import Floats, Image, Plane
 from tricue.track.fused.experts.color import HISTOGRAM_BINS
 from tricue.track.fused.window import INNER_SHARE, Window
 

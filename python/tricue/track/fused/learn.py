@@ -9,7 +9,6 @@ used: it comes from another pose, which the first frame doesn't show.
 
 import math
 
-from tricue.track.fused.arrays import NO_PLANE
 from tricue.track.fused.depth_object import INTERVAL
 from tricue.track.fused.depth_sources import DepthImageSource
 from tricue.track.fused.experts.depth import covered_share
@@ -22,7 +21,7 @@ from tricue.track.fused.position_filter import PositionFilter, back_project
 from tricue.track.fused.state import State
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.window import CELL_PIXELS, Window, extract_window
+from tricue.track.fused.window import CELL_PIXELS, NO_PLANE, Window, extract_window
 
 MAX_DRIFT = 0.5  # cells, between two updates of appearance
 TURN_EVERY = 2  # updates of appearance per update of the turn: more frequent ones are slower and no better

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tricue.track.fused.arrays import Plane
+from tricue.arrays import Plane
 from tricue.track.fused.experts.depth import DepthExpert
 from tricue.track.fused.identity import IdentityFeatures
 from tricue.track.fused.models import AppearanceModels

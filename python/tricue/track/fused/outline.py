@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tricue.arrays import Plane
 from tricue.camera.box import Box
 from tricue.track.base.params import Params, parameter
-from tricue.track.fused.arrays import Plane
 from tricue.track.fused.sources import OURS
 from tricue.track.fused.target import Target
 from tricue.track.fused.window import PATCH_PIXELS, Window

@@ -8,12 +8,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tricue.arrays import Floats
 from tricue.camera.box import Box
 from tricue.camera.rig import Intrinsics
 from tricue.kernels import Kernels
 from tricue.track.base.params import Params, parameter
 from tricue.track.base.position_limit import limit_covariance
-from tricue.track.fused.arrays import Floats
 from tricue.track.fused.depth_sources import ExpectedDepth
 from tricue.track.fused.experts.depth import DEPTH_SAMPLES, DepthMeasurement
 from tricue.track.fused.sources import OURS

@@ -6,7 +6,7 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from tricue.track.fused.arrays import Plane
+from tricue.arrays import Plane
 from tricue.track.fused.depth_object import find_objects
 from tricue.track.fused.depth_sources import ExpectedDepth
 from tricue.track.fused.experts.depth import DepthMeasurement, measure_center_depths

@@ -7,9 +7,9 @@ It is at the target's depth, so depth alone would take it for the target.
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Floats, Plane
 from tricue.camera.rig import Intrinsics
 from tricue.kernels import Kernels
-from tricue.track.fused.arrays import Floats, Plane
 from tricue.track.fused.depth_sources import Grid
 
 SUPPORT_TOLERANCE = 0.015  # largest distance of a point from the plane, as a share of the target's depth

@@ -9,9 +9,9 @@ from typing import Literal, NamedTuple
 import cv2
 import numpy as np
 
+from tricue.arrays import Floats, Image, Plane
 from tricue.camera.rig import Intrinsics
 from tricue.kernels import Kernels
-from tricue.track.fused.arrays import Floats, Image, Plane
 from tricue.track.fused.depth_sources import (
     GATE_SIGMAS,
     DepthImageSource,

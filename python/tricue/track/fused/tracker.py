@@ -6,6 +6,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from tricue import kernels as kernel_sets
+from tricue.arrays import Floats
 from tricue.camera.box import Box, BoxLike
 from tricue.camera.depth_check import warn_of_depth
 from tricue.camera.frame import FrameLike, as_frame
@@ -15,7 +16,6 @@ from tricue.track.base import validation
 from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase
 from tricue.track.base.traits import Channels, Traits
-from tricue.track.fused.arrays import Floats
 from tricue.track.fused.depth_sources import DepthImageSource, ExpectedDepth, StereoSource
 from tricue.track.fused.depth_trust import DepthTrust
 from tricue.track.fused.frame_observation import FrameObservation, observe_frame, rig_and_camera

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tricue.arrays import Floats, Image, Plane
 from tricue.track.base.params import Params, parameter
-from tricue.track.fused.arrays import NO_PLANE, Floats, Image, Plane
 from tricue.track.fused.depth_sources import DepthImageSource, DepthPosterior, Grid
 from tricue.track.fused.sources import OURS
 from tricue.track.fused.support import find_support
@@ -16,6 +16,7 @@ from tricue.track.fused.target_observation import TargetObservation
 WINDOW_CELLS = 32  # on a side
 CELL_PIXELS = 2  # patch pixels on a side
 PATCH_PIXELS = CELL_PIXELS * WINDOW_CELLS  # on a side
+NO_PLANE: Plane = np.empty((0, 0), np.float32)  # where a cue has no evidence
 INNER_SHARE = 0.8  # of the box's sides: the part whose pixels are mostly the target's
 SUPPORT_POSTERIOR = np.float32(0.05)  # upper bound of P(target | depth) for what the target stands on
 

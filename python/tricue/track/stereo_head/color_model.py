@@ -5,15 +5,13 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.kernels import Kernels
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.prepared_pair import Ellipse
 from tricue.track.stereo_head.search_local import search_local
 from tricue.track.stereo_head.search_region import SearchRegion
-
-Floats = NDArray[np.float64]
 
 HAIR_CAP = 0.3  # of the head's height, from its top
 

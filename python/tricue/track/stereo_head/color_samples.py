@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue import kernels
+from tricue.arrays import Floats
 from tricue.track.stereo_head.params import StereoHeadParams
 
-Floats = NDArray[np.float64]
 Samples = Iterable[tuple[NDArray[np.uint8], NDArray[np.bool_]]]
 
 MIN_WEIGHT = 1e-5  # share of the model; bins with less are left out

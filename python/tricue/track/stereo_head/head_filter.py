@@ -6,15 +6,13 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.kernels import Kernels
 from tricue.track.base.coasting import velocity_kept
 from tricue.track.base.position_limit import limit_covariance
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.stereo_geometry import Point
-
-Floats = NDArray[np.float64]
 
 MEASUREMENT_SIZE = 7  # (7): X, Y, Z, three colors, the intersection; a velocity, if any, comes after these
 INTERSECTION_DRIFT = 1.0  # standard deviation, section 4.1: unity

@@ -5,8 +5,8 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.kernels import Kernels
 from tricue.track.stereo_head.color_model import measure_first_histogram
 from tricue.track.stereo_head.disparity import EllipseDisparity, limits_around, measure_disparity
@@ -15,8 +15,6 @@ from tricue.track.stereo_head.prepared_pair import Ellipse, PreparedPair
 from tricue.track.stereo_head.search_local import EllipseMatch, search_local
 from tricue.track.stereo_head.search_region import crop_region
 from tricue.track.stereo_head.stereo_geometry import Point, StereoGeometry
-
-Floats = NDArray[np.float64]
 
 MIN_SCORE_LOSS = 0.02  # the least assumed difference of a mean score from 1
 

@@ -6,10 +6,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Image
 from tricue.kernels import Kernels
 from tricue.track.stereo_head.params import StereoHeadParams
 
-Image = NDArray[np.uint8]
 Region = tuple[int, int, int, int]
 Ellipse = tuple[float, float, float, float]  # center x, y, semi-axes minor (along x), major; pixels
 

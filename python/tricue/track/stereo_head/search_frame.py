@@ -7,14 +7,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.kernels import Kernels
 from tricue.track.stereo_head.disparity import limits_between
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.prepared_pair import Disparities, Ellipse, PreparedPair
 from tricue.track.stereo_head.search_local import score_matches
 from tricue.track.stereo_head.stereo_geometry import Point, StereoGeometry
-
-Floats = NDArray[np.float64]
 
 CELL_STRIDE = 3  # every third cell is searched, in both directions
 DISTANCE_RATIO = 0.85  # ratio of a searched distance to the next farther one

@@ -4,14 +4,12 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.kernels import Kernels
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.prepared_pair import Ellipse
 from tricue.track.stereo_head.search_region import SearchRegion
-
-Floats = NDArray[np.float64]
 
 MIN_COHERENT_CELLS = 8  # with fewer at the head's depth, all of the ellipse's cells count
 

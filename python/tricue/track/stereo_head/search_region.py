@@ -7,9 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Image
 from tricue.kernels import Kernels
 from tricue.track.stereo_head.params import StereoHeadParams
-from tricue.track.stereo_head.prepared_pair import Ellipse, Image, PreparedPair
+from tricue.track.stereo_head.prepared_pair import Ellipse, PreparedPair
 
 FILL_WINDOW = 7  # cells, side of the square that fills gaps in the disparity, as in textureless hair
 

@@ -3,15 +3,11 @@
 
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
+from tricue.arrays import Floats
 from tricue.track.stereo_head.head_filter import HeadFilter
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.prepared_pair import Color
 from tricue.track.stereo_head.stereo_geometry import Point, StereoGeometry
-
-Floats = NDArray[np.float64]
 
 
 class HeadState(NamedTuple):

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tricue import kernels as kernel_sets
+from tricue.arrays import Floats
 from tricue.camera.box import BoxLike
 from tricue.camera.frame import Frame
 from tricue.camera.rig import StereoRig
@@ -17,8 +17,6 @@ from tricue.track.stereo_head.measure import measure
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.prepared_pair import PreparedPair
 from tricue.track.stereo_head.tracker import StereoHeadTracker
-
-Floats = NDArray[np.float64]
 
 MIN_FRAMES = 10  # with a measurement
 MAX_LAG = 15  # frames, of the changes used to separate noise from drift

@@ -4,14 +4,13 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.camera.rig import StereoRig
 from tricue.kernels import Kernels
 from tricue.track.base.stereo_noise import measurement_variances
 from tricue.track.stereo_head.params import StereoHeadParams
 
-Floats = NDArray[np.float64]
 Point = tuple[float, float, float]  # meters
 
 MIN_POSITION_NOISE = 1e-4  # meters, for zeros of a polynomial

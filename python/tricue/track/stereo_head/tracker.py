@@ -3,10 +3,8 @@
 
 from typing import Any, ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
-
 from tricue import kernels as kernel_sets
+from tricue.arrays import Floats
 from tricue.camera.box import Box, BoxLike, as_box
 from tricue.camera.frame import FrameLike, as_frame
 from tricue.camera.rig import StereoRig
@@ -26,8 +24,6 @@ from tricue.track.stereo_head.prepared_pair import PreparedPair
 from tricue.track.stereo_head.search_frame import LostHead, search_frame
 from tricue.track.stereo_head.state import HeadState
 from tricue.track.stereo_head.stereo_geometry import StereoGeometry
-
-Floats = NDArray[np.float64]
 
 MIN_SEARCH_RADIUS = 0.3  # meters from where a head that was just missed was last seen
 MIN_INITIAL_SHARE = 0.3  # of the box's ellipse at one disparity; things beyond ``far`` match at random

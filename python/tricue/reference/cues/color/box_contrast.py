@@ -2,12 +2,9 @@
 """Center-surround contrast: how much higher a map is in a box than around it, for every place of the box."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats, Plane
 from tricue.reference.base.checks import refuse, require_finite
-
-Plane = NDArray[np.float32]
-Floats = NDArray[np.float64]
 
 
 def box_contrast(plane: Plane, width: float, height: float, outer: float, around: float) -> Plane:

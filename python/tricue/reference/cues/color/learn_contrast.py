@@ -4,11 +4,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import require_finite, require_shape
 from tricue.reference.cues.color.detail.learn_histograms import Cube, learn_histograms
 from tricue.reference.cues.color.sample_ellipses import sample_ellipses
-
-Floats = NDArray[np.float64]
 
 UNSEEN = 0.0  # P(target) of a color that neither target nor surround has
 

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Learning of a color histogram, and its mean color (Moreno et al. 2002, equations (2) and (7))."""
 
-from tricue.reference.base.checks import Floats, refuse, require_shape
+from tricue.reference.base.arrays import Floats
+from tricue.reference.base.checks import refuse, require_shape
 from tricue.reference.cues.color.detail.color_space import Bins, require_space
 from tricue.reference.cues.color.histogram_mean import histogram_mean
 

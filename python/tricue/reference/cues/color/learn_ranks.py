@@ -2,11 +2,9 @@
 """Learning of a rank map."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Singles
 from tricue.reference.base.checks import refuse
-
-Singles = NDArray[np.float32]
 
 
 def learn_ranks(models: Singles, ranks: Singles, rate: float) -> Singles:

@@ -6,12 +6,11 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse, require_finite, require_shape
 from tricue.reference.cues.color.color_lookup import color_lookup
 from tricue.reference.cues.color.rank_distance import rank_distance
 from tricue.reference.cues.color.sample_ellipses import sample_ellipses
-
-Floats = NDArray[np.float64]
 
 
 def rank_likelihood(

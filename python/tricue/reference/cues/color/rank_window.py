@@ -4,12 +4,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats, Singles
 from tricue.reference.base.checks import refuse, require_finite, require_shape
 from tricue.reference.cues.color.color_ranks import color_ranks
 from tricue.reference.cues.color.sample_ellipses import sample_ellipses
-
-Floats = NDArray[np.float64]
-Singles = NDArray[np.float32]
 
 
 def rank_window(

@@ -4,6 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import (
     MAX_IMAGE_SIDE,
     refuse,
@@ -15,7 +16,6 @@ from tricue.reference.base.checks import (
 UNIT = 16  # places are rounded to this fraction of a pixel, so that integer sums are exact in any order
 MAX_SIDE = 4  # pixels: side of the square that a sample is the mean of
 
-Floats = NDArray[np.float64]
 Whole = NDArray[np.intp]
 
 

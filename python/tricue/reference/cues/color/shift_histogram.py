@@ -2,12 +2,10 @@
 """A color histogram shifted to a given mean (Moreno et al. 2002, section 4)."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import require_finite, require_shape
 from tricue.reference.cues.color.detail.color_space import axes, mean_color, require_histogram
-
-Floats = NDArray[np.float64]
 
 
 def shift_histogram(histogram: Floats, bins: tuple[int, int, int], chroma: int, mean: Floats) -> Floats:

@@ -4,9 +4,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Depth
 from tricue.reference.base.checks import refuse, require_shape
-
-Depth = NDArray[np.float32]
 
 
 def changed_depth(depth: Depth, before: Depth, noise: float, slope: float) -> NDArray[np.uint8]:

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Flags, Floats
 from tricue.reference.base.checks import refuse
 from tricue.reference.cues.depth.detail.object_features import (
     complete_rectangle,
@@ -14,8 +15,6 @@ from tricue.reference.cues.depth.detail.object_features import (
     require_objects,
 )
 
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 Shares = NDArray[np.float32]
 
 

@@ -4,10 +4,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse
 from tricue.reference.base.depth_pixels import has_depth, require_camera, require_table
-
-Floats = NDArray[np.float64]
 
 PLACES = 12  # read beside each side
 ALONG = (2 * np.arange(PLACES) + 1) / PLACES - 1

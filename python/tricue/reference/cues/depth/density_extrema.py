@@ -4,9 +4,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse
 
-Floats = NDArray[np.float64]
 Levels = NDArray[np.int64]
 
 

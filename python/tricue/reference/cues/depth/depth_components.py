@@ -6,11 +6,11 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Depth
 from tricue.reference.base.checks import refuse, require_count
 from tricue.reference.base.depth_pixels import has_depth
 
 Labels = NDArray[np.uint8]
-Depth = NDArray[np.float32]
 Pixels = NDArray[np.intp]
 Shares = NDArray[np.float32]
 

@@ -4,11 +4,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse, require_finite, require_shape
 from tricue.reference.base.depth_pixels import require_camera
 from tricue.reference.cues.depth.depth_distance import depth_distance
-
-Floats = NDArray[np.float64]
 
 MAX_PLACES = 64
 OUTSIDE = np.array([-1.0, -1.0, 0.0, 0.0])  # a rectangle of no pixels

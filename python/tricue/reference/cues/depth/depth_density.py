@@ -2,11 +2,9 @@
 """Kernel density of depth levels (Sabeti, Parvizi, Wu 2008, p(z) of equation (32))."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse
-
-Floats = NDArray[np.float64]
 
 
 def depth_density(histogram: Floats, bandwidth: float) -> Floats:

@@ -2,13 +2,10 @@
 """Distance of depth histograms (Sabeti, Parvizi, Wu 2008, equation (38))."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Depth, Floats
 from tricue.reference.base.checks import refuse, require_finite, require_shape
 from tricue.reference.cues.depth.detail import depth_reader
-
-Depth = NDArray[np.float32]
-Floats = NDArray[np.float64]
 
 
 def depth_distance(

@@ -4,9 +4,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Depth
 from tricue.reference.base.checks import MAX_GRID_SIDE, refuse, require_count
 
-Depth = NDArray[np.float32]
 CLUTTER = 0.1  # likelihood of any depth of the background, relative to the target's at the expected depth
 
 

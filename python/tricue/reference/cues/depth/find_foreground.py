@@ -4,13 +4,11 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Depth, Floats
 from tricue.reference.base.checks import refuse
 from tricue.reference.cues.depth.above_floor import above_floor
 from tricue.reference.cues.depth.fill_gaps import fill_gaps
 from tricue.reference.cues.depth.plane_support import plane_support
-
-Depth = NDArray[np.float32]
-Floats = NDArray[np.float64]
 
 
 def find_foreground(

@@ -4,12 +4,12 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse, require_finite, require_shape
 from tricue.reference.base.depth_pixels import has_depth, rays
 
 Points = NDArray[np.float32]
-Floats = NDArray[np.float64]
-Plane = tuple[Floats, float]
+FittedPlane = tuple[Floats, float]
 
 ROUNDS = 3
 LINE_SQUARED = 1e-4  # square of the smallest sine between two edges of a triple
@@ -65,7 +65,9 @@ def _check(
         refuse("triples", f"indices in [0, {depth.size})", outside[0])
 
 
-def _relations(points: Points, plane: Plane, tolerance: float) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+def _relations(
+    points: Points, plane: FittedPlane, tolerance: float
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Which points are within ``tolerance`` of the plane, and which are more than 3 times that below it.
 
     In float32.
@@ -77,7 +79,7 @@ def _relations(points: Points, plane: Plane, tolerance: float) -> tuple[NDArray[
     return abs(height) <= near, height < np.float32(-3) * near
 
 
-def _plane_through(p: Floats, q: Floats, r: Floats, up: Floats, min_cosine: float) -> Plane | None:
+def _plane_through(p: Floats, q: Floats, r: Floats, up: Floats, min_cosine: float) -> FittedPlane | None:
     """The plane through three points; None if they are nearly on a line or weren't measured."""
     a, b = q - p, r - p
     normal = np.cross(a, b)
@@ -87,7 +89,7 @@ def _plane_through(p: Floats, q: Floats, r: Floats, up: Floats, min_cosine: floa
     return _level_plane(normal / np.sqrt(square), p, up, min_cosine)
 
 
-def _fit(points: Points, up: Floats, min_cosine: float) -> Plane | None:
+def _fit(points: Points, up: Floats, min_cosine: float) -> FittedPlane | None:
     """The least-squares plane: through the mean, normal to the direction in which the points spread least."""
     if len(points) < 3:
         return None
@@ -97,7 +99,7 @@ def _fit(points: Points, up: Floats, min_cosine: float) -> Plane | None:
     return _level_plane(vectors[:, 0], mean, up, min_cosine)
 
 
-def _level_plane(normal: Floats, point: Floats, up: Floats, min_cosine: float) -> Plane | None:
+def _level_plane(normal: Floats, point: Floats, up: Floats, min_cosine: float) -> FittedPlane | None:
     """The plane through a point, with its normal toward the camera; None if it isn't level enough, or is seen
     edge-on.
     """

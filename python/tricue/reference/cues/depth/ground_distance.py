@@ -2,13 +2,11 @@
 """Distances along the ground, measured by a tilted depth camera."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Depth, Floats
 from tricue.reference.base.checks import refuse, require_finite, require_shape
 from tricue.reference.base.depth_pixels import require_camera
 
-Depth = NDArray[np.float32]
-Floats = NDArray[np.float64]
 MIN_LEVEL = 1e-6  # length of the optical axis's component along the ground
 
 

@@ -4,6 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Flags, Floats
 from tricue.reference.base.checks import refuse, require_shape
 from tricue.reference.cues.depth.detail.object_features import (
     complete_rectangle,
@@ -11,8 +12,6 @@ from tricue.reference.cues.depth.detail.object_features import (
     require_objects,
 )
 
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 Shares = NDArray[np.float32]
 Deviation = tuple[float, float, float, float, float]
 

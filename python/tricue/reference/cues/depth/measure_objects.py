@@ -4,10 +4,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse, require_finite, require_shape
 from tricue.reference.base.depth_pixels import require_camera, require_table
 
-Floats = NDArray[np.float64]
 Shares = NDArray[np.float32]
 
 

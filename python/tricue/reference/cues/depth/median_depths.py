@@ -4,10 +4,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Depth, Floats
 from tricue.reference.base.checks import refuse, require_finite, require_shape
 
-Depth = NDArray[np.float32]
-Floats = NDArray[np.float64]
 NEAR, FAR = 0.001, 1000.0  # meters; depths outside of these count as not measured
 MAD_TO_SIGMA = 1.4826  # from the median absolute deviation to the standard deviation of normal noise
 MAX_SAMPLES = 1024

@@ -4,10 +4,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse
 from tricue.reference.cues.depth.detail.plane_height import height_above
-
-Floats = NDArray[np.float64]
 
 
 def plane_support(

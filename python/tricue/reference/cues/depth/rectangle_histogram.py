@@ -4,10 +4,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse, require_finite, require_shape
 from tricue.reference.cues.depth.detail import depth_reader
-
-Floats = NDArray[np.float64]
 
 
 def rectangle_histogram(

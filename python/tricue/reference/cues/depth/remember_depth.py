@@ -2,11 +2,9 @@
 """The last depth of each pixel that wasn't the target's."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Depth
 from tricue.reference.base.checks import refuse, require_shape
-
-Depth = NDArray[np.float32]
 
 
 def remember_depth(

@@ -4,6 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Depth, Floats
 from tricue.reference.cues.depth.changed_depth import changed_depth
 from tricue.reference.cues.depth.cut_sides import cut_sides
 from tricue.reference.cues.depth.density_extrema import density_extrema
@@ -14,9 +15,6 @@ from tricue.reference.cues.depth.depth_histogram import depth_histogram
 from tricue.reference.cues.depth.divide_depth import divide_depth
 from tricue.reference.cues.depth.ground_distance import ground_distance
 from tricue.reference.cues.depth.measure_objects import measure_objects
-
-Depth = NDArray[np.float32]
-Floats = NDArray[np.float64]
 
 BINS = 16  # of an object's distributions over columns and rows
 MAX_MINIMA = 254  # labels have 8 bits

@@ -4,12 +4,11 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Depth, Floats
 from tricue.reference.base.checks import MAX_GRID_SIDE, refuse, require_count, require_shape
 from tricue.reference.base.depth_pixels import has_depth, require_camera
 from tricue.reference.cues.depth.floor_plane import floor_plane
 
-Depth = NDArray[np.float32]
-Floats = NDArray[np.float64]
 Mask = NDArray[np.uint8]
 
 MAX_DEPTH = 2.0  # of the target's depth; farther pixels are ignored

@@ -2,14 +2,11 @@
 """Flow by the generalized gradient method with two filters (Okada, Shirai and Miura 1996, section 2)."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats, Image, Plane
 from tricue.reference.base.checks import refuse
 from tricue.reference.base.gaussian import correlate, gaussian_taps, require_sigma
 
-Image = NDArray[np.uint8]
-Plane = NDArray[np.float32]
-Floats = NDArray[np.float64]
 Rectangle = tuple[int, int, int, int]
 
 LONGEST = np.pi / np.sqrt(2)  # sigmas: half of the wavelength that a Gaussian's second derivatives pass best

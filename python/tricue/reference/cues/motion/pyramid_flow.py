@@ -4,13 +4,11 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats, Image, Plane
 from tricue.reference.base.checks import refuse
 from tricue.reference.base.gaussian import correlate, reach, require_sigma
 from tricue.reference.cues.motion.gradient_flow import (
     ROUNDING,
-    Floats,
-    Image,
-    Plane,
     Rectangle,
     constraints,
     require_frames,

@@ -5,8 +5,9 @@ import math
 
 import numpy as np
 
+from tricue.reference.base.arrays import Image
 from tricue.reference.base.checks import refuse
-from tricue.reference.cues.stereo.detail.cell_disparities import Image, cell_disparities
+from tricue.reference.cues.stereo.detail.cell_disparities import cell_disparities
 
 
 def ellipse_disparity(

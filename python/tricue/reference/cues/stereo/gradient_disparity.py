@@ -4,11 +4,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats, Image, Singles
 from tricue.reference.base.checks import refuse
 
-Image = NDArray[np.uint8]
-Floats = NDArray[np.float64]
-Singles = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 Rectangle = tuple[int, int, int, int]
 

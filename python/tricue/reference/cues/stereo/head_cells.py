@@ -4,9 +4,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Image
 from tricue.reference.base.checks import refuse
 from tricue.reference.cues.color.color_bins import color_bins
-from tricue.reference.cues.stereo.detail.cell_disparities import Image, cell_disparities
+from tricue.reference.cues.stereo.detail.cell_disparities import cell_disparities
 from tricue.reference.cues.stereo.detail.coherent_cells import coherent_cells
 
 MAX_CORNER = (2**31 - 1) // 2  # pixels

@@ -4,9 +4,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Image
 from tricue.reference.base.checks import refuse
 
-Image = NDArray[np.uint8]
 Ints = NDArray[np.int64]
 Disparity = NDArray[np.float32]
 Rectangle = tuple[int, int, int, int]

@@ -4,9 +4,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse, require_shape
 
-Floats = NDArray[np.float64]
 Place = tuple[float, float, float, float, float]
 
 

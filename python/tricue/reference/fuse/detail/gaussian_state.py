@@ -2,11 +2,9 @@
 """Shared by the Kalman filter's steps."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse, require_covariance, require_finite, require_shape
-
-Floats = NDArray[np.float64]
 
 
 def require_belief(mean: Floats, covariance: Floats) -> None:

@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tricue.arrays import Plane
 from tricue.track.base.params import Params, parameter
-from tricue.track.fused.arrays import Plane
 from tricue.track.fused.sources import OURS
 from tricue.track.fused.window import Window
 

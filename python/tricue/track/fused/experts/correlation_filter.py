@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tricue.arrays import Floats, Plane
 from tricue.track.base.params import parameter
-from tricue.track.fused.arrays import Floats, Plane
 from tricue.track.fused.experts.spectra import CHANNELS, FirstFrameParams, Spectra, label_spectrum
 from tricue.track.fused.sources import OURS
 from tricue.track.fused.window import CELL_PIXELS, HANN_WINDOW, WINDOW_CELLS, Window, WindowParams

@@ -9,8 +9,8 @@ from typing import NamedTuple
 import cv2
 import numpy as np
 
+from tricue.arrays import Floats
 from tricue.track.base.params import Params, parameter
-from tricue.track.fused.arrays import Floats
 from tricue.track.fused.depth_sources import GATE_SIGMAS, MAX_EXPECTED_SIGMA, ExpectedDepth
 from tricue.track.fused.sources import OURS
 from tricue.track.fused.target import Target

@@ -14,9 +14,9 @@ from typing import Any, Generic, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Floats, Image, Plane
 from tricue.kernels import Kernels
 from tricue.track.base.params import parameter
-from tricue.track.fused.arrays import Floats, Image, Plane
 from tricue.track.fused.experts.spectra import CHANNELS, FirstFrameParams, Spectra, label_spectrum
 from tricue.track.fused.sources import OURS
 from tricue.track.fused.target import TURN_STEPS, Target, axes

@@ -4,7 +4,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.base.checks import Floats, refuse, require_finite, require_shape
+from tricue.reference.base.arrays import Floats
+from tricue.reference.base.checks import refuse, require_finite, require_shape
 
 NO_BIN = 65535
 Bins = NDArray[np.uint16]

@@ -3,7 +3,8 @@
 
 import numpy as np
 
-from tricue.reference.base.checks import Floats, refuse
+from tricue.reference.base.arrays import Floats
+from tricue.reference.base.checks import refuse
 
 Grid = tuple[int, int, int]
 

@@ -4,11 +4,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Depth, Floats
 from tricue.reference.base.checks import refuse, require_finite, require_shape
 from tricue.reference.base.depth_pixels import has_depth
-
-Depth = NDArray[np.float32]
-Floats = NDArray[np.float64]
 
 
 def read(depth: Depth, rectangle: Floats, pattern: Floats) -> Floats:

@@ -4,10 +4,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Flags, Floats
 from tricue.reference.base.checks import refuse, require_finite, require_shape
 
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 Shares = NDArray[np.float32]
 
 

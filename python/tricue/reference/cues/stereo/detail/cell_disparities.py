@@ -4,11 +4,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.reference.base.arrays import Image
 from tricue.reference.base.checks import refuse
 from tricue.reference.camera.reduce_gray import reduce_gray
 from tricue.reference.cues.stereo.sad_disparity import Rectangle, sad_disparity
-
-Image = NDArray[np.uint8]
 
 
 def cell_disparities(
