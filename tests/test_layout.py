@@ -6,7 +6,8 @@ import re
 from pathlib import Path
 
 import pytest
-from tricue import _core, reference
+from tricue import _core, arrays, reference
+from tricue.reference.base import arrays as twin_arrays
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "python" / "tricue"
@@ -174,6 +175,15 @@ def test_imports_go_one_way(folder: str) -> None:
         if name.split(".")[0] in FORBIDDEN[folder]
     }
     assert not wrong, sorted(wrong)
+
+
+def test_types_of_arrays_are_defined_once() -> None:
+    """A module imports them from tricue.arrays, a twin the same from reference/base/arrays.py."""
+    names = {name: value for name, value in vars(arrays).items() if name[0].isupper() and name != "NDArray"}
+    assert names.items() <= vars(twin_arrays).items()
+    alias = re.compile(rf"^({'|'.join(names)}) = ", re.MULTILINE)
+    found = {file.relative_to(PACKAGE) for file in MODULES if alias.search(file.read_text())}
+    assert found == {Path("arrays.py"), Path("reference/base/arrays.py")}
 
 
 def test_only_values_in_a_notebook_import_its_pictures() -> None:

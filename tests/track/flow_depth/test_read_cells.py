@@ -6,13 +6,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from tricue import FlowDepthTracker, Frame
+from tricue.arrays import Image
 from tricue.kernels import load
 from tricue.scenes import overtaking
 from tricue.track.flow_depth.cues import Cues, measure
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.read_cells import CueReach
 from tricue.track.flow_depth.rectangles import Region, cells_of, contains
-from tricue.track.flow_depth.reduced_frame import Image, ReducedFrame, WantedCells
+from tricue.track.flow_depth.reduced_frame import ReducedFrame, WantedCells
 
 SHAPE = 150, 210
 forms = st.builds(

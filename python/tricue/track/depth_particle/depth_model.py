@@ -5,15 +5,13 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.kernels import Kernels
 from tricue.track.base.ellipse_pattern import grid
 from tricue.track.depth_objects.foreground import Foreground
 from tricue.track.depth_objects.projection import project_rectangle
 from tricue.track.depth_particle.params import DepthParticleParams
-
-Floats = NDArray[np.float64]
 
 SURROUND_SAMPLES = 12  # at each side of a rectangle
 NO_HISTOGRAM = np.zeros(1)  # if only the shares inside and around are wanted

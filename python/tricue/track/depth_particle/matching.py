@@ -6,12 +6,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.kernels import Kernels
 from tricue.track.depth_objects.objects import Objects
 from tricue.track.depth_particle.motion import BodyMotion
 from tricue.track.depth_particle.signature import Signature
-
-Floats = NDArray[np.float64]
 
 # Standard deviations of the target's object from the predicted state.
 POSITION_DEVIATION = (0.15, 0.35, 0.15)  # meters of X, Y, Z, plus

@@ -5,9 +5,8 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from tricue.arrays import Floats
 
 OBJECT_DEVIATION = np.array([0.05, 0.06, 0.06, 0.06, 0.08])  # meters, of a state taken from an object
 DEVIATION_FACTOR = 1.2  # times that deviation, in the likelihood

@@ -8,9 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.track.depth_particle.params import DepthParticleParams
-
-Floats = NDArray[np.float64]
 
 MIN_POSITION_NOISE = (0.03, 0.02, 0.03)  # meters of X, Y, Z, standard deviation at zero elapsed time
 AXIS_NOISE = (1.0, 0.3, 1.0)  # times position_noise; people move less vertically than horizontally

@@ -2,11 +2,9 @@
 """The object that hides the target: found when the target is missed, followed until it is seen again."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.track.depth_objects.objects import Objects
-
-Floats = NDArray[np.float64]
 
 OCCLUDER_RADIUS = 0.5  # horizontal meters around an occluder within which objects count as its pieces
 HEIGHT_WEIGHTS = np.array([1.0, 0.3, 1.0])  # of X, Y, Z in distances; the height changes with what is cut

@@ -7,17 +7,12 @@ depths change, and nothing is left out.
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
+from tricue.arrays import Depth, Floats
 from tricue.camera.box import Box
 from tricue.kernels import Kernels
 from tricue.track.depth_objects.foreground import Foreground
 from tricue.track.depth_objects.objects import Region
 from tricue.track.depth_objects.projection import project_rectangle
-
-Floats = NDArray[np.float64]
-Depth = NDArray[np.float32]
 
 OWN_REGION = 1.1  # times the target's rectangle, which may be inaccurate or miss a hand
 

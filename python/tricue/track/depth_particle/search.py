@@ -4,8 +4,8 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.kernels import Kernels
 from tricue.track.depth_objects.foreground import Foreground
 from tricue.track.depth_objects.objects import Objects
@@ -23,8 +23,6 @@ from tricue.track.depth_particle.motion import MAX_NOISE_TIME, BodyMotion, Predi
 from tricue.track.depth_particle.occluder import follow_occluder, remove_occluder
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.state import State
-
-Floats = NDArray[np.float64]
 
 MAX_SEARCH_TIME = 10.0  # seconds over which the search region of a lost target grows
 

@@ -4,11 +4,9 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.track.depth_objects.objects import DISTRIBUTION_BINS, Objects
-
-Floats = NDArray[np.float64]
 
 SIGNATURE_RATE = 0.1  # per frame, of learning
 

@@ -6,13 +6,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.track.depth_objects.objects import Objects
 from tricue.track.depth_particle.depth_model import DepthModel
 from tricue.track.depth_particle.motion import BodyMotion
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.signature import Signature
-
-Floats = NDArray[np.float64]
 
 
 class ParticleSet(NamedTuple):

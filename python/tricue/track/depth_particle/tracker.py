@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue import kernels as kernel_sets
+from tricue.arrays import Floats
 from tricue.camera.box import Box, BoxLike, as_box
 from tricue.camera.frame import FrameLike
 from tricue.camera.rig import Intrinsics
@@ -31,8 +32,6 @@ from tricue.track.depth_particle.others import region_in, remember_others
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.search import find_target
 from tricue.track.depth_particle.state import ParticleSet, State
-
-Floats = NDArray[np.float64]
 
 REFINE_POSITION = (0.06, 0.05, 0.05)  # meters of X, Y, Z, standard deviation of the second sampling
 REFINE_SIZE = 0.05  # relative standard deviation of the size in the second sampling

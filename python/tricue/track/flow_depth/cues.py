@@ -6,10 +6,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Plane
 from tricue.kernels import Kernels
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Region
-from tricue.track.flow_depth.reduced_frame import Plane, ReducedFrame
+from tricue.track.flow_depth.reduced_frame import ReducedFrame
 
 POOLING_RADIUS = 2  # cells, the radius for pooling constraints of the pyramid's flow
 

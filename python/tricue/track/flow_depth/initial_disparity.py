@@ -3,10 +3,11 @@
 
 import numpy as np
 
+from tricue.arrays import Plane
 from tricue.kernels import Kernels
 from tricue.track.base.shared_disparity import most_shared
 from tricue.track.flow_depth.rectangles import Region
-from tricue.track.flow_depth.reduced_frame import Plane, ReducedFrame
+from tricue.track.flow_depth.reduced_frame import ReducedFrame
 
 MIN_DISPARITY_CELLS = 12  # of the region, that must have a disparity
 MIN_SHARED_PART = 0.25  # of these, that must share one

@@ -5,15 +5,14 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.kernels import Kernels
 from tricue.track.flow_depth.blocks import Blocks
 from tricue.track.flow_depth.cues import Cues
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Rectangle, moved
 
-Floats = NDArray[np.float64]
 Range = tuple[float, float]
 
 MIN_DENSITY_SUM = 1e-300  # keeps a density of zeros from a division by 0

@@ -2,16 +2,14 @@
 """The target's position in meters, with its covariance, from the center of its box and its disparity."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Floats
 from tricue.camera.box import Box
 from tricue.kernels import Kernels
 from tricue.track.base.position_limit import MAX_SIGMA
 from tricue.track.base.stereo_noise import measurement_variances
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.state import FlowDepthState
-
-Floats = NDArray[np.float64]
 
 MIN_POSITION_DISPARITY = 1e-3  # pixels, of parallel cameras
 

@@ -4,16 +4,13 @@
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Image, Plane
 from tricue.camera.frame import Frame
 from tricue.kernels import Kernels
 from tricue.track.flow_depth.disparity_geometry import DisparityGeometry
 from tricue.track.flow_depth.params import PAPER_COLUMNS, FlowDepthParams
 from tricue.track.flow_depth.rectangles import Region
-
-Image = NDArray[np.uint8]
-Plane = NDArray[np.float32]
 
 
 class ReducedFrame(NamedTuple):

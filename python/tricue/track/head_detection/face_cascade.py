@@ -13,9 +13,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Image
 from tricue.camera.box import Box
 
-Image = NDArray[np.uint8]
 Squares = NDArray[np.float64]  # (N, 3): center x, y and side, pixels
 
 WINDOW = 24  # pixels, of the cascade

@@ -11,13 +11,10 @@ from pathlib import Path
 from typing import Any
 
 import cv2
-import numpy as np
-from numpy.typing import NDArray
 
+from tricue.arrays import Image
 from tricue.camera.box import Box
 from tricue.track.head_detection import face_cascade
-
-Image = NDArray[np.uint8]
 
 # Size of the head relative to the detected square, as in hand-drawn boxes of faces.
 HEAD_WIDTH_RATIO, HEAD_HEIGHT_RATIO = 0.75, 0.95

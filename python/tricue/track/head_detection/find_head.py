@@ -10,12 +10,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Image
 from tricue.camera.box import Box
 from tricue.kernels import Kernels
 from tricue.track.head_detection.head_outline import find_outline
 from tricue.track.head_detection.heads_in_disparities import heads_in_disparities
 
-Image = NDArray[np.uint8]
 Map = NDArray[np.float32]
 
 SEARCH_WIDTH = 320  # pixels, approximate width to which disparities and depth are reduced

@@ -13,11 +13,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.arrays import Image, Singles
 from tricue.camera.box import Box
 from tricue.kernels import Kernels
-
-Image = NDArray[np.uint8]
-Singles = NDArray[np.float32]
 
 WIDTH = 20  # pixels, of a head in the image in which its outline is searched
 REACH = 7  # pixels by which the outline may be off to each side
