@@ -149,7 +149,7 @@ def test_a_lost_target_is_searched_farther_and_farther(missed, hidden, by, is_fo
     """Who is hidden comes out near by. Who is lost may be meters away, the farther, the longer ago, up to ten
     seconds.
     """
-    waiting = state._replace(missed_seconds=missed, hidden=hidden)
+    waiting = state._replace(missed_seconds=missed, occluded=hidden)
     assert (found(waiting, objects_of([beside(state, by)])) is not None) == is_found
 
 

@@ -103,7 +103,7 @@ def test_the_search_over_the_picture_agrees(covered: StereoScene):
         np.zeros_like(covered.frames[2].color), right=covered.frames[2].right * 0
     )
     tracker.update(mirrored)
-    assert tracker._state.missed > 0
+    assert tracker._state.missed_seconds > 0
     for frame in covered.frames[3:5]:
         twin = on_reference_kernels(tracker)
         assert_alike(tracker.update(frame), twin.update(frame), 1e-9, 1e-11)

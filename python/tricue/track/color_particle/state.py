@@ -52,7 +52,7 @@ class State(NamedTuple):
     low_lead_seconds: float = 0.0
     frames: int = 0  # since the first
 
-    def lost(self, p: ColorParticleParams) -> bool:
+    def is_lost(self, p: ColorParticleParams) -> bool:
         """Whether the target is LOST, and is searched for in the whole frame."""
         missed = self.missed_frames >= MIN_MISSED_FRAMES and self.missed_seconds >= p.lost_after
         without_lead = self.low_lead_seconds > 0 and self.low_lead_seconds >= p.max_time_without_lead
@@ -62,6 +62,6 @@ class State(NamedTuple):
         """Whether the target is hardly more likely than the windows beside it."""
         return self.lead < p.min_lead
 
-    def tracked(self, p: ColorParticleParams) -> bool:
+    def is_tracked(self, p: ColorParticleParams) -> bool:
         """Whether the target is TRACKED."""
         return self.missed_frames == 0 and not self.has_low_lead(p)

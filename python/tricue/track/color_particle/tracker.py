@@ -130,9 +130,9 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         image, timestamp = validation.color_image(frame, before.shape)
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
         self._random.resume(before.random)
-        state = self._redetect(before, image) if before.lost(self.params) else self._follow(before, image)
+        state = self._redetect(before, image) if before.is_lost(self.params) else self._follow(before, image)
         appearance = state.appearance
-        if state.tracked(self.params) and state.recognition >= self.params.min_score_to_learn:
+        if state.is_tracked(self.params) and state.recognition >= self.params.min_score_to_learn:
             appearance = self._learn(state, image, self.params.learning_rate)
         state = state._replace(
             appearance=appearance,
@@ -248,7 +248,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             score = probability(first_log_likelihood, lead)
             if recognition < p.min_score:
                 score = min(score, recognition)
-        recognized = self._recognized(state, particles, recognition, score)
+        recognized = self._recognizes(state, particles, recognition, score)
         mean, recognized_mean = state.mean_log_likelihood, state.recognized_mean
         if recognized:
             recognized_mean += MEAN_RATE * (log_likelihood - recognized_mean)
@@ -270,19 +270,19 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         lead = self._lead(state.appearance, image, particles.ellipse, particles.log_likelihood)
         return state.lead + LEAD_RATE * (lead - state.lead)
 
-    def _recognized(self, state: State, particles: ParticleSet, recognition: float, score: float) -> bool:
+    def _recognizes(self, state: State, particles: ParticleSet, recognition: float, score: float) -> bool:
         """Whether the target is where the particles are."""
         p = self.params
         least = state.recognized_mean - p.max_likelihood_drop
         if recognition < p.min_score or particles.log_likelihood < least:
             return False
-        if state.lost(p):
+        if state.is_lost(p):
             return True
         if self._comparable and state.missed_frames and score < MIN_SCORE_AFTER_MISS:
             return False
-        return not self._jumped(state, particles)
+        return not self._has_jumped(state, particles)
 
-    def _jumped(self, state: State, particles: ParticleSet) -> bool:
+    def _has_jumped(self, state: State, particles: ParticleSet) -> bool:
         """Whether the estimate is less likely than usual, and farther from the predicted place than a wide
         search usually goes.
         """
@@ -308,8 +308,8 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         return np.repeat(ellipse[None], self.params.particles, axis=0), self._equal
 
     def _track(self, state: State) -> Track:
-        if state.tracked(self.params):
+        if state.is_tracked(self.params):
             status = Status.TRACKED
         else:
-            status = Status.LOST if state.lost(self.params) else Status.OCCLUDED
+            status = Status.LOST if state.is_lost(self.params) else Status.OCCLUDED
         return Track(Box.from_ellipse(*state.motion.ellipse), state.score, status)

@@ -50,7 +50,7 @@ def find_target(
 ) -> SearchResult:
     """Search for the target among a frame's objects. seconds: since the last frame."""
     expected = state.motion.state + prediction.drift
-    time = min(seconds + state.missed_seconds, MAX_SEARCH_TIME if state.lost(p) else MAX_NOISE_TIME)
+    time = min(seconds + state.missed_seconds, MAX_SEARCH_TIME if state.is_lost(p) else MAX_NOISE_TIME)
     candidates, occluder = _candidates(state, objects, seconds, p)
     max_cost = MAX_COST if state.missed_seconds == 0 else MAX_COST_MISSED
     best = best_match(

@@ -50,10 +50,10 @@ class State(NamedTuple):
     random: dict[str, Any]  # state of the random number generator
     timestamp: float | None
     missed_seconds: float = 0.0
-    hidden: bool = False  # whether the target is missed because something is in front of it
+    occluded: bool = False  # whether the target is missed because something is in front of it
     position_spread: Floats | None = None  # (3,) meters, standard deviation of X, Y, Z of a missed target
     occluder: Floats | None = None  # (3,) meters, position of what hides the target, while it is missed
 
-    def lost(self, p: DepthParticleParams) -> bool:
+    def is_lost(self, p: DepthParticleParams) -> bool:
         """Whether the target is LOST: missed for long although nothing is in front of it."""
-        return self.missed_seconds >= p.lost_after and not self.hidden
+        return self.missed_seconds >= p.lost_after and not self.occluded

@@ -35,7 +35,7 @@ from tricue.track.depth_particle.state import ParticleSet, State
 
 REFINE_POSITION = (0.06, 0.05, 0.05)  # meters of X, Y, Z, standard deviation of the second sampling
 REFINE_SIZE = 0.05  # relative standard deviation of the size in the second sampling
-VELOCITY_KEPT_HIDDEN, VELOCITY_KEPT = 0.97, 0.85  # per frame of coasting: behind an occluder, otherwise
+VELOCITY_KEPT_OCCLUDED, VELOCITY_KEPT = 0.97, 0.85  # per frame of coasting: behind an occluder, otherwise
 COASTING_RATE = 15.0  # Hz, the frame rate of these shares; over longer intervals less is kept
 MEAN_RATE = 0.1  # per frame, of the running means
 MAX_COVERED_TO_LEARN = 0.1  # of the target, by things in front of it
@@ -186,7 +186,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         changes: Changes = {"plane": plane, "objects": objects, "timestamp": timestamp}
         measured = NOT_MEASURED if target is None else Measurement.create(target.state, p.measurement)
         found = self._filter(state, motion.mean_size, fg, prediction, target, measured)
-        recognized = self._recognized(state, found.observed, target)
+        recognized = self._recognizes(state, found.observed, target)
         if not recognized and p.coast:
             return self._coast(state._replace(occluder=occluder, **changes), fg, prediction, seconds)
         visible = state.missed_seconds == 0 and found.observed.front < p.max_covered
@@ -242,7 +242,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             self._rng.standard_normal(out=noise[1])
         return offset, noise
 
-    def _recognized(self, state: State, observed: DepthObservation, target: TargetObject | None) -> bool:
+    def _recognizes(self, state: State, observed: DepthObservation, target: TargetObject | None) -> bool:
         """Whether the target is visible at the estimate; if it was missed, only if it matches an object."""
         if state.missed_seconds > 0 and target is None:
             return False
@@ -265,7 +265,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             motion=motion,
             score=_score(found.observed),
             missed_seconds=0.0,
-            hidden=False,
+            occluded=False,
             occluder=None,
             position_spread=None,
             **changes,
@@ -289,20 +289,20 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         p = self.params
         expected = np.clip(state.motion.state + prediction.drift, prediction.lower, prediction.upper)
         front = state.model.observe(self._k, fg, expected).front
-        hidden, occluder = front > p.max_covered, state.occluder
-        if hidden and occluder is None:
+        occluded, occluder = front > p.max_covered, state.occluder
+        if occluded and occluder is None:
             index = find_occluder(state.objects, expected, p.occluder_margin)
             occluder = None if index is None else state.objects.states[index, :3]
         missed_seconds = state.missed_seconds + seconds
         spread = np.minimum(state.motion.position_deviation(p, missed_seconds), MAX_SIGMA)
-        kept = velocity_kept(VELOCITY_KEPT_HIDDEN if hidden else VELOCITY_KEPT, seconds, COASTING_RATE)
+        kept = velocity_kept(VELOCITY_KEPT_OCCLUDED if occluded else VELOCITY_KEPT, seconds, COASTING_RATE)
         return state._replace(
             random=self._random.save(),
             motion=state.motion.coast(expected, kept),
             particles=ParticleSet.at_state(expected, p.particles),
             score=0.0,
             missed_seconds=missed_seconds,
-            hidden=hidden,
+            occluded=occluded,
             position_spread=spread,
             occluder=occluder,
         )
@@ -312,7 +312,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         if state.missed_seconds == 0:
             status = Status.TRACKED
         else:
-            status = Status.LOST if state.lost(self.params) else Status.OCCLUDED
+            status = Status.LOST if state.is_lost(self.params) else Status.OCCLUDED
         x, y, depth, _, _ = state.motion.state.tolist()  # depth doesn't depend on the camera's intrinsics
         if self.intrinsics is None:
             return Track(box, state.score, status, depth=depth)

@@ -23,7 +23,7 @@ def learn(
 ) -> FlowDepthState:
     """The state after a frame in which the target was found."""
     model, velocity, disparity = verdict.model, state.velocity, state.disparity
-    if not state.missed:
+    if not state.missed_seconds:
         velocity = (model.peaks[0], model.peaks[1]) if cues.flow else _follow_center(state, verdict)
         disparity = state.disparity if cues.disparity is None else model.peaks[-1]
         if p.velocity_smoothing:
@@ -39,7 +39,7 @@ def learn(
         disparity=disparity,
         model=model,
         temporal_window=verdict.temporal_window,
-        missed=0.0,
+        missed_seconds=0.0,
         occluded=False,
         score=min(verdict.pixel_count / max(state.mean_pixels, 1.0), 1.0),
         blocks=blocks,

@@ -33,7 +33,7 @@ def locate(
     variances = measurement_variances(place_noise, disparity_noise)
     points, covariances = k.back_project(measured, variances, state.geometry.camera, state.geometry.baseline)
     covariance = covariances[0]
-    if state.missed:
+    if state.missed_seconds:
         diagonal = covariance.ravel()[::4]
-        diagonal += min(p.acceleration_noise * state.missed**2 / 2, MAX_SIGMA) ** 2
+        diagonal += min(p.acceleration_noise * state.missed_seconds**2 / 2, MAX_SIGMA) ** 2
     return points[0], covariance

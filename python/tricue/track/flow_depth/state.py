@@ -47,7 +47,7 @@ class FlowDepthState(NamedTuple):
     score: float = 1.0
     occluded: bool = False  # whether something nearer hides the target
     occluder_disparity: float = math.nan  # in the window, while its jumps decide on complete occlusion
-    missed: float = 0.0  # seconds since the target was last found
+    missed_seconds: float = 0.0  # since the target was last found
     coasted: Velocity = (0.0, 0.0)  # how far it was moved on since then
 
     @property
@@ -87,8 +87,10 @@ class FlowDepthState(NamedTuple):
         """OCCLUDED behind something nearer; LOST after a while, sooner where nothing hides the target: until
         then such a target stays TRACKED, at a score of 0.
         """
-        if self.missed == 0:
+        if self.missed_seconds == 0:
             return Status.TRACKED
-        if self.missed > p.lost_after or (self.missed > p.unoccluded_lost_after and not self.occluded):
+        if self.missed_seconds > p.lost_after or (
+            self.missed_seconds > p.unoccluded_lost_after and not self.occluded
+        ):
             return Status.LOST
         return Status.OCCLUDED if self.occluded else Status.TRACKED

@@ -149,7 +149,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         if verdict.found(state, p):
             return learn(k, state, cues, verdict, p)
         blocks = state.blocks
-        if not state.missed:
+        if not state.missed_seconds:
             blocks = blocks.voted(k, verdict.observed, verdict.limits, p)
         return _coast(
             state,
@@ -176,7 +176,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
             disparity = disparity_in_window(k, state._replace(occluded=False), cues, p)
             return _coast(state, seconds, occluded=True, occluder_disparity=disparity)
         if verdict.has_pixels(state, p.min_pixels):
-            return learn(k, state._replace(missed=0.0), cues, verdict, p)
+            return learn(k, state._replace(missed_seconds=0.0), cues, verdict, p)
         return _coast(state, seconds, pixels=verdict.pixels, occluded=False)
 
     def _for_next(
@@ -258,9 +258,9 @@ def _shift(state: FlowDepthState, p: FlowDepthParams) -> Velocity:
     While it is missed it moves on, its center inside the image. After ``lost_after`` its motion is
     unknown: it is searched for where it was last found.
     """
-    if not state.missed:
+    if not state.missed_seconds:
         return state.velocity
-    if state.missed > p.lost_after:
+    if state.missed_seconds > p.lost_after:
         return -state.coasted[0], -state.coasted[1]
     right, down = _missed_velocity(state, p)
     x0, y0, x1, y1 = _shown_window(state, p)
@@ -272,7 +272,7 @@ def _shift(state: FlowDepthState, p: FlowDepthParams) -> Velocity:
 def _predict(state: FlowDepthState, p: FlowDepthParams) -> FlowDepthState:
     """The state moved to where the target is expected in the next frame."""
     right, down = _shift(state, p)
-    coasted = (state.coasted[0] + right, state.coasted[1] + down) if state.missed else (0.0, 0.0)
+    coasted = (state.coasted[0] + right, state.coasted[1] + down) if state.missed_seconds else (0.0, 0.0)
     return state._replace(
         window=moved(state.window, right, down),
         temporal_window=moved(state.temporal_window, right, down),
@@ -288,4 +288,4 @@ def _look_ahead(state: FlowDepthState, p: FlowDepthParams) -> Rectangle:
 
 def _coast(state: FlowDepthState, seconds: float, **changes: Any) -> FlowDepthState:
     """The state after a frame without the target; nothing is learned."""
-    return state._replace(missed=state.missed + seconds, score=0.0, **changes)
+    return state._replace(missed_seconds=state.missed_seconds + seconds, score=0.0, **changes)

@@ -43,7 +43,7 @@ class Verdict(NamedTuple):
 
     def found(self, state: FlowDepthState, p: FlowDepthParams) -> bool:
         """Whether the target is there: it has enough pixels, section 4.5, and isn't almost fully occluded."""
-        if state.missed:
+        if state.missed_seconds:
             min_pixels, max_share = p.min_pixels_to_redetect, p.max_occluded_share + REDETECTION_OCCLUSION
         else:
             min_pixels, max_share = p.min_pixels, p.max_occluded_share
@@ -56,7 +56,7 @@ class Verdict(NamedTuple):
 
 def verify(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) -> Verdict:
     """Find the target's pixels and blocks by the cues; a missed target keeps its previous model."""
-    return verify_by(k, state, cues, state.model if state.missed else None, p)
+    return verify_by(k, state, cues, state.model if state.missed_seconds else None, p)
 
 
 def verify_by(
@@ -103,7 +103,9 @@ def disparity_limits(
 def candidate_region(window: Rectangle, state: FlowDepthState, p: FlowDepthParams) -> Rectangle:
     """The candidate region of section 4.1 around a window, cells; it grows while the target is missed."""
     x0, y0, x1, y1 = window
-    frames = min(state.missed * p.rate, MAX_GROWTH_FRAMES) if p.complete_occlusion == "blocks" else 0.0
+    frames = (
+        min(state.missed_seconds * p.rate, MAX_GROWTH_FRAMES) if p.complete_occlusion == "blocks" else 0.0
+    )
     growth = 1 + CANDIDATE_GROWTH * frames
     minimum = MIN_CANDIDATE_MARGIN * state.reduced.scale
     across, along = p.margin * (x1 - x0), p.margin * (y1 - y0) / 2

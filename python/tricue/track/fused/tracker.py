@@ -121,7 +121,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         state = initialize_depth(state, observed, self._k, self.params)
         observation = observed.for_target(self._k, _expected_depth(state))
         state = ensure_models(state, observation, self.params)
-        match = self._penalize_jump(state, self._localize(state, observation))
+        match = self._penalize_jump(state, self._search(state, observation))
         match = self._limit_log_odds(state, match)
         state = verify(state, match, self.params)
         state = update_models(before, state, observation, match, self.params)
@@ -157,7 +157,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         """Whether the frame's depths are in meters: those of a stereo pair are only if its rig is known."""
         return self.rig is not None or not isinstance(observed.depth_source, StereoSource)
 
-    def _localize(self, state: State, observation: TargetObservation) -> Match:
+    def _search(self, state: State, observation: TargetObservation) -> Match:
         """The best match near the target's last place; in the whole frame if the target isn't followed."""
         p = self.params
         model = _target_model(state, state.models[observation.kind], p)

@@ -27,13 +27,13 @@ class HeadState(NamedTuple):
     mean_share: float  # running mean of the share of the ellipse at the head's disparity
     first_mean: Color | None  # mean color of the first left image; None: light isn't compensated
     timestamp: float | None
-    missed: float = 0.0  # seconds since the head was last recognized
+    missed_seconds: float = 0.0  # since the head was last recognized
 
     def min_intersection_to_learn(self, p: StereoHeadParams) -> float:
         """The intersection (1) from which on colors are learned."""
         of = self.mean_intersection if p.learning_gate == "relative" else 1.0
         return p.min_intersection_to_learn * of
 
-    def lost(self, p: StereoHeadParams) -> bool:
+    def is_lost(self, p: StereoHeadParams) -> bool:
         """Whether the head has been missed for ``lost_after`` seconds."""
-        return self.missed >= p.lost_after
+        return self.missed_seconds >= p.lost_after

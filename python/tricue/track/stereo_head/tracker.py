@@ -153,17 +153,17 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
             measured = measured.inflated(state.mean_score, p)
         if measured is not None and self._recognizes(state, measured, predicted):
             return self._learn(state, measured, predicted, timestamp)
-        detected = self._redetect(state, pair) if state.missed > p.search_frame_after else None
+        detected = self._redetect(state, pair) if state.missed_seconds > p.search_frame_after else None
         if detected is not None:
             return self._learn(state, detected, None, timestamp)
         coasting = head_filter.coast(predicted, seconds)  # size and model don't change
-        missed = state.missed + seconds
-        return state._replace(filter=coasting, missed=missed, score=0.0, timestamp=timestamp)
+        missed_seconds = state.missed_seconds + seconds
+        return state._replace(filter=coasting, missed_seconds=missed_seconds, score=0.0, timestamp=timestamp)
 
     def _redetect(self, state: HeadState, pair: PreparedPair) -> HeadMeasurement | None:
         """The head anywhere in the image within its possible motion; None if it isn't recognized."""
         k, p = self._k, self.params
-        radius = MIN_SEARCH_RADIUS + p.max_speed * state.missed
+        radius = MIN_SEARCH_RADIUS + p.max_speed * state.missed_seconds
         head = LostHead(state.size, state.model, state.last_seen, radius)
         found = search_frame(k, pair, state.geometry, head, p)
         if found is None:
@@ -244,10 +244,10 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         """The track of a state; without a rig it has no position."""
         position = state.filter.position
         box = Box.from_ellipse(*state.geometry.ellipse(position, state.size))
-        if state.missed == 0:
+        if state.missed_seconds == 0:
             status = Status.TRACKED
         else:
-            status = Status.LOST if state.lost(self.params) else Status.OCCLUDED
+            status = Status.LOST if state.is_lost(self.params) else Status.OCCLUDED
         score = min(max(state.score, 0.0), 1.0)
         if self.rig is None:
             return Track(box, score, status)
