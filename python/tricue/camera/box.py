@@ -74,18 +74,23 @@ class Box(NamedTuple):
 
     def iou(self, other: "Box") -> float:
         """Intersection over union, in [0, 1]."""
-        left, top, right, bottom = self.xyxy
-        wide = min(right, other.x + other.width) - max(left, other.x)
-        high = min(bottom, other.y + other.height) - max(top, other.y)
-        if wide <= 0 or high <= 0:
+        shared = shared_area(self, other)
+        if shared == 0:
             return 0.0
         # With large coordinates, rounding may make the intersection slightly larger than the union.
-        return min(1.0, wide * high / (self.area + other.area - wide * high))
+        return min(1.0, shared / (self.area + other.area - shared))
 
     def _repr_html_(self) -> str:
         from tricue.notebook.tracks import box_html
 
         return box_html(self)
+
+
+def shared_area(box: Box, other: Box) -> float:
+    """The area of the intersection, square pixels."""
+    wide = min(box.x + box.width, other.x + other.width) - max(box.x, other.x)
+    high = min(box.y + box.height, other.y + other.height) - max(box.y, other.y)
+    return 0.0 if wide <= 0 or high <= 0 else wide * high
 
 
 def as_box(value: BoxLike, name: str = "box") -> Box:

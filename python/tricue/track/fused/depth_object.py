@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from tricue.arrays import Floats, Plane
-from tricue.camera.box import Box
+from tricue.camera.box import Box, shared_area
 from tricue.track.base.validation import ADDED_TIME_ERROR
 from tricue.track.depth_objects.floor import NO_FLOOR
 from tricue.track.depth_objects.foreground import Foreground, extract_foreground
