@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Any
 
 import tricue
+from tricue.camera.frame import Frame
 from tricue.camera.rig import Intrinsics
 from tricue.cli.exports import CocoOutput, MotOutput
-from tricue.cli.lost_ranges import LostRanges
 from tricue.cli.outputs import STANDARD_OUTPUT, CsvOutput, JsonLines, JsonOutput, Output, Step, VideoOutput
 from tricue.cli.progress import Progress
 from tricue.cli.signals import catch_signals
@@ -22,10 +22,11 @@ from tricue.cli.starts import in_options, start_hint
 from tricue.cli.steps import RunClock, steps, steps_of_targets, with_known_numbers
 from tricue.cli.track_options import EXAMPLES, add_options
 from tricue.cli.track_preparation import TrackRun, prepare
-from tricue.cli.track_report import not_started, plot, report, require_all_started
+from tricue.cli.track_report import RunRecord, not_started, plot, report, require_all_started
 from tricue.data.streams import image_names
 from tricue.export.table import TableForm
 from tricue.track.base.track import Track, Tracker
+from tricue.track.multi.tracker import MultiTracker
 
 __all__ = ["EXAMPLES", "add_options", "run"]
 
@@ -33,39 +34,49 @@ __all__ = ["EXAMPLES", "add_options", "run"]
 def run(options: argparse.Namespace) -> int:
     """Run the command and print the results; return the exit code."""
     run, notes = prepare(options)
-    clock, fps = RunClock(), run.source.fps
-    tracks: dict[int, dict[int, Track]] = {}
-    lost: dict[int, LostRanges] = {}
+    clock, record = RunClock(), RunRecord(run.source.fps)
+    outputs, signal_number = _track(options, run, clock, record)
+    interrupted = signal_number != 0
+    if not record.tracks and not interrupted:
+        raise ValueError(not_started(run, clock))
+    with redirect_stdout(sys.stderr if options.json == STANDARD_OUTPUT else sys.stdout):
+        report(run, clock, record, interrupted)
+        for note in [*notes, *run.source.remarks, *_results(options, run, outputs, record.tracks.get(1, {}))]:
+            print(note)
+    if not interrupted:
+        require_all_started(run, clock)
+    return 128 + signal_number if interrupted else 0
+
+
+def _track(
+    options: argparse.Namespace, run: TrackRun, clock: RunClock, record: RunRecord
+) -> tuple[list[Output], int]:
+    """Track through all frames; the outputs that were written, and the signal that ended the run, or 0."""
     outputs: list[Output] = []
     with ExitStack() as files:
         stop = files.enter_context(catch_signals())
         progress = files.enter_context(Progress(run.frames))
         frames = takewhile(lambda _: not stop(), islice(run.source, run.first, run.end))
-        if run.targets is None:
-            found = steps(run.tracker, frames, run.start, clock, run.first)
-        else:
-            targets = files.enter_context(run.targets)
-            found = steps_of_targets(targets, frames, run.boxes, clock, run.first)
-        for step in with_known_numbers(map(run.known, _with_start_hint(found, run, clock))):
-            if not tracks:  # only now, so that a run that never starts keeps an earlier one's files
+        targets = None if run.targets is None else files.enter_context(run.targets)
+        for step in _steps(run, targets, frames, clock):
+            if not record.tracks:  # only now, so that a run that never starts keeps an earlier one's files
                 outputs.extend(map(files.enter_context, _outputs(options, run)))
             for output in outputs:
                 output.write(step)
-            for target, track in step.targets.items():
-                tracks.setdefault(target, {})[step.number] = track
-                lost.setdefault(target, LostRanges()).add(step.number, step.time(fps), track.status)
+            record.add(step)
             progress(step.number + 1 - run.first, clock.speeds)
-        signal_number = stop()
-    interrupted = signal_number != 0
-    if not tracks and not interrupted:
-        raise ValueError(not_started(run, clock))
-    with redirect_stdout(sys.stderr if options.json == STANDARD_OUTPUT else sys.stdout):
-        report(run, clock, tracks, lost, interrupted)
-        for note in [*notes, *run.source.remarks, *_results(options, run, outputs, tracks.get(1, {}))]:
-            print(note)
-    if not interrupted:
-        require_all_started(run, clock)
-    return 128 + signal_number if interrupted else 0
+        return outputs, stop()
+
+
+def _steps(
+    run: TrackRun, targets: MultiTracker | None, frames: Iterator[Frame], clock: RunClock
+) -> Iterator[Step]:
+    """The tracked frames, fit for the outputs. targets: those of the run, open; None for one."""
+    if targets is None:
+        found = steps(run.tracker, frames, run.start, clock, run.first)
+    else:
+        found = steps_of_targets(targets, frames, run.boxes, clock, run.first)
+    return with_known_numbers(map(run.known, _with_start_hint(found, run, clock)))
 
 
 def _with_start_hint(found: Iterator[Step], run: TrackRun, clock: RunClock) -> Iterator[Step]:

@@ -3,26 +3,38 @@
 
 from collections import Counter
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from tricue.cli.lost_ranges import LostRanges
+from tricue.cli.outputs import Step
 from tricue.cli.starts import BOX_HINT
 from tricue.cli.steps import RunClock
 from tricue.cli.track_preparation import TrackRun
 from tricue.track.base.track import Status, Track
 
 
-def report(
-    run: TrackRun,
-    clock: RunClock,
-    tracks: Mapping[int, Mapping[int, Track]],
-    lost: Mapping[int, LostRanges],
-    interrupted: bool,
-) -> None:
+@dataclass
+class RunRecord:
+    """The tracks of each target by frame, and the ranges in which it is lost. fps: of the source."""
+
+    fps: float
+    tracks: dict[int, dict[int, Track]] = field(default_factory=dict)
+    lost: dict[int, LostRanges] = field(default_factory=dict)
+
+    def add(self, step: Step) -> None:
+        """Record the tracks of one more frame."""
+        for target, track in step.targets.items():
+            self.tracks.setdefault(target, {})[step.number] = track
+            self.lost.setdefault(target, LostRanges()).add(step.number, step.time(self.fps), track.status)
+
+
+def report(run: TrackRun, clock: RunClock, record: RunRecord, interrupted: bool) -> None:
     """Print how many frames were tracked and lost, where, how fast, and how close to the true boxes."""
+    tracks, lost = record.tracks, record.lost
     frames = f"{run.source.name}: {_frames(clock.decoded)}{' until interrupted' if interrupted else ''}"
     if len(tracks) > 1:
         print(frames)
