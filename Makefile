@@ -99,7 +99,8 @@ sanitize: $(VENV)/dev
 	printf '%s\n' installed debug | $(HASH_EACH) $(SANITIZERS) $(HASHED)
 	$(BIN)/python tools/kernel_hashes.py $(BUILDS)/*.json
 	TRICUE_KERNELS=native PYTHONPATH=$(BUILDS)/debug $(SANITIZERS) $(BIN)/python -m pytest -q --capture=sys --hypothesis-profile=brief \
-	    $(PARALLEL) tests/fuzz tests/track/test_bad_input.py tests/track/*/test_bad_input.py tests/track/*/test_kernels.py
+	    $(PARALLEL) tests/fuzz tests/track/test_bad_input.py tests/track/*/test_*_input.py \
+	    tests/track/flow_depth/test_absent_target.py tests/track/*/test_kernels.py
 
 # On a build for each level of x86-64, beside the installed one.
 levels: BUILDS := build/levels

@@ -121,7 +121,7 @@ Written by `python benchmarks/bad_input.py`; don't edit. Each case is one `init`
 
 tricue's trackers either return a track or raise an error that names the argument, what was expected and what they got: a `ValueError` or
 a `TypeError`, or a `RuntimeError` for `update` before `init`. An error leaves the tracker as it was, and it goes on with the next good
-frame. `tests/track/*/test_bad_input.py` have many more cases.
+frame. `tests/track/*/test_*_input.py` have many more cases.
 
 The tables show the status after the update, or the error, and any warnings. An answer that all three trackers give is shown once; cases
 with the same answer share a row. The first table has checks that all trackers share, such as most errors in boxes. When `flow-depth`

@@ -16,6 +16,9 @@ from tricue import Box
 from tricue.app.frames import Recording
 from tricue.app.session import Session
 from tricue.data.open_source import open_source
+from tricue.track.base import registry
+
+from tests.app.session_runs import Counting
 
 FRAMES, WIDTH, HEIGHT = 60, 160, 120
 START = Box(20, 40, 40, 40)
@@ -100,3 +103,12 @@ def session_of() -> Iterator[Callable[..., Session]]:
     yield make
     for session in made:
         session.close()
+
+
+@pytest.fixture
+def counting(monkeypatch: pytest.MonkeyPatch) -> type[Counting]:
+    """That tracker under the name "counting"."""
+    monkeypatch.setitem(registry._BUILT_IN, "counting", f"{Counting.__module__}:Counting")
+    for name, value in {"bad": set(), "gate": None, "times": []}.items():
+        monkeypatch.setattr(Counting, name, value)
+    return Counting

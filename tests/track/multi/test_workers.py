@@ -18,7 +18,8 @@ from tricue.errors import WorkerEndedError
 from tricue.track.multi import remote_targets
 from tricue.track.multi.worker import _portable
 
-FUSED = ("fused",) * 4
+from tests.track.multi.kinds import FUSED
+
 PATIENCE = 20.0  # seconds
 
 

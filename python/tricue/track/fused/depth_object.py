@@ -176,6 +176,4 @@ def _visible(box: Box, observation: TargetObservation) -> Box:
 
 def _share_inside(box: Box, other: Box) -> float:
     """The share of a box that is inside another; 0 for an empty box."""
-    wide = min(box.x + box.width, other.x + other.width) - max(box.x, other.x)
-    high = min(box.y + box.height, other.y + other.height) - max(box.y, other.y)
-    return wide * high / box.area if min(wide, high, box.area) > 0 else 0.0
+    return shared_area(box, other) / box.area if box.area > 0 else 0.0
