@@ -29,10 +29,10 @@ class Recognition(NamedTuple):
 class Match(NamedTuple):
     """A candidate that was measured.
 
-    target: its place, with the size and turn measured there. log_odds, structure_log_odds: of being the target,
-    from all evidence, and from the structure, which light doesn't change. covered: the share of its box that
-    an occluder covers. best_seen: log-odds of the best match in a search of the whole frame; None without
-    such a search.
+    target: its place, with the size and turn measured there. log_odds, structure_log_odds: of being the
+    target, from all evidence, and from the structure, which light doesn't change. covered: the share of its
+    box that an occluder covers. best_seen: log-odds of the best match in a search of the whole frame; None
+    without such a search.
     """
 
     candidate: Candidate

@@ -120,7 +120,7 @@ class LogPolarExpert(ABC, Generic[P]):
         return type(self)(self.filter.learn(observation.k, patch, rate, self.params), self.params)
 
     def _shift(self, observation: TargetObservation, target: Target) -> tuple[float, float]:
-        """Cells by which the content of a target's place has shifted to the right, and the response to that."""
+        """Cells by which what is at a target's place has shifted to the right, and the response to that."""
         patch, penalty = self._read(observation, target), self.params.size_change_penalty
         return observation.k.log_polar_shift(*patch, self.filter.applied, *FARTHEST, penalty)
 

@@ -40,8 +40,9 @@ class SizeParams(LogPolarParams):
 
 
 class SizeExpert(LogPolarExpert[SizeParams]):
-    """Radii are relative to the target's width and height, so that the surround has the same share on all sides.
+    """A filter in log-polar coordinates.
 
+    Radii are relative to the target's width and height, so that the surround has the same share on all sides.
     Turns are rounded to whole cells of angle.
     """
 
