@@ -655,9 +655,9 @@ def depth_components(
     Equally large regions are in the reading order of their first pixels. Pixels without a measurement
     belong to a region, but count neither in its mean nor in its histogram; in a region without
     measurements the mean is NaN, and the histogram all 0. Depth z has level floor((z - near) (levels /
-    (far - near))) in float64, clamped to [0, levels - 1]. Pixel x of a box from x0 is in bin floor((2
-    (x - x0) + 1) bins / (2 width)); rows likewise. Shares are float64 quotients of whole numbers,
-    rounded to float32.
+    (far - near))) in float64, clamped to [0, levels - 1]. A pixel that is in several bins of its box
+    counts in each by the share of its width that is there; rows likewise. Shares are float64 quotients
+    of whole numbers, rounded to float32.
 
     Args:
         labels: uint8 (H, W), 0 where there is no object

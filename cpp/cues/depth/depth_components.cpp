@@ -191,17 +191,27 @@ struct ComponentCounts {
     }
 };
 
-void write_shares(const Counts& counts, std::int64_t total, float* shares) {
+template <class Numbers>
+void write_shares(const Numbers& counts, std::int64_t total, float* shares) {
     if (total == 0) return;
     for (std::size_t i = 0; i < counts.size(); ++i)
         shares[i] = static_cast<float>(static_cast<double>(counts[i]) / static_cast<double>(total));
 }
 
-/// Counts of the columns (or rows) of a box, summed in `bins` equal parts of it.
-Counts rebin(const Counts& counts, int bins) {
-    Counts parts(static_cast<std::size_t>(bins));
-    for (std::size_t i = 0; i < counts.size(); ++i)
-        parts[(2 * i + 1) * parts.size() / (2 * counts.size())] += counts[i];
+/// Counts of the columns (or rows) of a box, summed in `bins` equal parts of it: `bins` for each pixel.
+std::vector<std::int64_t> rebin(const Counts& counts, int bins) {
+    std::vector<std::int64_t> parts(static_cast<std::size_t>(bins));
+    const auto part_length = static_cast<std::int64_t>(counts.size());
+    std::int64_t place = 0, part_end = part_length, column_end = 0;
+    auto part = parts.begin();
+    for (const std::int64_t count : counts) {
+        for (column_end += bins; part_end < column_end; ++part, part_end += part_length) {
+            *part += count * (part_end - place);
+            place = part_end;
+        }
+        *part += count * (column_end - place);
+        place = column_end;
+    }
     return parts;
 }
 
@@ -272,8 +282,9 @@ DepthComponents describe_components(PixelRuns& runs, const DepthView& depth, con
         result.table.row(i) << box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0,
             static_cast<double>(box.area), sum / static_cast<double>(measured), box.label;
         write_shares(tally.levels, measured, result.histograms.row(i).data());
-        write_shares(rebin(tally.columns, signature.bins), box.area, result.columns.row(i).data());
-        write_shares(rebin(tally.rows, signature.bins), box.area, result.rows.row(i).data());
+        const std::int64_t total = box.area * signature.bins;
+        write_shares(rebin(tally.columns, signature.bins), total, result.columns.row(i).data());
+        write_shares(rebin(tally.rows, signature.bins), total, result.rows.row(i).data());
     }
     return result;
 }

@@ -134,8 +134,9 @@ def test_example_by_hand(kernels: Kernels) -> None:
     assert_array_equal(table, [[0, 0, 3, 3, 5, 2.25, 1], [3, 0, 2, 2, 4, 2, 2], [4, 3, 1, 1, 1, np.nan, 3]])
     assert_array_equal(histograms, [[0, 0.75, 0.25, 0], [0, 1, 0, 0], [0, 0, 0, 0]])
     fifths = np.array([2, 1, 2], np.float32) / np.float32(5)
-    assert_array_equal(columns, [fifths, [0.5, 0, 0.5], [0, 1, 0]])
-    assert_array_equal(rows, [fifths[[0, 2, 1]], [0.5, 0, 0.5], [0, 1, 0]])
+    thirds = np.ones(3, np.float32) / np.float32(3)  # of one or two pixels in three bins, too
+    assert_array_equal(columns, [fifths, thirds, thirds])
+    assert_array_equal(rows, [fifths[[0, 2, 1]], thirds, thirds])
     assert_array_equal(components, draw("1.122", "1.122", ".1...", "....3"))
 
 
@@ -188,14 +189,28 @@ def test_every_pixel_in_one_region(labels: Labels, seed: int) -> None:
     assert_array_equal(histograms[np.isnan(table[:, 5])], 0)
 
 
-@given(labeled)
-def test_mirror(labels: Labels) -> None:
-    """Mirrored labels have mirrored columns: no pixel's middle is on the edge of one of an odd
-    number of bins.
-    """
-    depth = np.ones(labels.shape, np.float32)
-    found = describe(_core, labels, depth)
-    mirrored = describe(_core, np.ascontiguousarray(labels[:, ::-1]), depth)
+@pytest.mark.parametrize("width", [8, 11, 16, 45])
+def test_shares_agree_with_opencv(kernels: Kernels, width: int) -> None:
+    """Shares of a box with at least a pixel a bin are those of OpenCV's area interpolation."""
+    labels = np.ones((60, width), np.uint8)
+    labels[1:-1, 1:-1] = np.random.default_rng(width).random((58, width - 2)) < 0.7
+    _, _, columns, rows, image = kernels.depth_components(
+        labels, labels.astype(np.float32), NEAR, FAR, LEVELS, 8, 60, True
+    )
+    inside = (image == 1).astype(float)
+    ways = (columns, (8, 1), inside.mean(0)[None]), (rows, (1, 8), inside.mean(1)[:, None])
+    for shares, size, mean in ways:
+        expected = cv2.resize(mean, size, interpolation=cv2.INTER_AREA).ravel()
+        assert_allclose(shares[0], expected / expected.sum(), rtol=1e-6)
+
+
+@given(labeled, st.integers(1, 20))
+def test_mirror(labels: Labels, bins: int) -> None:
+    """Mirrored labels have mirrored columns, whatever the number of bins."""
+    found, mirrored = (
+        _core.depth_components(each, np.ones(labels.shape, np.float32), NEAR, FAR, LEVELS, bins, 1, True)
+        for each in (labels, np.ascontiguousarray(labels[:, ::-1]))
+    )
     for i, (columns, rows) in enumerate(zip(found[2], found[3], strict=True)):
         (same,) = np.unique(mirrored[4][:, ::-1][found[4] == i + 1]) - 1
         assert_array_equal(columns, mirrored[2][same][::-1])

@@ -87,6 +87,18 @@ def test_twin_finds_the_same(seed: int, floor: bool, known: bool, min_area: int)
     )
 
 
+@pytest.mark.parametrize("size", range(5, 41))
+def test_centroid_of_a_symmetric_object(kernels: Kernels, size: int) -> None:
+    """Its centroid is the center of its box, however its pixels and the bins of the shares meet."""
+    half = (size - 1) / 2
+    beside, below = np.mgrid[-half : half + 1, -half : half + 1]
+    depth = np.full((48, 48), np.nan, np.float32)
+    depth[3 : size + 3, 4 : size + 4][np.hypot(beside, below) <= half + 0.1] = 2
+    found = kernels.segment_depth(**arguments(depth, np.array([90.0, 91, 40, 20])))
+    assert len(found[0]) == 1
+    assert_allclose(found[0][0, 5:7], 0, rtol=0, atol=1e-7)
+
+
 def test_twin_finds_the_same_in_pictures(picture: Depth, camera: Floats) -> None:
     """They also agree on pictures of awkward sizes and layouts."""
     assert_same(arguments(foreground(picture), camera))

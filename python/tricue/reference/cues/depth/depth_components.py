@@ -50,8 +50,8 @@ def depth_components(
         if levels > 0:
             level = np.clip((z - near) * (levels / (far - near)), 0, levels - 1).astype(np.intp)
             histograms[i] = _shares(level, levels)
-        columns[i] = _shares((2 * (x - x.min()) + 1) * bins // (2 * size[0]), bins)
-        rows[i] = _shares((2 * (y - y.min()) + 1) * bins // (2 * size[1]), bins)
+        columns[i] = _spread(x - x.min(), bins)
+        rows[i] = _spread(y - y.min(), bins)
         components[y, x] = i + 1
     return table, histograms, columns, rows, components if image else np.zeros((0, 0), np.int32)
 
@@ -85,3 +85,10 @@ def _regions(labels: Labels) -> Iterator[Pixels]:
 def _shares(parts: Pixels, count: int) -> Shares:
     """The share of the pixels in each part; zeros without pixels."""
     return (np.bincount(parts, minlength=count) / max(parts.size, 1)).astype(np.float32)
+
+
+def _spread(places: Pixels, bins: int) -> Shares:
+    """How the pixels are shared out among equal parts of their range, each by how much of it is there."""
+    strips = np.repeat(np.bincount(places), bins)  # as many of each pixel
+    shares: Shares = (strips.reshape(bins, -1).sum(axis=1) / (bins * places.size)).astype(np.float32)
+    return shares
