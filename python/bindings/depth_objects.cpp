@@ -94,17 +94,15 @@ Eigen::Map<const Flags> flags(const Array<bool>& object, const char* name, int c
 
 Array<double> measure_objects_arrays(const Array<double>& table, const Array<float>& columns,
                                      const Array<float>& rows, const Array<bool>& cut,
-                                     const Array<double>& camera, const Array<double>& plane, double feet,
-                                     double legs) {
+                                     const Array<double>& camera, const Array<double>& plane, double feet) {
     const auto boxes = states(table, "table");
     const auto across = floats(columns, "columns", {-1, -1}, "float32 (C, bins)");
     const auto down = floats(rows, "rows", {-1, -1}, "float32 (C, bins)");
     const auto sides = flags(cut, "cut", 4);
     const auto lens = vector(camera, "camera");
     const auto floor = vector(plane, "plane");
-    return give(unlocked(across.size() + down.size(), [&] {
-        return measure_objects({boxes, across, down, sides}, lens, {floor, feet, legs});
-    }));
+    return give(unlocked(across.size() + down.size(),
+                         [&] { return measure_objects({boxes, across, down, sides}, lens, {floor, feet}); }));
 }
 
 /// Views of the caller's arrays.
@@ -162,7 +160,7 @@ std::tuple<Array<double>, Array<bool>, Array<float>, Array<float>> segment_depth
     const RegionTuple& region, const Array<double>& camera, const Array<double>& plane,
     const RegionTuple& measured, std::tuple<double, double, int> levels, std::pair<double, double> edges,
     std::pair<double, double> density, int min_area, std::tuple<int, double, double, double> cut,
-    std::pair<double, double> standing) {
+    double feet) {
     const auto meters = depth_image(depth, "depth");
     const SearchedPixels searched{region_of(region), depth_image(before, "before"), noise.first,
                                   noise.second};
@@ -174,8 +172,7 @@ std::tuple<Array<double>, Array<bool>, Array<float>, Array<float>> segment_depth
     const auto [border, beside, nearer, share] = cut;
     const Cut sides{border, beside, nearer, share};
     auto found = unlocked(std::ptrdiff_t{meters.rows} * meters.cols, [&] {
-        return segment_depth(meters, searched, lens, floor, region_of(measured), divisions, sides,
-                             {standing.first, standing.second});
+        return segment_depth(meters, searched, lens, floor, region_of(measured), divisions, sides, feet);
     });
     return {give(std::move(found.measured)), give(std::move(found.cut)), give(std::move(found.columns)),
             give(std::move(found.rows))};
@@ -200,7 +197,7 @@ void define_depth_objects(py::module_& m) {
           docs::depth_density);
     m.def("segment_depth", segment_depth_arrays, py::arg("depth"), py::arg("before"), py::arg("noise"),
           py::arg("region"), py::arg("camera"), py::arg("plane"), py::arg("measured"), py::arg("levels"),
-          py::arg("edges"), py::arg("density"), py::arg("min_area"), py::arg("cut"), py::arg("standing"),
+          py::arg("edges"), py::arg("density"), py::arg("min_area"), py::arg("cut"), py::arg("feet"),
           docs::segment_depth);
     m.def("density_extrema", density_extrema_arrays, py::arg("density"), py::arg("prominence"),
           docs::density_extrema);
@@ -210,8 +207,7 @@ void define_depth_objects(py::module_& m) {
     m.def("depth_distance", depth_distance_arrays, py::arg("depth"), py::arg("rectangles"), py::arg("model"),
           py::arg("pattern"), py::arg("reach"), py::arg("nearer"), docs::depth_distance);
     m.def("measure_objects", measure_objects_arrays, py::arg("table"), py::arg("columns"), py::arg("rows"),
-          py::arg("cut"), py::arg("camera"), py::arg("plane"), py::arg("feet"), py::arg("legs"),
-          docs::measure_objects);
+          py::arg("cut"), py::arg("camera"), py::arg("plane"), py::arg("feet"), docs::measure_objects);
     m.def("rectangle_histogram", rectangle_histogram_arrays, py::arg("depth"), py::arg("rectangle"),
           py::arg("levels"), py::arg("pattern"), py::arg("reach"), docs::rectangle_histogram);
 }

@@ -2001,7 +2001,6 @@ def measure_objects(
     camera: numpy.typing.NDArray[numpy.float64],
     plane: numpy.typing.NDArray[numpy.float64],
     feet: float,
-    legs: float,
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     Segmented objects in meters: boxes at the depth of their objects, with the feet that were removed
@@ -2012,7 +2011,11 @@ def measure_objects(
     one depth. So the middle of a box's lower edge is at X', where its ray has the distance of the box's
     center. If an object isn't cut there, and the height n · X' + d is above 0 and less than `feet`, it
     stands on the floor, at X' - (n · X' + d) n: a strip down to the image of that point is added at its
-    lower edge, and its centroid moves down by the strip's share, legs x strip / height, of the area.
+    lower edge, and taken to be filled like the rest of its box.
+
+    The centroid is the mean of the points of an object's pixels. With a floor, the parts of `rows` and
+    the middle of the strip have depths of one distance f · X, by which y counts, and the mean of the
+    parts' depths is the object's.
 
     Args:
         table: float64 (C, 7), as depth_components gives it: x, y, width, height, area, pixels; depth,
@@ -2024,7 +2027,6 @@ def measure_objects(
         plane: float64 (4,): nx, ny, nz, d of the floor, meters; zeros where none is known
         feet: the lower edge of an object that stands on the floor is less than this above it, meters,
             finite, at least 0
-        legs: share of the width of its box that a body's legs fill, finite, at least 0
 
     Returns:
         float64 (C, 8): X, Y, Z of the box's center, Z being the object's mean depth, width, height;
@@ -2967,7 +2969,7 @@ def segment_depth(
     density: tuple[float, float],
     min_area: int,
     cut: tuple[int, float, float, float],
-    standing: tuple[float, float],
+    feet: float,
 ) -> tuple[
     numpy.typing.NDArray[numpy.float64],
     numpy.typing.NDArray[numpy.bool],
@@ -3000,7 +3002,7 @@ def segment_depth(
             of the greatest density
         min_area: as in depth_components
         cut: (border, beside, nearer, share), as in cut_sides
-        standing: (feet, legs), as in measure_objects
+        feet: as in measure_objects
 
     Returns:
         measured: float64 (C, 8), as measure_objects gives it
@@ -4037,7 +4039,6 @@ class Kernels(Protocol):
         camera: numpy.typing.NDArray[numpy.float64],
         plane: numpy.typing.NDArray[numpy.float64],
         feet: float,
-        legs: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def median_depths(
         self,
@@ -4289,7 +4290,7 @@ class Kernels(Protocol):
         density: tuple[float, float],
         min_area: int,
         cut: tuple[int, float, float, float],
-        standing: tuple[float, float],
+        feet: float,
     ) -> tuple[
         numpy.typing.NDArray[numpy.float64],
         numpy.typing.NDArray[numpy.bool],

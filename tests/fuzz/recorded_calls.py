@@ -74,7 +74,7 @@ def _call_stages(k: Any) -> None:
     labels = k.divide_depth(distance, mask, np.array([0.3, 2.0, 4.0, 8.0]))
     table, _, columns, rows, _ = k.depth_components(labels, depth, 0.3, 8.0, 0, 16, 8, False)
     cut = k.cut_sides(depth, table, camera, 2, 0.08, 0.3, 0.15)
-    k.measure_objects(table, columns, rows, cut, camera, plane, 0.35, 0.7)
+    k.measure_objects(table, columns, rows, cut, camera, plane, 0.35)
     k.changed_depth(depth, depth + np.float32(0.1), 0.02, 0.01)
     k.plane_support(depth, camera, plane, 0.05, 4)
     states = np.tile([0.0, 0.0, 2.0, 0.5, 1.7], (8, 1))

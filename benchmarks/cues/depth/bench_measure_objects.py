@@ -32,7 +32,6 @@ ARGUMENTS = (
     np.array([190.0, 190.0, 87.5, 70.5]),
     np.array([0.0, -0.96, -0.28, 2.0]),
     0.35,
-    0.7,
 )
 
 
@@ -44,7 +43,6 @@ def script(
     camera: Floats,
     plane: Floats,
     feet: float,
-    legs: float,
 ) -> Floats:
     """The baseline: the same by way of corners; arguments aren't checked."""
     z = table[:, 5]
@@ -62,8 +60,16 @@ def script(
     stand = upright - np.outer(above, up)
     reach = np.maximum(stand[:, 1] * z / stand[:, 2] - bottom, 0)
     strip = np.where((above > 0) & (above < feet) & ~cut[:, 3], reach, 0)
+    y = low[:, 1:] + np.outer(size[:, 1], middles + 0.5)
+    weights = rows / (
+        low[:, :1] * ahead[0] + size[:, :1] / 2 * ahead[0] + y * ahead[1] + z[:, None] * ahead[2]
+    )
+    feet_y = bottom + strip / 2
+    feet_weight = 1 / ((low[:, 0] + size[:, 0] / 2) * ahead[0] + feet_y * ahead[1] + z * ahead[2])
     size[:, 1] += strip
-    centroid[:, 1] += legs * strip / size[:, 1] * (foot[:, 1] + strip / 2 - centroid[:, 1])
+    share = strip / size[:, 1]
+    below = (1 - share) * (weights * y).sum(axis=1) + share * feet_weight * feet_y
+    centroid[:, 1] = below / weights.sum(axis=1)
     center = low + size / 2
     return np.column_stack([center, z, size, centroid - center, table[:, 4] * scale.prod(axis=1)])
 

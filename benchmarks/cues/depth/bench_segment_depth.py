@@ -13,7 +13,7 @@ from tricue import _core, reference
 Depth = NDArray[np.float32]
 Floats = NDArray[np.float64]
 NEAR, FAR, LEVELS = 0.3, 8.0, 256
-EDGES, DENSITY, CUT, STANDING = (0.06, 0.01), (4.0, 0.05), (2, 0.08, 0.3, 0.15), (0.35, 0.7)
+EDGES, DENSITY, CUT, FEET = (0.06, 0.01), (4.0, 0.05), (2, 0.08, 0.3, 0.15), 0.35
 PLANE, MEASURED = np.array([0.0, -1.0, 0.0, 1.0]), (0, 0, 176, 144)
 
 
@@ -29,7 +29,7 @@ def script(
     labels = _core.divide_depth(distance, mask, dividers)
     table, _, columns, rows, _ = _core.depth_components(labels, depth, NEAR, FAR, 0, 16, 8, False)
     cut = _core.cut_sides(depth, table, camera, *CUT)
-    return _core.measure_objects(table, columns, rows, cut, camera, plane, *STANDING), cut, columns, rows
+    return _core.measure_objects(table, columns, rows, cut, camera, plane, FEET), cut, columns, rows
 
 
 @pytest.mark.benchmark(group="segment_depth")
@@ -46,7 +46,7 @@ def bench_segment_depth(
     above = _core.above_floor(room, camera, PLANE, NEAR, FAR, 0.12)
     before = np.full_like(room, np.nan)
     searched = before, (0.02, 0.005), MEASURED
-    stages = (NEAR, FAR, LEVELS), EDGES, DENSITY, 8, CUT, STANDING
+    stages = (NEAR, FAR, LEVELS), EDGES, DENSITY, 8, CUT, FEET
     found = benchmark(segment_depth, above, *searched, camera, PLANE, MEASURED, *stages)
     expected = reference.segment_depth(above, *searched, camera, PLANE, MEASURED, *stages)
     assert_allclose(found[0], expected[0], rtol=1e-9, atol=1e-9)

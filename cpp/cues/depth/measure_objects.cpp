@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "base/check.hpp"
 #include "base/depth_pixels.hpp"
@@ -12,6 +11,7 @@ namespace tricue {
 namespace {
 
 using Index = Eigen::Index;
+using Vector3 = Eigen::Vector3d;
 
 struct Object {
     double x, y, z, width, height, shift_x, shift_y, area;
@@ -40,12 +40,15 @@ Object to_metric(const ObjectTable& objects, Index i, VectorRef camera) {
             box[4] * per_x * per_y};
 }
 
+/// The direction along the ground in which an upright object has one distance, though not one depth if the camera is tilted.
+Vector3 ahead_of(const Ground& ground) {
+    const Vector3 up = ground.plane.head(3).matrix();
+    return Vector3::UnitZ() - up.z() * up;
+}
+
 /// The strip from the lower edge of an object down to the floor, at the object's depth; 0 where it doesn't stand there.
-///
-/// For a tilted camera, an upright object has a single distance along the ground, but its feet have another depth.
 double strip_to_floor(const Object& object, const Ground& ground) {
-    using Vector3 = Eigen::Vector3d;
-    const Vector3 up = ground.plane.head(3).matrix(), ahead = Vector3::UnitZ() - up.z() * up;
+    const Vector3 up = ground.plane.head(3).matrix(), ahead = ahead_of(ground);
     const Vector3 center(object.x, object.y, object.z),
         edge = center + Vector3::UnitY() * (object.height / 2);
     const double along = ahead.dot(edge);
@@ -57,12 +60,28 @@ double strip_to_floor(const Object& object, const Ground& ground) {
     return feet.z() > 0.0 ? std::max(feet.y() * (object.z / feet.z()) - edge.y(), 0.0) : 0.0;
 }
 
-void extend_to_floor(Object& object, double strip, double legs) {
+void extend_to_floor(Object& object, double strip) {
     object.y += strip / 2;
     object.height += strip;
-    object.shift_y -= strip / 2;
-    const double share = legs * strip / object.height, middle = (object.height - strip) / 2;
-    object.shift_y += share * (middle - object.shift_y);
+}
+
+/// How far the mean of an upright object's points is below the middle of its box, which ends with a strip that is filled like the
+/// rest. Each row counts at its own depth.
+double mean_below(const Object& object, double strip, FloatsRef rows, Index i, const Vector3& ahead) {
+    const double top = object.y - object.height / 2, visible = object.height - strip;
+    const auto along = [&](double y) { return ahead.dot(Vector3(object.x, y, object.z)); };
+    const bool in_front = along(top) > 0.0 && along(top + object.height) > 0.0;
+    const auto nearness = [&](double y) { return in_front ? along(y) : object.z; };
+    double depths = 0.0, places = 0.0;  // over the same number, which makes the mean depth that of the object
+    for (Index b = 0; b < rows.cols(); ++b) {
+        const double y = top + visible * ((static_cast<double>(b) + 0.5) / static_cast<double>(rows.cols()));
+        const double depth = static_cast<double>(rows(i, b)) / nearness(y);
+        depths += depth;
+        places += depth * y;
+    }
+    if (!(depths > 0.0)) return 0.0;
+    const double share = strip / object.height, feet = top + visible + strip / 2;
+    return ((1.0 - share) * places + share * feet / nearness(feet)) / depths - object.y;
 }
 
 void require_finite_shares(FloatsRef shares, const char* name) {
@@ -80,8 +99,7 @@ void require_arguments(const ObjectTable& objects, const Ground& ground) {
     require_finite_shares(objects.rows, "rows");
     require_size(ground.plane, 4, "plane");
     require_finite(ground.plane, "plane");
-    for (const auto& [value, name] : {std::pair{ground.feet, "feet"}, std::pair{ground.legs, "legs"}})
-        require_not_negative(value, name);
+    require_not_negative(ground.feet, "feet");
 }
 
 }  // namespace
@@ -93,8 +111,11 @@ States measure_objects(const ObjectTable& objects, VectorRef camera, const Groun
     States measured(objects.table.rows(), 8);
     for (Index i = 0; i < measured.rows(); ++i) {
         Object object = to_metric(objects, i, camera);
-        const double strip = floor && !objects.cut(i, 3) ? strip_to_floor(object, ground) : 0.0;
-        if (strip > 0.0) extend_to_floor(object, strip, ground.legs);
+        if (floor) {
+            const double strip = objects.cut(i, 3) ? 0.0 : strip_to_floor(object, ground);
+            extend_to_floor(object, strip);
+            object.shift_y = mean_below(object, strip, objects.rows, i, ahead_of(ground));
+        }
         measured.row(i) << object.x, object.y, object.z, object.width, object.height, object.shift_x,
             object.shift_y, object.area;
     }

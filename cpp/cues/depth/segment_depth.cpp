@@ -205,7 +205,7 @@ void cut_at_edge(StatesRef table, const Region& measured, int border, Flags& cut
 
 DepthObjects segment_depth(const DepthView& depth, const SearchedPixels& searched, VectorRef camera,
                            VectorRef plane, const Region& measured, const Divisions& divisions,
-                           const Cut& cut, const Standing& standing) {
+                           const Cut& cut, double feet) {
     require_arguments(depth, searched, divisions);
     const auto& [near, far, levels] = divisions.levels;
     SearchedDistances distances = find_distances(depth, searched, camera, plane, divisions);
@@ -214,8 +214,7 @@ DepthObjects segment_depth(const DepthView& depth, const SearchedPixels& searche
     auto found = describe_components(runs, depth, {near, far, 0, kBins}, divisions.min_area, false);
     Flags sides = cut_sides(depth, found.table, camera, cut);
     cut_at_edge(found.table, measured, cut.border, sides);
-    States states = measure_objects({found.table, found.columns, found.rows, sides}, camera,
-                                    {plane, standing.feet, standing.legs});
+    States states = measure_objects({found.table, found.columns, found.rows, sides}, camera, {plane, feet});
     return {std::move(states), std::move(sides), std::move(found.columns), std::move(found.rows)};
 }
 

@@ -23,11 +23,6 @@ struct Divisions {
     int min_area;
 };
 
-/// Where objects stand, as in measure_objects.
-struct Standing {
-    double feet, legs;
-};
-
 /// C objects, the largest first.
 struct DepthObjects {
     States measured;       ///< float64 (C, 8), as measure_objects gives it
@@ -54,11 +49,11 @@ struct DepthObjects {
 /// @param density (bandwidth, prominence): of depth_density, levels, and of density_extrema, as a share of the greatest density
 /// @param min_area as in depth_components
 /// @param cut (border, beside, nearer, share), as in cut_sides
-/// @param standing (feet, legs), as in measure_objects
+/// @param feet as in measure_objects
 /// @throws std::invalid_argument as those kernels
 /// Source: Sabeti, Parvizi, Wu 2008, equations (32)-(36), section IV.A; edges, floor and cuts are ours.
 DepthObjects segment_depth(const DepthView& depth, const SearchedPixels& searched, VectorRef camera,
                            VectorRef plane, const Region& measured, const Divisions& divisions,
-                           const Cut& cut, const Standing& standing);
+                           const Cut& cut, double feet);
 
 }  // namespace tricue

@@ -37,7 +37,7 @@ def arguments(depth: Depth, camera: Floats, **changes: Any) -> dict[str, Any]:
         "density": (4.0, 0.05),
         "min_area": 8,
         "cut": (2, 0.08, 0.3, 0.15),
-        "standing": (0.35, 0.7),
+        "feet": 0.35,
     }
     return usual | changes
 
@@ -215,7 +215,7 @@ def test_many_divisions(kernels: Kernels) -> None:
         ({"density": (1.0, -1.0)}, "prominence: expected a number of at least 0, got -"),
         ({"min_area": 0}, "min_area: expected at least 1, got 0"),
         ({"cut": (2, 0.1, 0.1, 2.0)}, r"share: expected a number in \[0, 1\], got 2"),
-        ({"standing": (-1.0, 0.0)}, "feet: expected a finite number, not negative, got -1"),
+        ({"feet": -1.0}, "feet: expected a finite number, not negative, got -1"),
     ],
 )
 def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> None:

@@ -16,7 +16,6 @@ from tricue.track.depth_objects.projection import project_box
 DISTRIBUTION_BINS = 16  # of an object's horizontal distribution, and of its vertical one
 BORDER = 2  # pixels; an object this near the image's border may continue outside
 MAX_FEET_HEIGHT = 0.35  # meters; an object whose lower end is below this stands on the floor
-LEGS_FILL = 0.7  # assumed fill of the strip added to the box down to the floor
 OCCLUDER_DISTANCE = 0.08  # meters beside an object's side in which an occluder is looked for
 MAX_SIDE_COVERED = 0.15  # of a side; an object covered more is cut there
 NO_EDGES = 1e6  # meters, larger than any depth step
@@ -97,6 +96,6 @@ def segment(
         (p.bandwidth / ((p.far - p.near) / p.levels), p.prominence),
         int(min(max(MIN_PIXELS, far_pixels), fg.depth.size + 1.0)),
         (BORDER, OCCLUDER_DISTANCE, p.occluder_margin, MAX_SIDE_COVERED),
-        (MAX_FEET_HEIGHT, LEGS_FILL),
+        MAX_FEET_HEIGHT,
     )
     return Objects(*found)

@@ -19,10 +19,9 @@ def measure_objects(
     camera: Floats,
     plane: Floats,
     feet: float,
-    legs: float,
 ) -> Floats:
     """Back-projects the boxes, and extends those that stand on the floor."""
-    _require(table, columns, rows, cut, camera, plane, feet, legs)
+    _require(table, columns, rows, cut, camera, plane, feet)
     fx, fy, cx, cy = camera
     x, y, w, h, pixels, z, _ = table.T
     width, height = w * z / fx, h * z / fy
@@ -31,9 +30,8 @@ def measure_objects(
 
     centers = np.column_stack([center_x, center_y, z])
     strip = np.where(cut[:, 3], 0.0, _strips_to_floor(centers, height, plane, feet))
-    share = legs * strip / (height + strip)
-    down = shift_y - strip / 2  # from the new center
-    shift_y = down + share * (height / 2 - down)
+    if plane.any():
+        shift_y = _mean_below(centers, height, strip, rows, plane[:3]) - strip / 2
     return np.column_stack(
         [center_x, center_y + strip / 2, z, width, height + strip, shift_x, shift_y, pixels * z * z / fx / fy]
     )
@@ -60,6 +58,24 @@ def _strips_to_floor(centers: Floats, height: Floats, plane: Floats, feet: float
     return strips
 
 
+def _mean_below(centers: Floats, height: Floats, strip: Floats, rows: Shares, up: Floats) -> Floats:
+    """How far the mean of upright objects' points is below their centers (C, 3), each row at its own depth.
+    The strip is filled like the rest.
+    """
+    ahead, bins = np.array([0.0, 0.0, 1.0]) - up[2] * up, rows.shape[1]
+    ends = np.column_stack([-height / 2, height / 2 + strip])
+    down = np.column_stack([np.outer(height, (np.arange(bins) + 0.5) / bins - 0.5), (height + strip) / 2])
+    y, first_and_last = (centers[:, 1:2] + each for each in (down, ends))
+    level = centers[:, :1] * ahead[0] + centers[:, 2:] * ahead[2]
+    in_front = (level + first_and_last * ahead[1] > 0).all(axis=1)
+    nearness = np.where(in_front[:, None], level + y * ahead[1], centers[:, 2:])
+    depths = rows / nearness[:, :-1]
+    share, total = strip / (height + strip), depths.sum(axis=1)
+    below = (1 - share) * (depths * y[:, :-1]).sum(axis=1) + share * y[:, -1] / nearness[:, -1]
+    empty = ~(total > 0)
+    return np.where(empty, strip / 2, below / np.where(empty, 1, total) - centers[:, 1])
+
+
 def _mean_place(shares: Shares) -> Floats:
     """The mean places of distributions over equal parts of [-1/2, 1/2]."""
     bins = shares.shape[1]
@@ -75,7 +91,6 @@ def _require(
     camera: Floats,
     plane: Floats,
     feet: float,
-    legs: float,
 ) -> None:
     require_camera(camera)
     require_table(table)
@@ -86,6 +101,5 @@ def _require(
         require_finite(name, shares.astype(np.float64))
     require_shape("plane", plane, (4,))
     require_finite("plane", plane)
-    for name, value in (("feet", feet), ("legs", legs)):
-        if not 0 <= value < np.inf:
-            refuse(name, "a finite number, not negative", float(value))
+    if not 0 <= feet < np.inf:
+        refuse("feet", "a finite number, not negative", float(feet))

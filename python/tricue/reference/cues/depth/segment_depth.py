@@ -33,7 +33,7 @@ def segment_depth(
     density: tuple[float, float],
     min_area: int,
     cut: tuple[int, float, float, float],
-    standing: tuple[float, float],
+    feet: float,
 ) -> tuple[Floats, NDArray[np.bool_], Depth, Depth]:
     """Calls one twin after the other."""
     near, far, count = levels
@@ -47,7 +47,7 @@ def segment_depth(
     labels = divide_depth(distance, mask, dividers)
     table, _, columns, rows, _ = depth_components(labels, depth, near, far, 0, BINS, min_area, False)
     sides = cut_sides(depth, table, camera, *cut) | _at_edge(table, measured, cut[0])
-    return measure_objects(table, columns, rows, sides, camera, plane, *standing), sides, columns, rows
+    return measure_objects(table, columns, rows, sides, camera, plane, feet), sides, columns, rows
 
 
 def _inside(region: tuple[int, int, int, int], depth: Depth) -> NDArray[np.bool_]:
