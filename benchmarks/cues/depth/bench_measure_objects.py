@@ -75,7 +75,7 @@ def script(
 
 
 @pytest.mark.benchmark(group="measure_objects")
-@pytest.mark.work(flops64=8 * 100, why="the call takes half")
+@pytest.mark.work(flops64=8 * 250, why="the call takes a third")
 @pytest.mark.parametrize(
     "measure_objects",
     [_core.measure_objects, reference.measure_objects, script],
