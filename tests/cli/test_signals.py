@@ -7,12 +7,15 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
 from tricue.cli.signals import ENDING, catch_signals, clean_exits
+
+from tests.data.mjpeg_server import mjpeg_server
 
 
 @pytest.mark.parametrize("number", ENDING)
@@ -26,6 +29,26 @@ def test_the_first_signal_asks_and_the_second_breaks_off(number: signal.Signals)
         with pytest.raises(KeyboardInterrupt):
             os.kill(os.getpid(), signal.SIGINT)
     assert [signal.getsignal(each) for each in ENDING] == before
+
+
+@pytest.mark.parametrize("number", ENDING)
+def test_a_signal_ends_the_wait_for_an_item(number: signal.Signals) -> None:
+    """While the next item is awaited the first signal ends the iteration, and not in between."""
+
+    def items() -> Iterator[int]:
+        yield 0
+        yield 1
+        os.kill(os.getpid(), number)
+        pytest.fail("went on waiting")
+
+    with catch_signals() as stop:
+        assert list(stop.until_caught(items())) == [0, 1]
+        assert stop() == number
+        assert list(stop.until_caught([2])) == []
+    with catch_signals() as stop:
+        for item in stop.until_caught(range(3)):
+            os.kill(os.getpid(), number)
+            assert item == 0
 
 
 @pytest.mark.parametrize("number", ENDING[1:])
@@ -86,3 +109,22 @@ def test_files_are_whole_after_a_signal(video: Path, tmp_path: Path, number: sig
     assert len(json.loads(out["json"].read_text())["tracks"]) == len(rows)
     capture = cv2.VideoCapture(str(out["mp4"]))
     assert sum(1 for _ in iter(lambda: capture.read()[0], False)) == len(rows)
+
+
+@pytest.mark.parametrize("number", ENDING[:2])
+def test_a_signal_ends_a_camera_that_has_stopped(number: signal.Signals) -> None:
+    """While a live stream gives no frames, a signal ends the run at once and not after a minute."""
+    with mjpeg_server() as server:
+        command = [sys.executable, "-m", "tricue", "track", server.url, "--box", "9,9,20,20", "--json", "-"]
+        pipe = subprocess.PIPE
+        with subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True) as process:
+            assert process.stdout is not None
+            assert process.stderr is not None
+            process.stdout.readline()
+            server.stop()
+            while "connecting again" not in process.stderr.readline():
+                assert process.poll() is None
+            process.send_signal(number)
+            _, report = process.communicate(timeout=20)
+    assert process.returncode == 128 + number
+    assert "until interrupted" in report

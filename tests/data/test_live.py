@@ -232,7 +232,7 @@ def test_http_tracked_from_the_command_line(
             time.sleep(0.1)
             yield frame
 
-    monkeypatch.setattr(command, "takewhile", lambda _, source: ended_soon(source))
+    monkeypatch.setattr(command, "islice", lambda source, *_: ended_soon(source))
     with mjpeg_server() as server:
         assert main(["track", server.url, "--tracker", "color-particle", "--box", "9,9,20,20"]) == 0
     said = capsys.readouterr().out

@@ -3,10 +3,12 @@
 
 import signal
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from types import FrameType
-from typing import Any
+from typing import Any, TypeVar
+
+T = TypeVar("T")
 
 ENDING = tuple(
     getattr(signal, name)
@@ -26,21 +28,44 @@ def clean_exits() -> Iterator[None]:
         yield
 
 
-@contextmanager
-def catch_signals() -> Iterator[Callable[[], int]]:
-    """Yield a function that returns the number of the signal received, 0 if none, so that the current frame
-    can be finished. A second signal interrupts.
-    """
-    caught = 0
+class CaughtSignal:
+    """The first signal received; calling it gives its number, 0 if none."""
 
-    def catch(number: int, _frame: FrameType | None) -> None:
-        nonlocal caught
-        if caught:
+    def __init__(self) -> None:
+        self._number = 0
+        self._awaiting = False
+
+    def __call__(self) -> int:
+        return self._number
+
+    def catch(self, number: int, _frame: FrameType | None) -> None:
+        """The handler: a second signal interrupts, and so does one that comes while an item is awaited."""
+        second, self._number = self._number != 0, self._number or number
+        if second or self._awaiting:
             raise KeyboardInterrupt
-        caught = number
 
-    with _handled(ENDING, catch):
-        yield lambda: caught
+    def until_caught(self, items: Iterable[T]) -> Iterator[T]:
+        """The items until a signal comes. It doesn't wait for the next item: a camera that has stopped may
+        give none for a minute.
+        """
+        iterator = iter(items)
+        while not self._number:
+            try:
+                self._awaiting = True
+                item = next(iterator)
+            except (StopIteration, KeyboardInterrupt):
+                return
+            finally:
+                self._awaiting = False
+            yield item
+
+
+@contextmanager
+def catch_signals() -> Iterator[CaughtSignal]:
+    """Catch signals, so that the current frame can be finished. A second signal interrupts."""
+    caught = CaughtSignal()
+    with _handled(ENDING, caught.catch):
+        yield caught
 
 
 @contextmanager

@@ -7,7 +7,7 @@ import math
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, redirect_stdout
-from itertools import islice, takewhile
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -56,7 +56,7 @@ def _track(
     with ExitStack() as files:
         stop = files.enter_context(catch_signals())
         progress = files.enter_context(Progress(run.frames))
-        frames = takewhile(lambda _: not stop(), islice(run.source, run.first, run.end))
+        frames = stop.until_caught(islice(run.source, run.first, run.end))
         targets = None if run.targets is None else files.enter_context(run.targets)
         for step in _steps(run, targets, frames, clock):
             if not record.tracks:  # only now, so that a run that never starts keeps an earlier one's files
