@@ -213,6 +213,17 @@ def test_times_that_do_not_rise_are_written(tmp_path: Path) -> None:
     assert count_frames(writer.path) == 4
 
 
+def test_a_clock_that_is_set_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The frames after it keep their intervals, and follow those before it by a frame."""
+    pytest.importorskip("av")
+    times = [100.0, 100.2, 100.4, 40.0, 40.2, 40.6]
+    found = _write_timed(OverlayWriter(tmp_path / "o.mp4", 25.0), times)
+    assert found == pytest.approx([0, 0.2, 0.4, 0.44, 0.64, 1.04], abs=0.001)
+    monkeypatch.setattr(PyAVEncoder, "available", staticmethod(lambda: False))
+    writer = OverlayWriter(tmp_path / "o.avi", 25.0)
+    assert len(_write_timed(writer, times)) == 27  # 1.04 s, and the last one
+
+
 @pytest.mark.parametrize("name", ["o.avi", "o.webm"])
 def test_opencv_repeats_frames_until_the_next(
     tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch

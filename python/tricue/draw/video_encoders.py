@@ -18,6 +18,7 @@ from tricue.arrays import Image
 
 MAX_DENOMINATOR = 1001  # of frames per second, as in 30000/1001
 MIN_TICKS = 10_000  # per second, the resolution of frames' times
+MAX_STEP_BACK = 1.0  # seconds; a larger one is a clock that was set back, after which times count anew
 MAX_STILL = 60.0  # seconds for which OpenCV's encoder repeats an image at most, even if none comes for longer
 H264 = ("libx264", {"preset": "veryfast", "crf": "20", "bf": "0"})  # with B-frames fragments begin late
 VP9 = ("libvpx-vp9", {"deadline": "realtime", "cpu-used": "8", "row-mt": "1", "crf": "30", "b": "0"})
@@ -114,7 +115,11 @@ class PyAVEncoder:
             return self._time + self._step
         if not self.written:
             self._start = seconds
-        return max(self._time + 1, round((seconds - self._start) * self._ticks))
+        due = round((seconds - self._start) * self._ticks)
+        if due < self._time - MAX_STEP_BACK * self._ticks:
+            due = self._time + self._step
+            self._start = seconds - due / self._ticks
+        return max(self._time + 1, due)
 
 
 def _defragment(path: Path) -> None:
@@ -185,6 +190,8 @@ class OpenCVEncoder:
             self._start = seconds
             return
         missing = round((seconds - self._start) * self._fps) - self.written
+        if missing < -MAX_STEP_BACK * self._fps:
+            self._start, missing = seconds - self.written / self._fps, 0
         most = round(MAX_STILL * self._fps)
         for _ in range(min(missing, most)):
             self._put(self._last)
