@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""An alarm when a target leaves a region of the image, or is lost.
+"""An alarm when a target leaves a region of the image, is lost, or the camera gives no images.
 
     python examples/gate_alarm.py rtsp://camera.local/stream --box 128,79,64,78 --region 60,20,200,200
     python examples/gate_alarm.py video.mp4 --box 128,79,64,78 --box 40,90,60,80 --region 60,20,200,200
@@ -11,10 +11,13 @@ Put your siren, message or relay into ``alarm``. Ctrl-C ends it.
 import argparse
 import sys
 from contextlib import suppress
+from threading import Timer
 
 import tricue
 from tricue.cli.arguments import box
 from tricue.data.source import Source
+
+MAX_SILENCE = 2.0  # seconds without images
 
 
 def alarm(seconds: float, text: str) -> None:
@@ -34,9 +37,19 @@ def watch(source: Source, boxes: list[tricue.Box], region: tricue.Box) -> int:
     def lost(target: int, _: tricue.Track) -> None:
         raise_alarm(f"target {target} is lost")
 
+    def restart(watchdog: Timer) -> Timer:
+        """A new watchdog: the loop below waits while no images come, so another thread has to notice."""
+        watchdog.cancel()
+        new = Timer(MAX_SILENCE, raise_alarm, ["no images come"])
+        new.daemon = True
+        new.start()
+        return new
+
+    watchdog = Timer(MAX_SILENCE, raise_alarm)
     with suppress(KeyboardInterrupt), tricue.MultiTracker(on_lost=lost) as several:
         inside: dict[int, bool] = {}
         for number, frame in enumerate(source):
+            watchdog = restart(watchdog)
             now = number / source.fps if frame.timestamp is None else frame.timestamp
             if number == 0:
                 for start in boxes:
@@ -49,6 +62,7 @@ def watch(source: Source, boxes: list[tricue.Box], region: tricue.Box) -> int:
                 if inside[target] and not here:
                     raise_alarm(f"target {target} has left the region")
                 inside[target] = here
+    watchdog.cancel()
     return alarms
 
 

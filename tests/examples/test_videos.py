@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
@@ -271,3 +272,28 @@ def test_the_alarm_of_a_lost_target(
     arguments = [str(video), "--box", face_box, "--region=-500,-500,2000,2000"]
     assert program("gate_alarm").main(arguments) == 1
     assert "ALARM: target 1 is lost" in capsys.readouterr().out
+
+
+def test_the_alarm_of_a_camera_that_stops(
+    face: Scene,
+    face_box: str,
+    program: Program,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """While the loop waits for an image, one alarm comes, and none after the end."""
+
+    class Stopped(Source):
+        def __iter__(self) -> Iterator[Frame]:
+            yield from face.frames[:5]
+            time.sleep(1.0)
+            yield face.frames[5]
+
+    stream = SimpleNamespace(timed=True, fps=30, length=None)
+    source = Stopped("gate", {"color": stream})  # type: ignore[dict-item]
+    monkeypatch.setattr(tricue, "open_source", lambda place: source)
+    gate = program("gate_alarm")
+    monkeypatch.setattr(gate, "MAX_SILENCE", 0.5)
+    assert gate.main(["0", "--box", face_box, "--region=-500,-500,2000,2000"]) == 1
+    time.sleep(0.7)
+    assert capsys.readouterr().out.count("ALARM: no images come") == 1
