@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 import json
 import shutil
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -31,6 +32,12 @@ def table(folder, evaluation):
     """The bytes of the tables that tell what the runs say."""
     tables.write(evaluation, folder, {})
     return [(folder / name).read_bytes() for name in (tables.ROWS, tables.SUMMARY)]
+
+
+def rows_of(evaluation, tracker):
+    """A tracker's rows without its name, as text, in which NaN equals itself."""
+    found = [each.row for each in evaluation.results if each.row.tracker == tracker]
+    return [str(replace(row, tracker="")) for row in found]
 
 
 @pytest.fixture(scope="module")
@@ -73,6 +80,20 @@ def test_a_tracker_that_follows_is_told_from_one_that_does_not(undisturbed):
     assert lines["color-particle"]["auc"] > 0.8 > 0.5 > lines["still-box"]["auc"]
     assert lines["still-box"]["auroc"] == 0.5
     assert lines["color-particle"]["sequences"] == 3
+
+
+def test_one_tracker_with_several_settings(undisturbed, folders, tmp_path):
+    """A tracker of ours under other names: each has its parameters, and with the defaults the same rows."""
+    chosen, settings = ("same=color-particle", "few=color-particle"), {"few": {"particles": 20}}
+    evaluation = evaluate(folders, tmp_path, Options(chosen, settings, seeds=2))
+    plain = rows_of(undisturbed[1], "color-particle")
+    assert rows_of(evaluation, "same") == plain
+    assert rows_of(evaluation, "few") != plain
+    parameters = tables.settings(evaluation)["parameters"]
+    assert [(name, each["tracker"], each["particles"]) for name, each in parameters.items()] == [
+        ("same", "color-particle", 100),
+        ("few", "color-particle", 20),
+    ]
 
 
 def test_an_interrupted_evaluation_goes_on(undisturbed, folders, tmp_path):

@@ -26,6 +26,7 @@ from tricue.evaluation.report import svg
 from tricue.evaluation.report.page import write_report
 from tricue.evaluation.results_folder import FORMS
 from tricue.evaluation.tasks import perform
+from tricue.evaluation.trackers import split_ours
 from tricue.track.base.registry import names
 from tricue.track.base.settings import read_settings, third_party_settings
 
@@ -35,6 +36,7 @@ examples:
   tricue evaluate sequences/ --jobs 2                         the same command goes on after Ctrl-C
   tricue evaluate sequences/ --trackers color-particle,CSRT,KCF --seeds 5 --output color
   tricue evaluate sequences/ --trackers color-particle --set color-particle.particles=300
+  tricue evaluate sequences/ --trackers fused,slow=fused --set slow.rate=15   one tracker with two settings
   tricue evaluate sequences/ --trackers fused,mine.py:Mine,cv2:TrackerMIL     your class, any of cv2's
   tricue evaluate sequences/ --trackers 'fused,theirs=trax:./theirs --fast'   a TraX program
   tricue evaluate sequences/ --trackers fused --results SiamFC=results/SiamFC others' result files
@@ -65,8 +67,9 @@ def add_options(command: argparse.ArgumentParser) -> None:
         type=any_tracker_names,
         action="extend",
         metavar="NAMES",
-        help="tricue's, the baselines', module:Class, file.py:Class, cv2:Name, trax:COMMAND, each with NAME="
-        " before it to name it; separated by commas, or several times; default all that are installed",
+        help="tricue's, the baselines', module:Class, file.py:Class, cv2:Name, trax:COMMAND, each but the "
+        "baselines' with NAME= before it to name it; separated by commas, or several times; default all that "
+        "are installed",
     )
     command.add_argument(
         "--results",
@@ -169,7 +172,7 @@ def run(options: argparse.Namespace) -> int:
     restarts, protocols = chosen_protocols(options)
     chosen = Options(
         trackers=tuple(options.trackers) if options.trackers else None,
-        settings=settings_by_tracker(options.set),
+        settings=settings_by_tracker(options.set, options.trackers or ()),
         seeds=options.seeds,
         restarts=restarts,
         reading=ReadOptions(options.depth_scale, options.fps, options.unit, options.truth),
@@ -206,8 +209,9 @@ def chosen_protocols(options: argparse.Namespace) -> tuple[bool, tuple[str, ...]
     return restarts, tuple(name for name in options.protocols if name not in (ONE_PASS, RESTARTS))
 
 
-def settings_by_tracker(settings: Sequence[str]) -> dict[str, dict[str, Any]]:
-    """Parameters by tracker from strings tracker.name=value."""
+def settings_by_tracker(settings: Sequence[str], trackers: Sequence[str] = ()) -> dict[str, dict[str, Any]]:
+    """Parameters by tracker from strings tracker.name=value; trackers: as ``--trackers`` names them."""
+    kinds = dict(map(split_ours, trackers))
     found: dict[str, list[str]] = {}
     for setting in settings:
         place, equals, value = setting.partition("=")
@@ -216,8 +220,8 @@ def settings_by_tracker(settings: Sequence[str]) -> dict[str, dict[str, Any]]:
             raise ValueError(f"--set: expected tracker.name=value, got {setting!r}")
         found.setdefault(tracker, []).append(f"{name}{equals}{value}")
     return {
-        tracker: read_settings(tracker, None, each, _SET_BY)
-        if tracker in names() and not is_foreign(tracker)
+        tracker: read_settings(kinds.get(tracker) or tracker, None, each, _SET_BY)
+        if kinds.get(tracker) or (tracker in names() and not is_foreign(tracker))
         else third_party_settings(each, _SET_BY)
         for tracker, each in found.items()
     }

@@ -4,7 +4,7 @@
 import json
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from functools import partial
 from typing import Any, Protocol
 
@@ -52,11 +52,13 @@ class SequenceInfo(Protocol):
 class TrackerSpec:
     """A tracker by its name: one of ours or a baseline, which run in this process.
 
-    settings: parameters that aren't the defaults; baselines take none.
+    settings: parameters that aren't the defaults; baselines take none. kind: the registry's name of one of
+    ours, if it runs under another name; else "".
     """
 
     name: str
     settings: tuple[tuple[str, Any], ...] = ()
+    kind: str = field(default="", kw_only=True)
 
     @property
     def ours(self) -> bool:
@@ -66,7 +68,7 @@ class TrackerSpec:
     @property
     def traits(self) -> Traits:
         """Its inputs and capabilities; baselines take one image."""
-        return registry.traits(self.name) if self.ours else BASELINE_TRAITS
+        return registry.traits(self.kind or self.name) if self.ours else BASELINE_TRAITS
 
     @property
     def random(self) -> bool:
@@ -83,8 +85,9 @@ class TrackerSpec:
         """What a run depends on besides the sequence: parameters and versions, as JSON."""
         if not self.ours:
             return json.dumps({"cv2": cv2.__version__})
-        params = registry.tracker_class(self.name).Params(**dict(self.settings))
-        return json.dumps({"tricue": tricue.__version__, **asdict(params)}, default=str)
+        params = registry.tracker_class(self.kind or self.name).Params(**dict(self.settings))
+        kind = {"tracker": self.kind} if self.kind else {}
+        return json.dumps({"tricue": tricue.__version__, **kind, **asdict(params)}, default=str)
 
     def unsupported_reason(self, opened: SequenceInfo) -> str:
         """Why it can't run on a sequence, "" if it can."""
@@ -108,7 +111,7 @@ class TrackerSpec:
         baselines.seed(seed)
         if not self.ours:
             return SafeTracker(baselines.available()[self.name](seed))
-        return SafeTracker(tricue.create(self.name, seed=seed, **self.keywords(opened)))
+        return SafeTracker(tricue.create(self.kind or self.name, seed=seed, **self.keywords(opened)))
 
     @contextmanager
     def session(self, opened: SequenceInfo) -> Iterator[Make]:

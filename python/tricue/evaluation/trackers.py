@@ -6,7 +6,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from tricue.evaluation import baselines
-from tricue.evaluation.foreign.spec import DEFAULT_TIME_LIMIT, foreign_spec, is_foreign, split_name
+from tricue.evaluation.foreign.spec import (
+    DEFAULT_TIME_LIMIT,
+    foreign_spec,
+    is_foreign,
+    split_name,
+    split_prefix,
+)
 from tricue.evaluation.tracker_spec import TrackerSpec
 from tricue.track.base import registry
 
@@ -25,12 +31,12 @@ def tracker_specs(
     """
     known = [*registry.names(), *baselines.available()]
     words = known if chosen is None else chosen
-    names = [split_name(word)[0] if is_foreign(word) else word for word in words]
+    names = [split_name(word)[0] if is_foreign(word) else split_ours(word)[0] for word in words]
     plain = [word for word in words if not is_foreign(word) and word not in baselines.NAMES]
-    for name in plain:
-        if name not in known:
+    for word in plain:
+        if word not in known and not split_ours(word)[1]:
             places = "module:Class, file.py:Class, cv2:Name, trax:command"
-            raise ValueError(f"--trackers: expected some of {', '.join(known)}, {places}, got {name!r}")
+            raise ValueError(f"--trackers: expected some of {', '.join(known)}, {places}, got {word!r}")
     for name in settings:
         if name not in names:
             running = ", ".join(names) or "none"
@@ -43,7 +49,7 @@ def tracker_specs(
     found = [
         foreign_spec(word, settings.get(name, {}), time_limit)
         if is_foreign(word)
-        else TrackerSpec(name, tuple(settings.get(name, {}).items()))
+        else TrackerSpec(name, tuple(settings.get(name, {}).items()), kind=split_ours(word)[1])
         for word, name in zip(words, names, strict=True)
     ]
     for each in found:
@@ -51,6 +57,12 @@ def tracker_specs(
     if found and all(each.name in _missing() for each in found):
         raise ValueError(f"--trackers: {baselines.missing_reason(found[0].name)}")
     return found
+
+
+def split_ours(word: str) -> tuple[str, str]:
+    """NAME and the tracker of NAME=tracker, if that is one of tricue's; else the word and ""."""
+    name, kind = split_prefix(word)
+    return (name, kind) if name and registry.is_built_in(kind) else (word, "")
 
 
 def require_unique(names: Iterable[str]) -> None:
@@ -79,6 +91,6 @@ def _missing() -> list[str]:
 def _check(spec: TrackerSpec) -> None:
     """TypeError or ValueError for wrong parameters, before the first run."""
     if spec.ours:
-        registry.tracker_class(spec.name).Params(**dict(spec.settings))
+        registry.tracker_class(spec.kind or spec.name).Params(**dict(spec.settings))
     elif spec.settings and spec.name in baselines.NAMES:
         raise ValueError(f"--set: expected a parameter of one of our trackers, got one of {spec.name}")

@@ -8,6 +8,7 @@ import shutil
 import time
 from contextlib import closing
 from functools import cache
+from importlib.metadata import EntryPoint
 from pathlib import Path
 
 import cv2
@@ -18,11 +19,12 @@ from tricue.evaluation import baselines
 from tricue.evaluation.dataset import find_entries
 from tricue.evaluation.evaluate import RUNS, Options, evaluate
 from tricue.evaluation.foreign import process
-from tricue.evaluation.foreign.spec import ForeignSpec, foreign_spec, split_name
+from tricue.evaluation.foreign.spec import ForeignSpec, foreign_spec, is_foreign, split_name
 from tricue.evaluation.record import Record
 from tricue.evaluation.report.page import write_report
 from tricue.evaluation.tasks import RESTARTS, Task, perform
 from tricue.evaluation.trackers import tracker_specs
+from tricue.track.base import registry
 from tricue.track.base.track import Status
 
 ODD = Path(__file__).with_name("odd_trackers.py")
@@ -312,6 +314,15 @@ def test_names_and_places(text, name, place):
     assert split_name(text) == (name, place)
 
 
+def test_a_registered_tracker_under_another_name(monkeypatch):
+    """It proves that NAME= is understood before the name of another package's tracker, too."""
+    theirs = EntryPoint("theirs", "package:Theirs", registry.GROUP)
+    monkeypatch.setattr(registry, "_installed_entry_points", lambda: {"theirs": theirs})
+    assert [is_foreign(text) for text in ("theirs", "mine=theirs", "mine=fused")] == [True, True, False]
+    assert split_name("mine=theirs") == ("mine", "package:Theirs")
+    assert split_name("theirs") == ("theirs", "package:Theirs")
+
+
 def test_a_program_needs_a_command():
     """It proves that a place without the rest is told in words."""
     with pytest.raises(ValueError, match="trax: expected a command after it, got none"):
@@ -326,6 +337,8 @@ def test_a_program_needs_a_command():
         (("/nowhere/x.py:Class",), "/nowhere/x.py: there is no such file"),
         (("missing.module:Class",), "there is no module missing"),
         ((f"still-box={ODD}:Still",), "expected another name than 'still-box', which is taken"),
+        (("fused=color-particle",), "expected another name than 'fused', which is taken"),
+        (("few=still-box",), "expected some of color-particle.*got 'few=still-box'"),
     ],
 )
 def test_wrong_places_are_told_before_anything_runs(chosen, message):
@@ -340,6 +353,7 @@ def test_wrong_places_are_told_before_anything_runs(chosen, message):
     [
         (("fused", f"a={ODD}:Still", f"a={ODD}:Raises"), "expected different names, got 'a' twice"),
         (("still-box", "still-box"), "expected different names, got 'still-box' twice"),
+        (("fused", "a=fused", "a=color-particle"), "expected different names, got 'a' twice"),
         ((f"..={ODD}:Still",), r"expected a name without slashes, got '\.\.'"),
     ],
 )

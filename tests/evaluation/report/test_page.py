@@ -138,6 +138,7 @@ def test_parameters_and_versions_are_listed(about, report):
         Options(("color-particle", "still-box"), seeds=5, restarts=False),
         Options(settings={"flow-depth": {"cues": ("flow",)}, "color-particle": {"particles": 7}}),
         Options(reading=ReadOptions(depth_scale=0.001, fps=15.0, unit=0.03, truth="depth")),
+        Options(("fused", "few=color-particle"), {"few": {"particles": 30, "grid": (8, 6)}}),
         Options(protocols=("starts", "every-3")),
         Options(restarts=False, protocols=("noisy-5",)),
     ],
@@ -151,7 +152,7 @@ def test_the_command_runs_the_same(options):
     found = program.parser(words[1]).parse_args(words[1:])
     reading = ReadOptions(found.depth_scale, found.fps, found.unit, found.truth)
     trackers = tuple(found.trackers) if found.trackers else None
-    settings = settings_by_tracker(found.set)
+    settings = settings_by_tracker(found.set, found.trackers or ())
     restarts, protocols = chosen_protocols(found)
     assert options == Options(trackers, settings, found.seeds, restarts, reading, protocols=protocols)
 

@@ -22,7 +22,7 @@ from tricue.track.base import registry
 from tricue.track.base.traits import Traits
 
 DEFAULT_TIME_LIMIT = 60.0  # seconds for an update
-_NAMED = re.compile(r"([^=:/\\]+)=(.+:.+)", re.DOTALL)
+_NAMED = re.compile(r"([^=:/\\]+)=(.+)", re.DOTALL)
 """NAME=place"""
 
 
@@ -109,17 +109,23 @@ def foreign_spec(text: str, settings: Mapping[str, Any], time_limit: float) -> F
 
 def is_foreign(text: str) -> bool:
     """Whether a name is a place, or the name of another package's tracker."""
-    return ":" in text or (text in registry.names() and not registry.is_built_in(text))
+    place = split_prefix(text)[1]
+    return ":" in text or (place in registry.names() and not registry.is_built_in(place))
+
+
+def split_prefix(text: str) -> tuple[str, str]:
+    """NAME and the rest of NAME=rest; "" and all of a text without NAME."""
+    match = _NAMED.fullmatch(text)
+    return (match[1].strip(), match[2].strip()) if match else ("", text)
 
 
 def split_name(text: str) -> tuple[str, str]:
     """A tracker's name and place, with absolute paths of files. ValueError for a program without a
     command.
     """
-    match = _NAMED.fullmatch(text)
-    given, place = (match[1].strip(), match[2]) if match else ("", text)
+    given, place = split_prefix(text)
     if ":" not in place:
-        return place, registry.location(place)
+        return given or place, registry.location(place)
     if place.startswith(TRAX):
         return given or TRAX + Path(command_words(place.removeprefix(TRAX))[0]).name, place
     file, _, attribute = place.rpartition(":")

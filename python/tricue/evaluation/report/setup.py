@@ -101,7 +101,8 @@ def command(options: Options, dataset: str) -> str:
 
 
 def _parameters(tracker: str, values: Mapping[str, Any], changed: Mapping[str, Any]) -> Html:
-    params = tracker_class(tracker).Params  # None for a third-party class, whose parameters are unknown
+    kind = values.get("tracker", tracker)
+    params = tracker_class(kind).Params  # None for a third-party class, whose parameters are unknown
     fields = {} if params is None else {field.name: field for field in dataclasses.fields(params)}
     rows = []
     for name, value in values.items():
@@ -114,6 +115,7 @@ def _parameters(tracker: str, values: Mapping[str, Any], changed: Mapping[str, A
     heading = tag("tr", [tag("th", each, scope="col") for each in ("parameter", "value", "unit")])
     table = tag("table", tag("thead", heading), tag("tbody", rows), class_="parameters")
     summary = f"{len(changed)} changed: {', '.join(changed)}" if changed else "all defaults"
+    summary = summary if kind == tracker else f"{kind}, {summary}"
     return tag(
         "details",
         tag("summary", tag("b", tracker), f" {summary}"),
