@@ -124,7 +124,10 @@ def test_nothing_in_common_is_told(tmp_path, capsys):
     """Other trackers, or other sequences."""
     one, other = write(tmp_path / "one", a=OLD), write(tmp_path / "other", b=OLD)
     assert main(["compare", str(one), str(other)]) == 2
-    assert "a tracker and a sequence that both have" in capsys.readouterr().err
+    error = capsys.readouterr().err
+    assert "a tracker and a sequence that both have" in error
+    assert "got none; only in the old one: tracker a; only in the new one: tracker b" in error
+    assert error.count("\n") == 1
 
 
 def test_a_number_that_an_older_evaluation_lacks_is_told(folders, capsys):

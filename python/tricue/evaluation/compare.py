@@ -89,10 +89,10 @@ def compare_folders(old: Path, new: Path, number: str = "auc") -> Comparison:
         }
         if common:
             changes.append(_change(key, common, recordings, BETTER[number]))
+    notes = _only(before["rows"], after["rows"])
     if not changes:
         both = f"a tracker and a sequence that both have, with {number}"
-        raise ValueError(f"{old}, {new}: expected {both}, got none")
-    notes = _only(before["rows"], after["rows"])
+        raise ValueError("; ".join((f"{old}, {new}: expected {both}, got none", *notes)))
     tested = [each.recordings for each in changes if not math.isnan(each.adjusted)]
     adjusted = holm([each.adjusted for each in changes])
     if tested and not separable(tested):
