@@ -28,7 +28,7 @@ from tricue.evaluation.tracker_spec import Make, TrackerSpec
 
 _RESULT_SOURCES = (
     *("_core*.so", "_core*.pyd", "kernels.py", "reference/**/*.py", "track/**/*.py"),
-    *("camera/**/*.py", "data/**/*.py", "imgproc.py", "errors.py"),
+    *("camera/**/*.py", "data/**/*.py", "imgproc.py", "errors.py", "arrays.py"),
     *("draw/canvas.py", "draw/depth_pictures.py"),  # depth as the baselines see it
     *(f"evaluation/{name}.py" for name in ("tasks", "dataset", "frame_views", "one_pass", "restarts")),
     *(f"evaluation/{name}.py" for name in ("tracker_spec", "safe_tracker", "baselines", "foreign/*")),
