@@ -1,19 +1,20 @@
 # SPDX-License-Identifier: MIT
 """Detection of frontal faces, without a box, in video of one color camera: rates, false starts and times.
 
-    python -m benchmarks.quality.face_detection [--every 5] [DATA]
+    python -m benchmarks.quality.face_detection [--every 5] [--detector "rendered faces"] [DATA]
 
 "found" is the share of frames whose box overlaps the true one by 0.5 or more, "elsewhere" that of boxes
 without any overlap, "overlap" the median of overlaps above 0. In noise, and in sequences without frontal
 faces, which show walkers and riders at most, each box is a false start. In photographs of people, not all of
-them frontal, a box is right if at least half of its inner part is skin by a hand-drawn mask. It uses cv2 4's
-cascade, or, if that isn't installed, scikit-image's. All frames (--every 1) take half an hour.
+them frontal, a box is right if at least half of its inner part is skin by a hand-drawn mask. All frames
+(--every 1) take half an hour.
 """
 
 import argparse
 import sys
 from collections.abc import Callable, Iterator
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from time import process_time
 from typing import NamedTuple
@@ -23,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.data.open_source import open_source
-from tricue.track.head_detection.face_detection import find_face
+from tricue.track.head_detection.face_detection import detectors, find_face
 
 from benchmarks.quality.common.sequences import data_folder
 from benchmarks.quality.common.tables import markdown
@@ -40,6 +41,10 @@ OTHER_FACES = {"Football1"}  # behind the helmets' bars
 PHOTOGRAPHS = "photographs"
 MIN_SKIN = 0.5  # share of the inner half of a box on a face
 NOISE = 20  # images
+
+Image = NDArray[np.uint8]
+Judge = Callable[[Box], float]  # the overlap of a box with the true one
+Case = tuple[str, Image, Judge | None]  # source, image, judge; None without a face
 
 
 class Answer(NamedTuple):
@@ -58,10 +63,14 @@ def main() -> int:
     """Print the table."""
     command = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     command.add_argument("--every", type=int, default=5, help="of so many frames one is looked at")
+    installed = list(detectors())
+    command.add_argument("--detector", choices=installed, default=installed[0])
     command.add_argument("data", nargs="?", type=Path, default=data_folder(), help="recordings")
     options = command.parse_args()
     cv2.setNumThreads(1)
-    answers = [*_recorded(options.data, options.every), *_photographs(options.data), *_noise()]
+    find = partial(find_face, detector=options.detector)
+    images = chain(_recorded(options.data, options.every), _photographs(options.data), _noise())
+    answers = [_answer(find, *each) for each in images]
     rows = [
         _row(source, [each for each in answers if each.source == source])
         for source in dict.fromkeys(each.source for each in answers)
@@ -83,16 +92,15 @@ def _row(source: str, answers: list[Answer]) -> list[str]:
     return [source, str(len(answers)), f"{right:.1%}", f"{elsewhere:.1%}", median, time]
 
 
-def _answer(source: str, image: NDArray[np.uint8], judge: Callable[[Box], float] | None) -> Answer:
-    """judge: the overlap of a box with the true one."""
+def _answer(find: Callable[[Image], Box | None], source: str, image: Image, judge: Judge | None) -> Answer:
     before = process_time()
-    found = find_face(image)
+    found = find(image)
     seconds = process_time() - before
     overlap = None if judge is None else 0.0 if found is None else judge(found)
     return Answer(source, found is not None, overlap, 1000 * seconds)
 
 
-def _recorded(data: Path, every: int) -> Iterator[Answer]:
+def _recorded(data: Path, every: int) -> Iterator[Case]:
     folders = sorted(each for each in (data / "color").iterdir() if each.name not in OTHER_FACES)
     for folder in sorted(folders, key=lambda each: each.name not in FRONTAL):
         source, ranges = open_source(folder), FRONTAL.get(folder.name)
@@ -101,14 +109,14 @@ def _recorded(data: Path, every: int) -> Iterator[Answer]:
                 continue
             assert frame.color is not None
             if ranges is None:
-                yield _answer("without faces", frame.color, None)
+                yield "without faces", frame.color, None
             elif any(first <= index <= last for first, last in ranges):
                 true = source.true_box(index)
                 assert true is not None
-                yield _answer(folder.name, frame.color, true.iou)
+                yield folder.name, frame.color, true.iou
 
 
-def _photographs(data: Path) -> Iterator[Answer]:
+def _photographs(data: Path) -> Iterator[Case]:
     for path in sorted((data / "skin" / "image").iterdir()):
         mask = next((data / "skin" / "mask").glob(f"{path.stem}.*"), None)
         if mask is None:
@@ -116,7 +124,7 @@ def _photographs(data: Path) -> Iterator[Answer]:
         skin = np.asarray(cv2.imread(str(mask), cv2.IMREAD_GRAYSCALE)) > 0
         if skin.any():
             image = np.asarray(cv2.imread(str(path)), np.uint8)
-            yield _answer(PHOTOGRAPHS, image, partial(_on_skin, skin))
+            yield PHOTOGRAPHS, image, partial(_on_skin, skin)
 
 
 def _on_skin(skin: NDArray[np.bool_], box: Box) -> float:
@@ -127,13 +135,13 @@ def _on_skin(skin: NDArray[np.bool_], box: Box) -> float:
     return float(skin[rows, columns].mean() >= MIN_SKIN)
 
 
-def _noise() -> Iterator[Answer]:
+def _noise() -> Iterator[Case]:
     rng = np.random.default_rng(0)
     for _ in range(NOISE):
         noise = rng.integers(0, 256, (240, 320, 3), np.uint8)
-        yield _answer("noise", noise, None)
+        yield "noise", noise, None
         smooth = cv2.normalize(cv2.blur(noise, (9, 9)), noise, 0, 255, cv2.NORM_MINMAX)
-        yield _answer("smooth noise", smooth.astype(np.uint8), None)
+        yield "smooth noise", smooth.astype(np.uint8), None
 
 
 if __name__ == "__main__":

@@ -78,7 +78,7 @@ def test_missing_baselines_name_the_package_that_has_them(site):
 
 
 def test_what_detects_faces_is_told(site, monkeypatch, tmp_path):
-    """By cv2's cascade, else by scikit-image's; without both pip is told."""
+    """By cv2's cascade, else by scikit-image's, else by rendered faces."""
     site(WHOLE, opencv_python_headless="5.0.0.93")
     versions = {"scikit-image": "0.26.0"}
     monkeypatch.setattr(opencv, "installed", lambda package: versions.get(package, ""))
@@ -87,11 +87,11 @@ def test_what_detects_faces_is_told(site, monkeypatch, tmp_path):
     assert "scikit-image 0.26.0" in found.text
     versions.clear()
     found = by_name(opencv.find_opencv())["faces"]
-    assert found.verdict is Verdict.ABSENT
-    assert found.fix.endswith("-m pip install 'tricue[face]'")
+    assert (found.verdict, found.fix) == (Verdict.OK, "")
+    assert "rendered faces" in found.text
     cascades = f"class data:\n    haarcascades = {str(tmp_path)!r}\nCascadeClassifier = 1\n"
     (tmp_path / "cv2" / "__init__.py").write_text(WHOLE + cascades)
-    assert by_name(opencv.find_opencv())["faces"].verdict is Verdict.ABSENT
+    assert "rendered faces" in by_name(opencv.find_opencv())["faces"].text
     (tmp_path / opencv.CASCADE).touch()
     found = by_name(opencv.find_opencv())["faces"]
     assert (found.verdict, found.text) == (Verdict.OK, "detected by cv2's cascade")

@@ -109,5 +109,5 @@ def _faces(has_cascade: bool) -> Finding:
     if version:
         text = f"detected by the cascade of {SCIKIT_IMAGE} {version}, as this cv2 has none"
         return Finding(SECTION, "faces", Verdict.OK, text)
-    text = f"can't be detected in video of one camera: cv2 has no cascade, and {SCIKIT_IMAGE} is missing"
-    return Finding(SECTION, "faces", Verdict.ABSENT, text, pip("'tricue[face]'"))
+    text = f"detected by comparison with rendered faces, as cv2 has no cascade and {SCIKIT_IMAGE} is missing"
+    return Finding(SECTION, "faces", Verdict.OK, text)

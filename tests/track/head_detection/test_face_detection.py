@@ -10,7 +10,7 @@ import pytest
 import tricue
 from tricue.camera.box import Box
 from tricue.data.open_source import open_source
-from tricue.errors import BoxNeededError, TargetNotFoundError
+from tricue.errors import TargetNotFoundError
 from tricue.track.head_detection import face_detection
 
 DETECTORS = ["cv2", "scikit-image"]
@@ -26,13 +26,6 @@ def detector(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) ->
         pytest.importorskip("skimage", reason="needs scikit-image: pip install tricue[face]")
         monkeypatch.setattr(face_detection, "_load_cascade", lambda: None)
     return request.param
-
-
-@pytest.fixture
-def no_detector(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A cv2 without cascades, and no scikit-image."""
-    monkeypatch.setattr(face_detection, "_load_cascade", lambda: None)
-    monkeypatch.setattr(face_detection, "_has_scikit_image", lambda: False)
 
 
 def portrait(side: int = 240) -> tuple[np.ndarray, Box]:
@@ -153,19 +146,6 @@ def test_a_tracker_without_a_face_needs_a_box(detector: str) -> None:
         tracker.init(np.full((60, 80, 3), 90, np.uint8))
     with pytest.raises(RuntimeError, match="expected init first"):
         tracker.update(np.full((60, 80, 3), 90, np.uint8))
-
-
-@pytest.mark.usefixtures("no_detector")
-def test_without_a_cascade_both_ways_are_named() -> None:
-    """It proves that the error says why, and names the extra, the older cv2, and the box."""
-    match = (
-        r"^box: can't detect faces, because cv2 \S+ has no cascade and scikit-image is missing; "
-        r'pip install "tricue\[face\]" or "opencv-python-headless<5", or give a box \(--box '
-    )
-    with pytest.raises(ImportError, match=match):
-        face_detection.find_face(np.zeros((60, 80, 3), np.uint8))
-    with pytest.raises(BoxNeededError, match=match):
-        tricue.ColorParticleTracker().init(np.zeros((60, 80, 3), np.uint8))
 
 
 @pytest.mark.parametrize("lacking", ["class", "file"])

@@ -89,8 +89,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
 
         The box may extend beyond the image. Without a box it starts on the head that stands out in a stereo
         pair or in depth, if the frame has them, or else on the largest frontal face. ValueError if no part of
-        the box is inside the image, and, without a box, if no target is found (TargetNotFoundError) or no
-        face detector is installed (BoxNeededError).
+        the box is inside the image, and, without a box, if no target is found (TargetNotFoundError).
         """
         image, timestamp = validation.color_image(frame)
         k = self._k

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Detection of a frontal face to start on, by a cascade of classifiers (Viola and Jones 2001).
+"""Detection of a frontal face to start on, by the best detector that is installed.
 
-It is cv2's, with Haar features, or scikit-image's if cv2 has none, as in 5.x.
+Cascades of classifiers (Viola and Jones 2001) come with cv2 4, with Haar features, and with scikit-image.
+Comparison with rendered faces needs neither.
 """
 
 import threading
+from collections.abc import Callable
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -14,51 +16,53 @@ import cv2
 
 from tricue.arrays import Image
 from tricue.camera.box import Box
-from tricue.track.head_detection import face_cascade
+from tricue.track.head_detection import face_cascade, rendered_face
 
-# Size of the head relative to the detected square, as in hand-drawn boxes of faces.
+Detector = Callable[[Image, int], Box | None]  # of the largest face; int: side of the smallest, pixels
+
+# Size of the head relative to a cascade's square, as in hand-drawn boxes of faces.
 HEAD_WIDTH_RATIO, HEAD_HEIGHT_RATIO = 0.75, 0.95
 MIN_SIDE, MIN_SHARE = 20, 10  # of the smallest face: pixels, and the image's shorter side over the face's
-FACES_NEED = (
-    f"can't detect faces, because cv2 {cv2.__version__} has no cascade and scikit-image is missing; "
-    'pip install "tricue[face]" or "opencv-python-headless<5"'
-)
 _ONE_AT_A_TIME = threading.Lock()  # cv2's cascade stores its image and releases the GIL
 
 
-def find_face(image: Image) -> Box | None:
+def find_face(image: Image, detector: str | None = None) -> Box | None:
     """The largest frontal face in a BGR or gray image, or None.
 
-    ImportError if cv2 has no cascade, as in 5.x, and scikit-image isn't installed.
+    detector: one of :func:`detectors`, by default the first.
     """
-    smallest = max(MIN_SIDE, min(image.shape[:2]) // MIN_SHARE)
-    classifier = _load_cascade()
-    if classifier is None:
-        if not _has_scikit_image():
-            raise ImportError(f"box: {FACES_NEED}, or give a box (--box x,y,width,height)")
-        square = face_cascade.find_square(image, smallest)
-    else:
-        square = _find_square(classifier, image, smallest)
-    return None if square is None else _crop_to_head(square)
+    installed = detectors()
+    find = installed[detector or next(iter(installed))]
+    return find(image, max(MIN_SIDE, min(image.shape[:2]) // MIN_SHARE))
 
 
-def can_find_faces() -> bool:
-    """Whether cv2 has a cascade or scikit-image is installed."""
-    return _load_cascade() is not None or _has_scikit_image()
+def detectors() -> dict[str, Detector]:
+    """The installed detectors by name, the best first."""
+    found: dict[str, Detector] = {}
+    if _load_cascade() is not None:
+        found["cv2"] = _find_by_cv2
+    if _has_scikit_image():
+        found["scikit-image"] = _find_by_scikit_image
+    return found | {"rendered faces": rendered_face.find_largest}
 
 
-def _find_square(classifier: Any, image: Image, smallest: int) -> Box | None:
-    """The square of the largest face, by cv2's cascade of Haar features."""
+def _find_by_cv2(image: Image, smallest: int) -> Box | None:
     gray = image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
     size = (smallest, smallest)
     with _ONE_AT_A_TIME:
-        found = classifier.detectMultiScale(gray, scaleFactor=1.1, minNeighbors=5, minSize=size)
+        found = _load_cascade().detectMultiScale(gray, scaleFactor=1.1, minNeighbors=5, minSize=size)
     squares = [Box(*map(float, square)) for square in found]
-    return max(squares, key=lambda square: square.area, default=None)
+    return _crop_to_head(max(squares, key=lambda square: square.area, default=None))
 
 
-def _crop_to_head(square: Box) -> Box:
+def _find_by_scikit_image(image: Image, smallest: int) -> Box | None:
+    return _crop_to_head(face_cascade.find_square(image, smallest))
+
+
+def _crop_to_head(square: Box | None) -> Box | None:
     """The box of the head's upright ellipse, without the background on both sides of the detected square."""
+    if square is None:
+        return None
     x, y, half, _ = square.ellipse
     return Box.from_ellipse(x, y, HEAD_WIDTH_RATIO * half, HEAD_HEIGHT_RATIO * half)
 
