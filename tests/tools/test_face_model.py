@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: MIT
+"""The tool that learns faces from renders."""
+
+import numpy as np
+import pytest
+from tricue.track.head_detection.rendered_face import channels_of
+
+from tools.face_model import learn
+from tools.face_model.__main__ import FILE, installed, rendered, shares, table
+
+
+def test_a_small_model_is_the_same_again_and_knows_faces(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One seed gives one table, and faces are told from scenes."""
+    for name, value in {"VOTES": 20, "FIRST_VOTES": 6, "SAMPLE": 600}.items():
+        monkeypatch.setattr(learn, name, value)
+    models = [learn.learn(*rendered(0, 60, 15), np.random.default_rng(0)) for _ in range(2)]
+    assert table(models[0]) == table(models[1])
+    found, false = shares(models[0], *rendered(1, 40, 10))
+    assert found > 0.4
+    assert false < 0.2
+
+
+def test_features_of_a_mirrored_face_are_the_mirrored_features() -> None:
+    """The symmetric model relies on it."""
+    (image,), _ = rendered(0, 1, 0)
+    both = image, np.ascontiguousarray(image[:, ::-1])
+    here, there = (learn.features(channels_of(each), [6], [6]) for each in both)
+    np.testing.assert_allclose(here[:, learn.MIRROR], there, atol=0.01)
+
+
+def test_the_installed_table_is_as_it_was_written() -> None:
+    """Nobody edited the learned numbers."""
+    assert table(installed()) == FILE.read_text(encoding="utf-8")
