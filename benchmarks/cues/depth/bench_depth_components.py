@@ -46,8 +46,8 @@ def script(
         table[k] = x, y, width, height, area, meters[seen > 0].mean(dtype=np.float64), label
         for axis in (0, 1):
             counts = box.sum(axis=axis)
-            places = (2 * np.arange(len(counts)) + 1) * bins // (2 * len(counts))
-            spreads.append(np.bincount(places, counts, bins) / area)
+            parts = np.repeat(counts, bins).reshape(bins, -1)  # each pixel is cut into as many
+            spreads.append(parts.sum(axis=1) / (bins * area))
         components[inside] = k + 1
     return table, np.array(histograms), np.array(spreads[::2]), np.array(spreads[1::2]), components
 
