@@ -100,8 +100,8 @@ TRICUE_MULTIVERSION
 void apply_bayes(const float* __restrict ratio, const float* __restrict columns, float row, int n,
                  float threshold, float* __restrict posterior, std::uint8_t* __restrict mask) {
     for_overlapping_blocks<16>(n, [=](std::ptrdiff_t x) {
-        const float odds = std::min(columns[x], row) * ratio[x];
-        const float share = odds / (odds + 1.0f);
+        const float product = std::min(columns[x], row) * ratio[x];  // P(obj) L / A
+        const float share = product / (product + 1.0f);
         posterior[x] = share;
         mask[x] = share >= threshold;
     });

@@ -120,7 +120,7 @@ def test_agrees_with_bayes(kernels: Kernels, cues: int) -> None:
 
 @pytest.mark.parametrize("cues", [1, 2, 3])
 def test_agrees_with_bayes_of_two_densities(kernels: Kernels, cues: int) -> None:
-    """So it is P L / (P L + A) of measured alternatives, as far as odds are floats."""
+    """So it is P L / (P L + A) of measured alternatives, as far as their ratio is a float."""
     whole = (0, 0, 80, 60)
     rng = np.random.default_rng(1)
     alternatives = [0.8 * each / each.sum() for each in rng.random((3, 64)) + 0.01][:cues]
@@ -167,8 +167,8 @@ def test_what_is_hardly_round_the_target(kernels: Kernels) -> None:
 @pytest.mark.parametrize("measured", [False, True])
 def test_says_what_is_likely(kernels: Kernels, measured: bool) -> None:
     """Drawn as the model says, target pixels from the densities, others evenly, or from the alternatives, a
-    tenth of each reading outside its range, odds by the prior: of pixels with a posterior of about q a share
-    q belongs to the target, within four standard deviations.
+    tenth of each reading outside its range, P target pixels to 1 other by the prior: of pixels with a
+    posterior of about q a share q belongs to the target, within four standard deviations.
     """
     rng = np.random.default_rng(0)
     shape, bins = (400, 500), 32

@@ -33,8 +33,8 @@ def target_pixels(
     for k, (plane, density, (low, high)) in enumerate(zip(planes, densities, ranges, strict=True)):
         table = _ratios(density, None if alternatives is None else alternatives[k])
         ratio *= table[value_bins(plane, low, high, len(density))]
-    odds = prior * ratio
-    posterior = odds / (odds + np.float32(1))  # (11)
+    product = prior * ratio  # P(obj) L / A
+    posterior = product / (product + np.float32(1))  # (11)
     return (posterior.astype(np.float64) >= threshold).astype(np.uint8), posterior
 
 
