@@ -32,11 +32,7 @@ NUMBERS = (
     *("mean IoU", "IoU > 0.5", "position, median m", "90 %", "with position"),
     *("recovered", "faithful", "LOST reported", "AUROC", "ms/frame"),
 )
-CSV_COLUMNS = (
-    *("channels", "kind", "tracker"),
-    *("mean IoU", "IoU > 0.5", "position, median m", "90 %", "with position"),
-    *("found again", "faithful", "LOST told", "AUROC", "ms/frame"),
-)
+CSV_COLUMNS = ("channels", "kind", "tracker", *NUMBERS)
 ALL_KINDS = "mean"
 """The kind in rows over all kinds."""
 

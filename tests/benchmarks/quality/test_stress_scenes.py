@@ -47,4 +47,6 @@ def test_the_command_prints_and_writes(scene_result, monkeypatch, tmp_path, caps
         (channels, kind) for channels in ("color", "depth") for kind in ("plain", "fast", "mean")
     ]
     assert {float(line["mean IoU"]) for line in lines} == {0.8}
-    assert {line["LOST told"] for line in lines} == {""}
+    assert {line["LOST reported"] for line in lines} == {""}
+    head = "".join(f" {name} |" for name in list(lines[0])[1:])
+    assert f"|{head}\n" in printed
