@@ -148,6 +148,14 @@ def test_notes_of_today_s_tag_end_with_a_line() -> None:
     assert len(run.stderr.splitlines()) == 1
 
 
+def test_help_on_notes_is_no_tag() -> None:
+    """The program explains itself, with exit code 0."""
+    command = [sys.executable, "tools/release_notes.py", "--help"]
+    run = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert "its section of CHANGELOG.md" in run.stdout
+
+
 @pytest.mark.parametrize("workflow", WORKFLOWS, ids=lambda file: file.stem)
 def test_actions_are_pinned(workflow: Path) -> None:
     """Actions are named by commits, their versions beside; jobs may read unless they say otherwise."""

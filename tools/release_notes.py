@@ -6,6 +6,7 @@
 Unless the tag, pyproject.toml and the changelog have the same version, it prints why, and the exit code is 1.
 """
 
+import argparse
 import re
 import sys
 from pathlib import Path
@@ -34,11 +35,14 @@ def notes(tag: str, project: str, changelog: str) -> str:
 
 def main() -> None:
     """Print the notes for the given tag."""
-    if len(sys.argv) != 2:
-        sys.exit("expected a tag, such as v0.2.0")
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("tag", help="such as v0.2.0")
+    tag = parser.parse_args().tag
     try:
         files = [(ROOT / name).read_text(encoding="utf-8") for name in ("pyproject.toml", "CHANGELOG.md")]
-        print(notes(sys.argv[1], *files), end="")
+        print(notes(tag, *files), end="")
     except ValueError as error:
         sys.exit(f"release notes: {error}")
 
