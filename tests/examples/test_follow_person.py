@@ -110,16 +110,41 @@ def test_it_stops_when_the_images_do(
 
 
 def test_it_stops_without_the_person(program: Program) -> None:
-    """It proves that the robot stands still when the person is lost, and doesn't drive at who hides them."""
+    """It proves that the robot stands still when the person is lost or hidden, without a position, too."""
     follow = program("follow_person").follow
     assert follow(track_at(Status.LOST, 1, 3), 1.5) == (0.0, 0.0)
     assert follow(Track(Box(0, 0, 1, 1), 1.0, Status.TRACKED), 1.5) == (0.0, 0.0)
-    forward, turn = follow(track_at(Status.OCCLUDED, 1, 3), 1.5)
-    assert forward == 0
-    assert turn > 0
+    assert follow(track_at(Status.OCCLUDED, 1, 3), 1.5) == (0.0, 0.0)
     forward, turn = follow(track_at(Status.TRACKED, -1, 1), 1.5)
     assert forward < 0
     assert turn < 0
+
+
+@pytest.mark.parametrize("status", Status)
+@pytest.mark.parametrize(("option", "name"), [([], "drive"), (["--pan-tilt"], "turn_head")])
+def test_it_chases_nobody(
+    status: Status,
+    option: list[str],
+    name: str,
+    recording: Path,
+    program: Program,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It proves that wheels and head stop while the person is hidden or lost, or the score low, for however
+    long.
+    """
+    doubtful = Track(Box(0, 0, 10, 20), 0.1, status, np.array([1.0, 0.0, 3.0]))
+    tracks = iter([track_at(Status.TRACKED, 0.1 * x, 3) for x in range(1, 9)] + 13 * [doubtful])
+    stand_in = SimpleNamespace(init=lambda *_: next(tracks), update=lambda _: next(tracks))
+    monkeypatch.setattr(tricue, "DepthParticleTracker", lambda **_: stand_in)
+    module = program("follow_person")
+    commands: list[Any] = []
+    monkeypatch.setattr(module, name, lambda *values: commands.append(values))
+    module.main([str(recording), "--depth-scale", "0.001", "--fov", "47.5", *option])
+    speeds = [each if name == "drive" else each[0][:2] for each in commands]
+    assert len(speeds) == 22
+    assert speeds[7] != (0.0, 0.0)
+    assert speeds[-5:] == 5 * [(0.0, 0.0)]
 
 
 @pytest.mark.parametrize(
