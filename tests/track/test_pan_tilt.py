@@ -250,3 +250,13 @@ def test_bad_angles_are_named():
             head.command(track_at(9, 0), **{"timestamp": 5.0, **wrong})
     for seconds in (0.0, 0.1):
         assert head.command(track_at(9, 0), timestamp=seconds).pan_speed > 0
+
+
+def test_a_timestamp_in_milliseconds_is_told():
+    """As a frame tells it, at the line that gave it; it is used, as any clock is right."""
+    head = PanTilt(CAMERA)
+    message = "timestamp: expected seconds, got 1.7e.12, which look like milliseconds; divide by 1000"
+    with pytest.warns(UserWarning, match=message) as told:
+        command = head.command(track_at(9, 0), timestamp=1.7e12)
+    assert told[0].filename == __file__
+    assert command.pan_speed > 0

@@ -67,7 +67,7 @@ class Frame:
         assign(self, "color", None if color is None else _image(color, "color"))
         assign(self, "depth", None if depth is None else _depth(depth, depth_scale))
         assign(self, "right", None if right is None else _right(right, self.color))
-        assign(self, "timestamp", None if timestamp is None else _seconds(timestamp))
+        assign(self, "timestamp", None if timestamp is None else as_seconds(timestamp))
         assign(self, "pose", as_pose(pose))
 
     @property
@@ -241,7 +241,8 @@ def _loss(sample: NDArray[np.float32]) -> str:
     )
 
 
-def _seconds(timestamp: Any) -> float:
+def as_seconds(timestamp: Any) -> float:
+    """A timestamp as a float; warns, at the line that calls the caller, if it looks like a smaller unit."""
     seconds = finite(timestamp, "timestamp", "seconds")
     if seconds > MAX_TIMESTAMP:
         unit, scale = next(
@@ -250,7 +251,7 @@ def _seconds(timestamp: Any) -> float:
         message = (
             f"timestamp: expected seconds, got {seconds:.4g}, which look like {unit}; divide by {scale:g}"
         )
-        warnings.warn(message, UserWarning, stacklevel=3)  # at the line with Frame(...)
+        warnings.warn(message, UserWarning, stacklevel=3)
     return seconds
 
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tricue.camera.frame import as_seconds
 from tricue.camera.numbers import finite, positive
 from tricue.camera.rig import Intrinsics
 from tricue.track.base import validation
@@ -103,9 +104,9 @@ class PanTilt:
         pan, tilt: the head's angles when the frame was taken, radians; without them the last command is
         assumed to be carried out. timestamp: of the frame, seconds. ValueError for a track without a position
         if there are no intrinsics, and for numbers that aren't finite; an error leaves the controller as it
-        was.
+        was. Warns (UserWarning) of a timestamp so large that it looks like milliseconds or a smaller unit.
         """
-        now = None if timestamp is None else finite(timestamp, "timestamp", "seconds")
+        now = None if timestamp is None else as_seconds(timestamp)
         given = (self._last.pan if pan is None else pan), (self._last.tilt if tilt is None else tilt)
         angles = np.array([finite(given[0], "pan", "radians"), finite(given[1], "tilt", "radians")])
         # Everything that may raise an error comes before any change.
