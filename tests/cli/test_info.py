@@ -177,6 +177,27 @@ def test_pairs(tmp_path: Path, capsys: pytest.CaptureFixture[str], shift: float,
     assert any(line.startswith("  warning") for line in printed) == warned
 
 
+def test_the_boards_unit(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that --unit brings an OpenCV calibration in millimeters to meters, as in tricue track, and is
+    refused where it has no effect.
+    """
+    left, right, file = color(tmp_path / "a", 2), color(tmp_path / "b", 2), tmp_path / "c.yml"
+    written = cv2.FileStorage(str(file), cv2.FILE_STORAGE_WRITE)
+    for name, shift in (("P1", 0.0), ("P2", -60000.0)):
+        written.write(name, np.array([[500.0, 0, 32, shift], [0, 500, 24, 0], [0, 0, 1, 0]]))
+    written.release()
+    pair = [str(left), "--right", str(right)]
+    found = facts(capsys, *pair, "--calibration", file, "--unit", "0.001")["calibration"]
+    assert found["baseline_m"] == pytest.approx(0.12)
+    assert "warning" not in found
+    for arguments, message in (
+        (pair, "--unit: expected with --calibration FILE, by OpenCV"),
+        ([str(left), "--calibration", str(file)], "--unit: expected with a stereo pair"),
+    ):
+        assert main(["info", *arguments, "--unit", "0.001"]) == 2
+        assert message in capsys.readouterr().err
+
+
 def test_a_calibration_of_no_use(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """It proves that what is wrong with a file that was found is told, and is an error if it was given."""
     folder = color(tmp_path / "walk", 1)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from tricue.cli.arguments import add_topics
+from tricue.cli.source_options import UNIT_HELP
 from tricue.data import layouts
 from tricue.data.datasets import find_sequences
 from tricue.data.live import LiveStream
@@ -30,7 +31,7 @@ examples:
   tricue info sequences/David
   tricue info sequences/                                      a line for each sequence below
   tricue info depth/ --depth-scale 0.001 --fps 15
-  tricue info left.mp4 --right right.mp4 --calibration stereo.yml
+  tricue info left.mp4 --right right.mp4 --calibration stereo.yml --unit 0.001
   tricue info robot.mcap --topics color=/camera/color/image_raw
   tricue info kitti/ --target "Car 31" --json
 """
@@ -52,6 +53,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--calibration", type=Path, metavar="FILE", help="a calibration in place of the one beside the images"
     )
+    command.add_argument("--unit", type=float, metavar="M", help=UNIT_HELP)
     command.add_argument("--json", action="store_true", help="print one JSON object")
 
 
@@ -101,7 +103,7 @@ def _facts(source: Source, options: argparse.Namespace) -> Summary:
         "depth": None if depth is None else summarize_depth(depth, unit),
         "truth": summarize_truth(source, frames),
         "targets": _targets(Path(options.place)),
-        "calibration": summarize_calibration(source, options.calibration),
+        "calibration": summarize_calibration(source, options.calibration, options.unit),
         "notes": [*source.notes, *source.remarks],
     }
 

@@ -8,6 +8,7 @@ from typing import Any
 from tricue.cli.arguments import angles
 from tricue.data.open_source import Source, open_source
 
+UNIT_HELP = "meters per unit of the board in OpenCV's --calibration"
 OPENING = ("depth", "depth_scale", "fps", "right", "topics")
 
 
@@ -26,9 +27,7 @@ def add_source_options(command: argparse.ArgumentParser) -> Any:
     command.add_argument(
         "--rectify", action="store_true", help="rectify the stereo pairs first, by OpenCV's --calibration"
     )
-    command.add_argument(
-        "--unit", type=float, metavar="M", help="meters per unit of the board in OpenCV's --calibration"
-    )
+    command.add_argument("--unit", type=float, metavar="M", help=UNIT_HELP)
     command.add_argument(
         "--depth", type=Path, metavar="PLACE", help="folder of 16-bit depth images beside a color INPUT"
     )

@@ -109,18 +109,23 @@ def summarize_truth(source: Source, frames: int) -> Summary | None:
     return summary
 
 
-def summarize_calibration(source: Source, given: Path | None) -> Summary | None:
+def summarize_calibration(source: Source, given: Path | None, unit: float | None = None) -> Summary | None:
     """The camera or the stereo rig in the given calibration file, or in the one beside the images.
 
-    Without a file it is the recording's own, or None. ValueError or OSError if the given file can't be used;
-    for a file that was found beside the images, "error" says why.
+    Without a file it is the recording's own, or None. unit: meters per unit of the board of OpenCV's
+    calibration of a stereo pair. ValueError or OSError if the given file can't be used, and for a unit
+    without one; for a file that was found beside the images, "error" says why.
     """
+    if unit is not None and not given:
+        raise ValueError("--unit: expected with --calibration FILE, by OpenCV")
+    if unit is not None and "right" not in source.channels:
+        raise ValueError("--unit: expected with a stereo pair; leave it out")
     path = given or source.calibration
     if path is None:
         own = source.camera
         return None if own is None else {"file": "the recording's own", **_summarize_known(own)}
     try:
-        return {"file": str(path), **_summarize_camera(source, path)}
+        return {"file": str(path), **_summarize_camera(source, path, unit)}
     except ValueError as error:
         if given:
             raise
@@ -152,9 +157,9 @@ def _summarize_positions(positions: NDArray[np.float64] | None) -> Summary | Non
     return {"known": whole, "depth_known": len(z), "near_m": float(z.min()), "far_m": float(z.max())}
 
 
-def _summarize_camera(source: Source, path: Path) -> Summary:
+def _summarize_camera(source: Source, path: Path, unit: float | None) -> Summary:
     if "right" in source.channels:
-        rig = read_rig(path, source.size, kitti_cameras=source.kitti_cameras)
+        rig = read_rig(path, source.size, unit, source.kitti_cameras)
         low, high = PLAUSIBLE_BASELINES
         summary = _summarize_known(rig)
         if not low <= rig.baseline <= high:
