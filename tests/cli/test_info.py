@@ -198,6 +198,17 @@ def test_the_boards_unit(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> 
         assert message in capsys.readouterr().err
 
 
+def test_times_that_go_back(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that a clock that was set back is told, and doesn't make the duration negative."""
+    folder = depth(tmp_path / "d", 6, rotated=True)  # Princeton's names: microseconds, then the number
+    for number in (3, 4, 5, 6):
+        (folder / f"d-{number}000-{number}.png").rename(folder / f"d-{number % 5}00-{number}.png")
+    found = facts(capsys, folder)
+    (note,) = found["notes"]
+    assert note.startswith("the time goes back in 2 frames, the first of them frame 2, as if the clock")
+    assert found["seconds"] == pytest.approx(5 / found["fps"])
+
+
 def test_a_calibration_of_no_use(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """It proves that what is wrong with a file that was found is told, and is an error if it was given."""
     folder = color(tmp_path / "walk", 1)

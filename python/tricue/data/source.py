@@ -17,7 +17,7 @@ from tricue.camera.numbers import positive
 from tricue.camera.read_calibration import KITTI_COLOR_CAMERAS
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.data.joint import Moment, common_joint, joints_of
-from tricue.data.streams import MAX_FPS, Stream
+from tricue.data.streams import MAX_FPS, Images, Stream, remark_on_steps_back, steps_back
 
 Rectify = Callable[[NDArray[Any], NDArray[Any]], tuple[NDArray[Any], NDArray[Any]]]
 Register = Callable[[NDArray[Any]], NDArray[Any]]
@@ -105,7 +105,11 @@ class Source:
     @property
     def remarks(self) -> tuple[str, ...]:
         """Problems found while reading, such as images left out or a truncated recording; a sentence each."""
-        return tuple(remark for joint in joints_of(self.channels.values()) for remark in joint.remarks)
+        found = [remark for joint in joints_of(self.channels.values()) for remark in joint.remarks]
+        clock = self.clock
+        if isinstance(clock, Images) and (numbers := steps_back(clock.times or ())):
+            found.append(remark_on_steps_back(numbers))
+        return tuple(found)
 
     @property
     def first_box(self) -> Box | None:

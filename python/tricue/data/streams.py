@@ -6,10 +6,11 @@ import importlib.util
 import math
 import os
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -102,6 +103,20 @@ class Images:
                     f"{self.paths[0].parent}: expected {index + 1} images, got {len(self.paths)}"
                 )
             yield index / self.fps if self.times is None else self.times[index], self.read(self.paths[index])
+
+
+def steps_back(times: Iterable[float]) -> list[int]:
+    """The numbers, from 0, of those times that are before the previous one."""
+    return [number for number, (before, now) in enumerate(pairwise(times), 1) if now < before]
+
+
+def remark_on_steps_back(numbers: Sequence[int]) -> str:
+    """The remark for the user on frames whose times are before the previous frame's."""
+    several = f"{len(numbers)} frames, the first of them " if len(numbers) > 1 else ""
+    return (
+        f"the time goes back in {several}frame {numbers[0]}, as if the clock had been set back; "
+        "there, trackers use their parameter rate"
+    )
 
 
 def image_names(channels: Mapping[str, Stream]) -> Sequence[str]:

@@ -14,7 +14,7 @@ from tricue.data.depth_images import METERS_PER_MILLIMETER, DepthReader
 from tricue.data.joint import JointStream, joints_of
 from tricue.data.open_source import Source
 from tricue.data.recordings.recording import Recording
-from tricue.data.streams import Images, Stream, Video
+from tricue.data.streams import Images, Stream, Video, steps_back
 
 MAX_SAMPLED_FRAMES = 100  # of which the depth is summarized
 DEPTH_LEVELS = 1 << 16  # values of a 16-bit image
@@ -30,8 +30,9 @@ def count_frames(stream: Stream) -> int:
 def compute_duration(source: Source, frames: int) -> float:
     """Seconds from the first frame to the last."""
     clock = source.clock
-    if source.rate is None and isinstance(clock, Images | Video) and clock.times:
-        return clock.times[-1] - clock.times[0]
+    times = clock.times if source.rate is None and isinstance(clock, Images | Video) else None
+    if times and not steps_back(times):
+        return times[-1] - times[0]
     return max(0, frames - 1) / source.fps
 
 

@@ -79,6 +79,22 @@ def test_images_that_never_meet(tmp_path: Path) -> None:
         list(source)
 
 
+def test_a_clock_that_was_set_back(tmp_path: Path) -> None:
+    """It proves that frames whose times are before the previous one's are told after reading, and kept."""
+    sent = walk(9)
+    for index, each in enumerate(sent):
+        if "header" in each.fields and each.time - START > SECOND // 9:
+            stamp = each.fields["header"]["stamp"] - 5 * SECOND
+            sent[index] = each._replace(
+                fields=each.fields | {"header": each.fields["header"] | {"stamp": stamp}}
+            )
+    source = open_source(mcap(tmp_path, sent))
+    assert source.remarks == ()
+    assert blues(source) == [10 * number for number in range(1, 10)]
+    (remark,) = source.remarks
+    assert remark.startswith("the time goes back in frame 4, as if the clock had been set back")
+
+
 def test_chosen_topics(tmp_path: Path) -> None:
     """It proves that topics by channel are taken as they are said, without a note."""
     path = bag1(tmp_path, walk())

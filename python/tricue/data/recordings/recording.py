@@ -23,7 +23,7 @@ from tricue.data.recordings.pairing import Pairing, Timed
 from tricue.data.recordings.sqlite_file import SqliteFile
 from tricue.data.recordings.topics import CHANNELS, guess_topics, is_depth_topic, stem
 from tricue.data.source import Source
-from tricue.data.streams import DEFAULT_FPS
+from tricue.data.streams import DEFAULT_FPS, remark_on_steps_back
 
 READERS: dict[str, tuple[str, Callable[[Path], Container]]] = {
     ".bag": ("ROS 1 bag", Bag1),
@@ -68,6 +68,7 @@ class Recording:
         self.fps = rate or DEFAULT_FPS
         self._left_out: Counter[str] = Counter()
         self._moments = self._unreadable = self._damaged = 0
+        self._steps_back: list[int] = []
 
     @property
     def paths(self) -> list[Path]:
@@ -99,6 +100,8 @@ class Recording:
             found.append(f"left out {self._unreadable} unreadable message{'s' * (self._unreadable > 1)}")
         if self._damaged:
             found.append(f"took the frame before in place of {self._damaged} with a damaged image")
+        if self._steps_back:
+            found.append(remark_on_steps_back(self._steps_back))
         return tuple(found)
 
     def size(self, channel: str) -> tuple[int, int]:
@@ -165,10 +168,14 @@ class Recording:
     def paired(self, images: Iterable[Timed[T]]) -> Iterator[dict[str, Timed[T]]]:
         """Yield the images of each moment, by channel; ValueError if there is no moment."""
         pairing: Pairing[T] = Pairing(list(self.chosen), self.tolerance)
-        count = 0
-        for count, paired in enumerate(pairing(images), 1):  # noqa: B007  # the last is reported
+        count, before, steps_back = 0, 0, list[int]()
+        for count, paired in enumerate(pairing(images), 1):
+            now = paired[self.clock].time
+            if now < before:
+                steps_back.append(count - 1)
+            before = now
             yield paired
-        self._left_out, self._moments = +pairing.left_out, count
+        self._left_out, self._moments, self._steps_back = +pairing.left_out, count, steps_back
         if count == 0:
             names = " and ".join(self.chosen)
             raise ValueError(
