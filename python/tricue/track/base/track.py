@@ -90,7 +90,12 @@ class Track:
 
 
 class Tracker(Protocol):
-    """The interface of a tracker: start it with ``init``, then call ``update`` once per frame."""
+    """The interface of a tracker: start it with ``init``, then call ``update`` once per frame.
+
+    Those of the package keep no reference to a frame's arrays and don't write to them: after a call, the
+    caller may overwrite them. Arrays that they return don't change in later calls. Use a tracker in one
+    thread at a time; different trackers may run in different threads, as the kernels release the GIL.
+    """
 
     traits: ClassVar[Traits]
 
