@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import tricue.rerun
 from tricue import Box, Frame, Intrinsics, Pose, Status, StereoRig, Track
+from tricue.doctor.install import install_extra
 
 CAMERA = Intrinsics(60, 60, 31.5, 23.5, 64, 48)
 BOX = Box(10.0, 20.0, 6.0, 8.0)
@@ -119,7 +120,7 @@ def test_paths_are_broken_where_nothing_was_tracked(rerun: FakeRerun) -> None:
 def test_a_missing_package_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     """It proves that without rerun-sdk the error says what to install."""
     monkeypatch.setitem(sys.modules, "rerun", None)
-    with pytest.raises(ImportError, match=r"needs rerun-sdk: pip install 'tricue\[rerun\]'"):
+    with pytest.raises(ImportError, match=re.escape(f"needs rerun-sdk: {install_extra('rerun')}")):
         tricue.rerun.log(frame(0))
 
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame, FrameLike, as_frame
 from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.doctor.install import install_extra
 from tricue.track.base.track import Status, Track
 
 COLORS = {Status.TRACKED: (0, 200, 80), Status.OCCLUDED: (255, 170, 0), Status.LOST: (220, 40, 40)}
@@ -86,7 +87,7 @@ def _library() -> Any:
     try:
         import rerun
     except ImportError as error:
-        raise ImportError(f"tricue.rerun needs rerun-sdk: pip install 'tricue[rerun]' ({error})") from None
+        raise ImportError(f"tricue.rerun needs rerun-sdk: {install_extra('rerun')} ({error})") from None
     return rerun
 
 

@@ -26,6 +26,7 @@ from tricue.app.frames import Recording
 from tricue.cli import program
 from tricue.data.live import LiveStream
 from tricue.data.source import Source
+from tricue.doctor.install import install_extra
 
 from tests.app.conftest import START
 from tests.data.recordings.written import walk, write_bag1
@@ -256,9 +257,8 @@ def test_missing_extra_is_named(
     """Without a package of the extra, one line says how to get it."""
     monkeypatch.setattr("tricue.app.NEEDED", ("json", f"no_{missing}"))
     assert program.main(["open", str(video)]) == 2
-    assert (
-        capsys.readouterr().err == f"tricue open: tricue open needs no_{missing}: pip install 'tricue[app]'\n"
-    )
+    expected = f"tricue open: tricue open needs no_{missing}: {install_extra('app')}\n"
+    assert capsys.readouterr().err == expected
 
 
 class StandIn(LiveStream):

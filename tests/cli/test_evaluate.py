@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from tricue.cli import main
 from tricue.cli.arguments import any_tracker_names
+from tricue.doctor.install import install_extra
 from tricue.evaluation import tables
 from tricue.track.base import registry
 
@@ -236,7 +237,7 @@ def test_a_missing_extra_is_told_before_anything_runs(
     assert main(["evaluate", str(dataset), "--output", str(tmp_path / "out"), *options]) == 2
     error = capsys.readouterr().err
     assert error.count("\n") == 1
-    assert f"tricue[{'dask' if missing == 'distributed' else 'evaluate'}]" in error
+    assert install_extra("dask" if missing == "distributed" else "evaluate") in error
     assert not list(tmp_path.rglob("*.json"))
 
 

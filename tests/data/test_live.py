@@ -20,6 +20,7 @@ from tricue.data.capture import Capture, is_capture, is_file_url
 from tricue.data.joint import Moment
 from tricue.data.live import Live, Patience
 from tricue.data.source import Source
+from tricue.doctor.install import install_extra
 
 from tests.data.mjpeg_server import SIZE, MjpegServer, mjpeg_server
 
@@ -338,7 +339,7 @@ def test_a_missing_package_is_named(
 ) -> None:
     """It proves that without the camera's library the error says what to install."""
     monkeypatch.setitem(sys.modules, package, None)
-    with pytest.raises(ImportError, match=rf"the package {package}: pip install 'tricue\[{extra}\]'"):
+    with pytest.raises(ImportError, match=re.escape(f"the package {package}: {install_extra(extra)}")):
         tricue.open_source(place)
 
 

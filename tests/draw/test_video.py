@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tricue.doctor.install import install_extra
 from tricue.draw.video import OverlayWriter, count_frames
 from tricue.draw.video_encoders import MAX_STILL, OpenCVEncoder, PyAVEncoder
 
@@ -120,14 +121,14 @@ def test_without_pyav_a_webm_is_written(
     assert sorted(path.name for path in tmp_path.iterdir()) == ["o.mp4.webm", "o.webm"]
     assert (tmp_path / "o.webm").read_bytes() == b"another video"
     assert writer.path.read_bytes()[:4] == b"\x1a\x45\xdf\xa3"  # EBML, of which WebM is made
-    assert writer.about.endswith("o.mp4.webm (VP8, as H.264 needs PyAV: pip install 'tricue[video]')")
+    assert writer.about.endswith(f"o.mp4.webm (VP8, as H.264 needs PyAV: {install_extra('video')})")
     assert capfd.readouterr().err == ""
 
 
 def test_a_missing_codec_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It proves that an OpenCV without the encoder is an error that says what to install."""
     monkeypatch.setattr(cv2.VideoWriter, "isOpened", lambda _: False)
-    with pytest.raises(OSError, match=r"o\.avi: this OpenCV can't write it; PyAV can: pip install"):
+    with pytest.raises(OSError, match=r"o\.avi: this OpenCV can't write it; PyAV can: .* -m pip install"):
         OpenCVEncoder(tmp_path / "o.avi", 25.0, (64, 48))
     assert not list(tmp_path.iterdir())
 

@@ -11,8 +11,10 @@ from tricue.evaluation.evaluate import Options, evaluate
 from tricue.evaluation.tasks import perform
 
 PACKAGE = Path(tricue.__file__).parent
-OTHERS = ("notebook", "evaluation/protocols.py")
-"""Pictures of values, which no run shows; and what counts for its own runs alone."""
+OTHERS = ("notebook", "doctor", "evaluation/protocols.py")
+"""Pictures of values, which no run shows; what to install where a run ends with an error; and what counts for
+its own runs alone.
+"""
 
 
 def imported(file):

@@ -17,6 +17,7 @@ import pytest
 import tricue
 from tricue import Box, Frame, open_source
 from tricue.data.source import Source
+from tricue.doctor.install import install_extra
 from tricue.draw import OverlayWriter
 from tricue.scenes import Scene
 
@@ -209,7 +210,7 @@ def test_a_camera_without_its_package_is_one_line(
     with pytest.raises(SystemExit) as stop:
         program(name).main(["realsense:", "--box", "1,2,30,40", *region])
     assert stop.value.code == 2
-    assert "pip install 'tricue[realsense]'" in capsys.readouterr().err
+    assert install_extra("realsense") in capsys.readouterr().err
 
 
 def test_the_alarm(

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 import csv
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -12,6 +13,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from tricue.doctor.install import install_extra
 from tricue.evaluation import baselines, metrics
 from tricue.papers import reproduce
 from tricue.papers.sabeti_color import curves
@@ -197,5 +199,5 @@ def test_an_output_that_can_not_be_written_is_told_first(name, tmp_path):
 def test_missing_matplotlib_names_the_extra(monkeypatch, tmp_path):
     """Without matplotlib the error comes before the work and says how to install it."""
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
-    with pytest.raises(ImportError, match=r"pip install tricue\[demo\]"):
+    with pytest.raises(ImportError, match=re.escape(install_extra("demo"))):
         reproduce.run("sabeti-fig2", 1, tmp_path, models=STILL)

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
+import re
 import sys
 
 import numpy as np
 import pytest
 from tricue import scenes
+from tricue.doctor.install import install_extra
 
 pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
 
@@ -177,5 +179,5 @@ def test_light_changes_of_short_scenes(frames, changes):
 def test_missing_scikit_image_names_the_extra(monkeypatch):
     """Without scikit-image the error says how to install it."""
     monkeypatch.setitem(sys.modules, "skimage", None)
-    with pytest.raises(ImportError, match=r"pip install tricue\[demo\]"):
+    with pytest.raises(ImportError, match=re.escape(install_extra("demo"))):
         scenes.light_change()

@@ -4,20 +4,20 @@
 from collections.abc import Callable, Iterable, Iterator
 from typing import TypeVar
 
-from tricue.evaluation.schedule import MISSING_EXTRA
+from tricue.evaluation.schedule import missing_extra
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
 
 
 def run_parallel(run: Callable[[Task], Result], tasks: Iterable[Task], jobs: int) -> Iterator[Result]:
-    """The results in the tasks' order; jobs: processes. ImportError names the extra that is missing."""
+    """The results in the tasks' order; jobs: processes. ImportError says what is missing."""
     if jobs == 1:
         yield from map(run, tasks)
         return
     try:
         from joblib import Parallel, delayed
     except ImportError:
-        raise ImportError(f"--jobs above 1 {MISSING_EXTRA.format('evaluate')}") from None
+        raise missing_extra("--jobs above 1", "evaluate") from None
     parallel = Parallel(n_jobs=jobs, return_as="generator", batch_size=1)
     yield from parallel(delayed(run)(task) for task in tasks)

@@ -5,6 +5,8 @@ import importlib.util
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from tricue.doctor.install import install_extra
+
 if TYPE_CHECKING:
     from tricue.camera.box import Box
 
@@ -12,10 +14,10 @@ NEEDED = ("av", "starlette", "uvicorn", "websockets")
 
 
 def require() -> None:
-    """Raise ImportError, which names the extra, if one of its packages is missing."""
+    """Raise ImportError, which says what to install, if one of its packages is missing."""
     missing = [name for name in NEEDED if importlib.util.find_spec(name) is None]
     if missing:
-        raise ImportError(f"tricue open needs {', '.join(missing)}: pip install 'tricue[app]'")
+        raise ImportError(f"tricue open needs {', '.join(missing)}: {install_extra('app')}")
 
 
 def select_boxes(

@@ -17,7 +17,9 @@ def read(path: str | os.PathLike[str]) -> dict[str, Any]:
     try:
         parser = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
     except ImportError:
-        raise ImportError("TOML on Python 3.10 needs an extra: pip install 'tricue[toml]'") from None
+        from tricue.doctor.install import install_extra
+
+        raise ImportError(f"TOML on Python 3.10 needs an extra: {install_extra('toml')}") from None
     try:
         return dict(parser.loads(Path(path).read_text(encoding="utf-8-sig")))
     except RecursionError:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.rig import Intrinsics
+from tricue.doctor.install import install_extra
 
 PREFIX = "oak:"
 SIZE = 640, 400  # pixels of both images
@@ -89,6 +90,6 @@ def _library() -> Any:
         import depthai
     except ImportError as error:
         raise ImportError(
-            f"an OAK camera needs the package depthai: pip install 'tricue[oak]' ({error})"
+            f"an OAK camera needs the package depthai: {install_extra('oak')} ({error})"
         ) from None
     return depthai

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.rig import Intrinsics
+from tricue.doctor.install import install_extra
 
 PREFIX = "realsense:"
 _WAIT = 5000  # milliseconds, for an image
@@ -71,6 +72,6 @@ def _library() -> Any:
         import pyrealsense2
     except ImportError as error:
         raise ImportError(
-            f"a RealSense camera needs the package pyrealsense2: pip install 'tricue[realsense]' ({error})"
+            f"a RealSense camera needs the package pyrealsense2: {install_extra('realsense')} ({error})"
         ) from None
     return pyrealsense2

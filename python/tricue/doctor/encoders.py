@@ -4,9 +4,8 @@
 from concurrent.futures import Executor
 
 from tricue.doctor.finding import Finding, Verdict
-from tricue.doctor.install import pip
+from tricue.doctor.install import install_extra
 from tricue.doctor.probe import Answer, probe
-from tricue.doctor.requirements import required
 
 SECTION = "Video encoders"
 FRAMES = 10
@@ -50,9 +49,7 @@ def _judge(name: str, answer: Answer) -> Finding:
     encoder, _ = ENCODERS[name]
     library = LIBRARIES[encoder]
     if "No module named 'av'" in answer.error:
-        return Finding(
-            SECTION, name, Verdict.ABSENT, "needs PyAV", pip(*map(str, required().get("video", ("av",))))
-        )
+        return Finding(SECTION, name, Verdict.ABSENT, "needs PyAV", install_extra("video"))
     if answer.error:
         return Finding(SECTION, name, Verdict.BROKEN, f"by {library}: {answer.error}")
     if answer.values["count"] != FRAMES:

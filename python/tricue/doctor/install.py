@@ -34,6 +34,17 @@ def pip(*packages: str) -> str:
     return f"{short(sys.executable)} -m pip install {' '.join(packages)}"
 
 
+def install_extra(name: str) -> str:
+    """The command that installs what an extra of tricue lacks, for messages.
+
+    ``pip install 'tricue[...]'`` also installs opencv-python-headless, over any other package of cv2.
+    """
+    needs = required().get(name, ())
+    versions = {each: installed(each.package) for each in needs}
+    lacking = [each for each, version in versions.items() if not (version and each.admits(version))]
+    return pip(*map(str, lacking or needs)) if needs else pip(f"'tricue[{name}]'")
+
+
 def short(path: str | Path) -> str:
     """A path with ~ for the home folder."""
     try:

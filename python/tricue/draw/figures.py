@@ -8,6 +8,8 @@ from typing import Any, Literal, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
+from tricue.doctor.install import install_extra
+
 C = TypeVar("C")
 S = TypeVar("S")
 
@@ -27,11 +29,12 @@ STYLE: dict[Any, Any] = {
 
 
 def require() -> None:
-    """Raise ImportError, which names the extra, if matplotlib is missing."""
+    """Raise ImportError, which says what to install, if matplotlib is missing."""
     try:
         import matplotlib.figure  # noqa: F401
     except ImportError:
-        raise ImportError("figure: expected matplotlib to be installed: pip install tricue[demo]") from None
+        message = f"figure: expected matplotlib to be installed: {install_extra('demo')}"
+        raise ImportError(message) from None
 
 
 def save(draw: Draw[C, S], curves: Sequence[C], scenes: Mapping[str, S], path: Path) -> None:

@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 
 from tricue.arrays import Image
+from tricue.doctor.install import install_extra
 from tricue.draw.video_encoders import Encoder, OpenCVEncoder, PyAVEncoder, count_packets, ffmpeg_name
 from tricue.draw.writable import check_writable
 
@@ -37,7 +38,7 @@ class OverlayWriter:
         self._by_pyav = suffix != ".avi" and PyAVEncoder.available()
         self.path = written_path(self.path)
         if self.path.suffix.lower() != suffix:
-            self.note = "VP8, as H.264 needs PyAV: pip install 'tricue[video]'"
+            self.note = f"VP8, as H.264 needs PyAV: {install_extra('video')}"
         check_writable(self.path)
         self.path.parent.mkdir(parents=True, exist_ok=True)
 

@@ -15,6 +15,7 @@ from typing import Any, Protocol
 import cv2
 
 from tricue.arrays import Image
+from tricue.doctor.install import install_extra
 
 MAX_DENOMINATOR = 1001  # of frames per second, as in 30000/1001
 MIN_TICKS = 10_000  # per second, the resolution of frames' times
@@ -173,7 +174,7 @@ class OpenCVEncoder:
             self._writer = cv2.VideoWriter(ffmpeg_name(path), cv2.VideoWriter.fourcc(*code), fps, size)
         if not self._writer.isOpened():
             path.unlink(missing_ok=True)
-            raise OSError(f"{path}: this OpenCV can't write it; PyAV can: pip install 'tricue[video]'")
+            raise OSError(f"{path}: this OpenCV can't write it; PyAV can: {install_extra('video')}")
 
     def write(self, picture: Image, seconds: float | None = None) -> None:
         if seconds is not None:

@@ -9,6 +9,7 @@ from contextlib import closing
 from itertools import islice
 from typing import Any, NamedTuple
 
+from tricue.doctor.install import install_extra
 from tricue.errors import one_line
 from tricue.evaluation.interrupts import interrupts_later
 from tricue.evaluation.record import Record
@@ -17,7 +18,6 @@ from tricue.evaluation.tasks import Task
 Perform = Callable[[Task], Record]
 CONNECT_TIMEOUT = "10s"  # for a Dask scheduler
 GIVING_LIMIT = 2.0  # seconds after which a pool is assumed to be broken
-MISSING_EXTRA = "needs the extra: pip install 'tricue[{}]'"
 
 
 class Finished(NamedTuple):
@@ -50,6 +50,11 @@ def perform_task(index: int, task: Task, perform: Perform) -> Finished:
         return Finished(index, None, one_line(error))
 
 
+def missing_extra(option: str, extra: str) -> ImportError:
+    """The error for an option of which the extra is missing."""
+    return ImportError(f"{option} needs the extra {extra}: {install_extra(extra)}")
+
+
 def _run_here(tasks: Sequence[Task], perform: Perform) -> Generator[Finished, None, None]:
     for index, task in enumerate(tasks):
         yield perform_task(index, task, perform)
@@ -60,7 +65,7 @@ def _run_in_processes(tasks: Sequence[Task], perform: Perform, jobs: int) -> Gen
     try:
         from joblib.externals.loky import ProcessPoolExecutor  # unlike Python's it needs no main module
     except ImportError:
-        raise ImportError(f"--jobs above 1 {MISSING_EXTRA.format('evaluate')}") from None
+        raise missing_extra("--jobs above 1", "evaluate") from None
     waiting = list(range(len(tasks)))
     while waiting:
         done = set()
@@ -124,7 +129,7 @@ def _run_on_cluster(tasks: Sequence[Task], perform: Perform, address: str) -> Ge
     try:
         from distributed import Client, as_completed
     except ImportError:
-        raise ImportError(f"--scheduler {MISSING_EXTRA.format('dask')}") from None
+        raise missing_extra("--scheduler", "dask") from None
     with Client(address, timeout=CONNECT_TIMEOUT, set_as_default=False) as client:
         indices = range(len(tasks))
         futures = [

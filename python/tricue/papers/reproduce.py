@@ -48,7 +48,7 @@ def run(
     once, and ``progress(done, total)`` is called after each. ``models`` replaces the experiment's. ``data``,
     a folder of images, and ``rate``, a false-positive rate, are for "sabeti-roc" alone
     (:mod:`tricue.papers.sabeti_color.skin_threshold`). ValueError for an unknown name, OSError for files that
-    can't be written, ImportError that names the extra where scikit-image or matplotlib is missing.
+    can't be written, ImportError that says what to install where scikit-image or matplotlib is missing.
     """
     if name not in NAMES:
         raise ValueError(f"experiment: expected one of {', '.join(NAMES)}, got {name!r}")

@@ -12,6 +12,7 @@ import zstandard
 from tricue import open_source
 from tricue.cli.program import main
 from tricue.data.joint import JointStream
+from tricue.doctor.install import install_extra
 
 from tests.data.recordings.recording_files import COLOR, WRITERS, Writer, bag1, blues, mcap, sqlite
 from tests.data.recordings.test_containers import rewrite
@@ -188,4 +189,4 @@ def test_a_missing_package_is_named(
         monkeypatch.setitem(sys.modules, name, None)
     monkeypatch.setitem(sys.modules, package, None)
     assert main(["info", str(path)]) == 2
-    assert f"the package {package}: pip install 'tricue[recordings]'" in capsys.readouterr().err
+    assert f"the package {package}: {install_extra('recordings')}" in capsys.readouterr().err

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from tricue.cli import program
 from tricue.cli.evaluate import chosen_protocols, settings_by_tracker
+from tricue.doctor.install import install_extra
 from tricue.evaluation import tables
 from tricue.evaluation.dataset import ReadOptions
 from tricue.evaluation.evaluate import Options, evaluate
@@ -160,7 +161,7 @@ def test_the_command_runs_the_same(options):
 def test_matplotlib_is_asked_for(evaluation, about, tmp_path, monkeypatch):
     """Without it the error names the extra, and no half of a page is written."""
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
-    with pytest.raises(ImportError, match=r"tricue\[evaluate\]"):
+    with pytest.raises(ImportError, match=re.escape(install_extra("evaluate"))):
         write_report(evaluation, tmp_path, about)
     assert not list(tmp_path.iterdir())
 

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 import tricue
 from tricue import Box, Frame, Status, Track
+from tricue.doctor.install import install_extra
 from tricue.evaluation.toolkits import trax_server
 from tricue.evaluation.toolkits.trax_server import (
     EMPTY_BOX,
@@ -366,9 +367,8 @@ def test_a_missing_extra_is_named() -> None:
     code = "import sys; sys.modules['trax'] = None; from tricue.cli.trax import main; sys.exit(main([]))"
     done = talk([], command=[sys.executable, "-c", code])
     assert (done.code, done.lines) == (2, [])
-    assert (
-        done.error == "python -m tricue.cli.trax: the TraX protocol needs an extra: pip install tricue[vot]\n"
-    )
+    needed = f"the TraX protocol needs the extra vot: {install_extra('vot')}"
+    assert done.error == f"python -m tricue.cli.trax: {needed}\n"
 
 
 @pytest.mark.parametrize(

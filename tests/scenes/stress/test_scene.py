@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+import re
 import sys
 from functools import cache, lru_cache
 from itertools import pairwise
@@ -9,6 +10,7 @@ import pytest
 
 pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
 
+from tricue.doctor.install import install_extra
 from tricue.scenes.stress.scene import STRESS_KINDS, stress_scene
 from tricue.scenes.stress.stage import StressStage
 
@@ -365,5 +367,5 @@ def test_bad_arguments_are_named(arguments, words):
 def test_missing_scikit_image_names_the_extra(monkeypatch):
     """Without scikit-image the error says how to install it."""
     monkeypatch.setitem(sys.modules, "skimage", None)
-    with pytest.raises(ImportError, match=r"pip install tricue\[demo\]"):
+    with pytest.raises(ImportError, match=re.escape(install_extra("demo"))):
         stress_scene("plain")

@@ -13,7 +13,8 @@ from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
-from tricue.data.recordings.container import EXTRA, Container, Message, Topic
+from tricue.data.recordings.container import Container, Message, Topic
+from tricue.doctor.install import install_extra
 
 _MESSAGE, _HEADER, _CHUNK, _CHUNK_INFO, _CONNECTION = 2, 3, 5, 6, 7  # kinds of records
 _MAX_HELD = 200  # messages held back to sort them by time; chunks overlap a little
@@ -172,7 +173,7 @@ def _lz4(data: bytes) -> bytes:
     try:
         import lz4.frame
     except ImportError:
-        raise ImportError(f"a compressed bag needs the package lz4: {EXTRA}") from None
+        raise ImportError(f"a compressed bag needs the package lz4: {install_extra('recordings')}") from None
     content: bytes = lz4.frame.decompress(data)
     return content
 

@@ -7,8 +7,6 @@ from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-EXTRA = "pip install 'tricue[recordings]'"
-
 
 class Topic(NamedTuple):
     """A topic of a recording.

@@ -9,7 +9,8 @@ from inspect import signature
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tricue.data.recordings.container import EXTRA, Container, Message, Topic
+from tricue.data.recordings.container import Container, Message, Topic
+from tricue.doctor.install import install_extra
 
 
 class _ChunkEnd(NamedTuple):
@@ -154,7 +155,9 @@ def _errors(path: Path) -> tuple[type[Exception], ...]:
         from mcap.exceptions import McapError
         from zstandard import ZstdError
     except ImportError:
-        raise ImportError(f"{path}: an MCAP file needs the package mcap: {EXTRA}") from None
+        raise ImportError(
+            f"{path}: an MCAP file needs the package mcap: {install_extra('recordings')}"
+        ) from None
     return (
         *(McapError, ZstdError, struct.error, EOFError, RuntimeError, ValueError),
         *(KeyError, MemoryError, OverflowError, OSError),  # impossible numbers, lengths and offsets

@@ -11,8 +11,9 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.data.recordings.container import EXTRA, Topic
+from tricue.data.recordings.container import Topic
 from tricue.data.recordings.protobuf import SCHEMAS, read_message
+from tricue.doctor.install import install_extra
 
 IMAGES = {"Image", "RawImage", "CompressedImage"}
 CAMERAS = {"CameraInfo", "CameraCalibration"}
@@ -184,7 +185,7 @@ def _ros_decoder(topic: Topic) -> Decoder:
         from rosbags.serde import SerdeError
         from rosbags.typesys import Stores, TypesysError, get_typestore
     except ImportError:
-        raise ImportError(f"ROS's messages need the package rosbags: {EXTRA}") from None
+        raise ImportError(f"ROS's messages need the package rosbags: {install_extra('recordings')}") from None
     ros1 = topic.encoding == "ros1"
     kind = topic.type if "/msg/" in topic.type else topic.type.replace("/", "/msg/", 1)
     if not _ROS_TYPE.fullmatch(kind):  # rosbags turns it into Python code

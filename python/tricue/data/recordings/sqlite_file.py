@@ -9,7 +9,8 @@ from functools import partial
 from pathlib import Path
 from urllib.parse import quote
 
-from tricue.data.recordings.container import EXTRA, Container, Message, Topic
+from tricue.data.recordings.container import Container, Message, Topic
+from tricue.doctor.install import install_extra
 
 _ZSTD = b"\x28\xb5\x2f\xfd"  # how a compressed message begins; CDR begins with 0
 
@@ -99,7 +100,9 @@ def _decompressed(data: bytes) -> bytes:
     try:
         import zstandard
     except ImportError:
-        raise ImportError(f"compressed messages need the package zstandard: {EXTRA}") from None
+        raise ImportError(
+            f"compressed messages need the package zstandard: {install_extra('recordings')}"
+        ) from None
     stream = zstandard.ZstdDecompressor().decompressobj()  # needs no size in the frame's header
     try:
         content: bytes = stream.decompress(data)

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from html import escape
 from typing import Any
 
+from tricue.doctor.install import install_extra
 from tricue.evaluation.report.markup import Html
 
 _STYLE: dict[str, Any] = {
@@ -30,11 +31,11 @@ _SIZE = (4.6, 3.4)  # inches; 331 points wide, which fits a phone
 
 
 def require() -> None:
-    """Raise ImportError, which names the extra, if matplotlib is missing."""
+    """Raise ImportError, which says what to install, if matplotlib is missing."""
     try:
         import matplotlib.figure  # noqa: F401
     except ImportError:
-        message = "report: expected matplotlib to be installed: pip install tricue[evaluate]"
+        message = f"report: expected matplotlib to be installed: {install_extra('evaluate')}"
         raise ImportError(message) from None
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box, as_box
+from tricue.doctor.install import install_extra
 from tricue.track.base.adapter import check_is_tracker, with_known_numbers
 from tricue.track.base.track import Tracker
 
@@ -21,7 +22,7 @@ try:
     from PIL.Image import Image
 except ImportError as error:
     raise ImportError(
-        f"{__name__}: got10k can't be loaded ({error}); install it: pip install 'tricue[got10k]'"
+        f"{__name__}: got10k can't be loaded ({error}); install it: {install_extra('got10k')}"
     ) from error
 
 

@@ -20,6 +20,7 @@ import numpy as np
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
+from tricue.doctor.install import install_extra
 from tricue.evaluation.toolkits.millimeters import to_millimeters
 from tricue.evaluation.toolkits.trax_server import MISSING_EXTRA, bounding_box
 from tricue.track.base.track import Status, Track
@@ -116,7 +117,7 @@ class _Connection:
             import trax
             from trax.client import Client
         except ImportError:
-            raise ImportError(MISSING_EXTRA) from None
+            raise ImportError(MISSING_EXTRA.format(install_extra("vot"))) from None
         self._error = trax.TraxException
         try:
             self._process = subprocess.Popen(

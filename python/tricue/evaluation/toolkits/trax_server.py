@@ -21,6 +21,7 @@ from tricue.camera.frame import Frame
 from tricue.camera.read_calibration import read_intrinsics
 from tricue.data.depth_images import METERS_PER_MILLIMETER, DepthReader
 from tricue.data.streams import ImageReader, read_color
+from tricue.doctor.install import install_extra
 from tricue.errors import BoxError
 from tricue.track.base.registry import create, tracker_class, traits
 from tricue.track.base.track import Track, Tracker
@@ -28,7 +29,7 @@ from tricue.track.base.track import Track, Tracker
 MIN_BOX_SIZE = 2.0  # pixels, width and height of an initial box
 DECIMALS = 4  # of boxes in the protocol, whose library stores float32
 READERS: dict[str, ImageReader] = {"color": read_color, "depth": DepthReader(METERS_PER_MILLIMETER)}
-MISSING_EXTRA = "the TraX protocol needs an extra: pip install tricue[vot]"
+MISSING_EXTRA = "the TraX protocol needs the extra vot: {}"
 
 EMPTY_BOX = Box(0.0, 0.0, 0.0, 0.0)  # VOT's convention for an absent target
 
@@ -158,7 +159,7 @@ def serve(tracker: TraxTracker) -> None:
     try:
         import trax
     except ImportError:
-        raise ImportError(MISSING_EXTRA) from None
+        raise ImportError(MISSING_EXTRA.format(install_extra("vot"))) from None
     channels = list(tracker.channels)
     server = trax.Server(
         ["rectangle"], ["path"], channels, f"tricue {tracker.name}", metadata={"vot": "python"}

@@ -10,6 +10,7 @@ import numpy as np
 from tricue import imgproc
 from tricue.arrays import Image
 from tricue.camera.box import Box
+from tricue.doctor.install import install_extra
 
 # Cluttered photographs; wood, fur, retina and stained tissue have colors close to skin.
 BACKGROUNDS = ("coffee", "cat", "motorcycle", "retina", "immunohistochemistry")
@@ -22,12 +23,13 @@ ASTRONAUT_HEAD = Box(152, 12, 152, 176)
 def load_photograph(name: str) -> Image:
     """One of scikit-image's photographs as BGR (H, W, 3), read-only because it is cached.
 
-    Without scikit-image, ImportError names the extra to install.
+    Without scikit-image, ImportError says what to install.
     """
     try:
         import skimage  # noqa: F401
     except ImportError:
-        raise ImportError("scenes: expected scikit-image to be installed: pip install tricue[demo]") from None
+        message = f"scenes: expected scikit-image to be installed: {install_extra('demo')}"
+        raise ImportError(message) from None
     return _decode(name)
 
 
