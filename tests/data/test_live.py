@@ -6,6 +6,7 @@ import threading
 import time
 from datetime import timedelta
 from itertools import takewhile
+from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
@@ -142,7 +143,7 @@ def test_a_stream_that_stays_away() -> None:
     live = Live(Counter(count=1, refusals=10**6), BRIEF._replace(silence=0.4))
     with (
         pytest.warns(UserWarning, match="connecting again"),
-        pytest.raises(OSError, match=r"^counter: no image for \d s; the stream has ended$"),
+        pytest.raises(OSError, match=r"^counter: no image for 0\.4 s; the stream has ended$"),
     ):
         list(live.moments(["color"]))
 
@@ -202,6 +203,54 @@ def test_closing_ends_the_iteration(brief: None) -> None:
         for _ in frames:  # which would raise an error after three seconds of silence
             pass
         assert live.health.trouble == ""
+
+
+def test_a_with_statement_releases_the_camera(brief: None) -> None:
+    """It proves that health is known while it reads, that nothing is read after the with statement, and that
+    another loop opens the camera again.
+    """
+    with mjpeg_server() as server:
+        with tricue.open_source(server.url) as source:
+            live = source.channels["color"].joint
+            frames = iter(source)
+            next(frames)
+            time.sleep(0.2)
+            assert source.health is not None
+            assert source.health.dropped > 0
+            assert source.health[1:] == (0, 0.0, "")
+        assert not live._thread.is_alive()
+        assert len(list(frames)) <= 1  # what had been read before
+        assert next(iter(source)).color is not None
+
+
+def test_a_limit_of_waiting() -> None:
+    """It proves that a loop ends soon after the images do, and that the next one waits for them."""
+    with mjpeg_server() as server, tricue.open_source(server.url, timeout=0.3) as source:
+        frames = iter(source)
+        next(frames)
+        server.stop()
+        stopped = time.monotonic()
+        with (
+            pytest.warns(UserWarning, match="connecting again"),
+            pytest.raises(TimeoutError, match=r"no image for 0\.3 s"),
+        ):
+            list(frames)
+        assert 0.3 < time.monotonic() - stopped < 3
+        threading.Timer(1.0, server.start).start()
+        with pytest.warns(UserWarning, match="connecting again"):
+            assert next(iter(source)).color is not None
+
+
+def test_a_limit_where_none_belongs(tmp_path: Path) -> None:
+    """It proves that a recording, which is never waited for, takes no limit and has no health."""
+    cv2.imwrite(str(tmp_path / "0.png"), np.zeros((4, 6, 3), np.uint8))
+    with tricue.open_source(tmp_path) as source:
+        assert source.health is None
+    assert len(list(source)) == 1
+    with pytest.raises(ValueError, match="timeout: expected with a live camera, got"):
+        tricue.open_source(tmp_path, timeout=1)
+    with pytest.raises(ValueError, match="timeout: expected seconds above 0, got 0"):
+        tricue.open_source("97", timeout=0)
 
 
 def test_a_process_that_ends_while_it_reads() -> None:

@@ -4,7 +4,7 @@
 import atexit
 import time
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from threading import Condition, Event, Thread
 from typing import Any, NamedTuple, Protocol
 from weakref import WeakSet
@@ -12,8 +12,8 @@ from weakref import WeakSet
 from numpy.typing import NDArray
 
 from tricue.camera.rig import Intrinsics
-from tricue.data.joint import JointStream, Moment
-from tricue.data.streams import DEFAULT_FPS
+from tricue.data.joint import JointStream, Moment, joints_of
+from tricue.data.streams import DEFAULT_FPS, Stream
 
 MAX_LAST_READ = 6.0  # seconds, within which a device's methods return
 
@@ -82,7 +82,8 @@ class Live:
     """A joint stream of a device's channels; each iteration gets the newest images.
 
     The constructor opens the device and waits for its first images. OSError, with a message of one line, if
-    the device can't be opened, if no images come, or, while reading, if none come for too long.
+    the device can't be opened; TimeoutError, which is one, if no images come, or, while reading, if none come
+    for too long. Iterating again starts again.
     """
 
     def __init__(self, device: Device, patience: Patience | None = None) -> None:
@@ -150,8 +151,10 @@ class Live:
         self._start_thread()
         with self._news:
             self._dropped = 0  # images from before the iteration don't count as dropped
+        limit = max(self.patience.start, self.patience.silence)  # the device may have to be opened again
         try:
-            while (newest := self._wait_for_news()) is not None:
+            while (newest := self._wait_for_news(limit)) is not None:
+                limit = self.patience.silence
                 yield {name: (newest.seconds, newest.images[name]) for name in channels}
         finally:
             self.close()
@@ -183,18 +186,22 @@ class Live:
         if failure is not None:
             raise failure
         reason = f" ({trouble})" if trouble else ""
-        raise OSError(
+        raise TimeoutError(
             f"{self.device.name}: no image within {self.patience.start:g} s{reason}; "
             "is it on, and is the address right?"
         )
 
-    def _wait_for_news(self) -> _Newest | None:
-        """The newest images, each once; None after ``close``. Warns (UserWarning) of an interruption."""
+    def _wait_for_news(self, limit: float) -> _Newest | None:
+        """The newest images, each once; None after ``close``. Warns (UserWarning) of an interruption.
+
+        limit: seconds, after which it raises TimeoutError.
+        """
         since = time.monotonic()
         while True:
             with self._news:
                 self._news.wait_for(
-                    lambda: self._newest or self._failure or self._trouble or not self._running.is_set(), 0.5
+                    lambda: self._newest or self._failure or self._trouble or not self._running.is_set(),
+                    min(0.5, limit),
                 )
                 newest, self._newest = self._newest, None
                 trouble, self._trouble = self._trouble, ""
@@ -207,9 +214,8 @@ class Live:
                 raise failure
             if not self._running.is_set():
                 return None
-            silence = time.monotonic() - since
-            if silence > self.patience.silence:
-                raise OSError(f"{self.device.name}: no image for {silence:.0f} s; the stream has ended")
+            if time.monotonic() - since > limit:
+                raise TimeoutError(f"{self.device.name}: no image for {limit:g} s; the stream has ended")
 
     def _run(self) -> None:
         """The thread's body. An error that ends it, even while closing the device, must reach the reader."""
@@ -270,20 +276,41 @@ class Live:
         return min(2 * wait, self.patience.longest_wait)
 
 
+def close_all(lives: Sequence[Live]) -> None:
+    """Stop reading, and wait until the devices are closed, for MAX_LAST_READ at most."""
+    for live in lives:
+        live.close()
+    for live in lives:
+        if live._thread is not None:
+            live._thread.join(MAX_LAST_READ)
+
+
+def total_health(lives: Sequence[Live]) -> Health:
+    """The sums over several devices, and the first one's trouble that has any."""
+    found = [live.health for live in lives]
+    return Health(
+        sum(each.dropped for each in found),
+        sum(each.reopened for each in found),
+        sum(each.silence for each in found),
+        next((each.trouble for each in found if each.trouble), ""),
+    )
+
+
 @atexit.register
 def _end_threads() -> None:
     """Wait for the threads: one that returns from a library while Python exits would abort the process."""
-    for live in [*_lives]:
-        live.close()
-    for live in [*_lives]:
-        if live._thread is not None:
-            live._thread.join(MAX_LAST_READ)
+    close_all([*_lives])
 
 
 class LiveStream(JointStream):
     """A channel of a live device."""
 
     joint: Live
+
+
+def lives_of(streams: Iterable[Stream]) -> list[Live]:
+    """The live devices of the streams, each once."""
+    return [joint for joint in joints_of(streams) if isinstance(joint, Live)]
 
 
 def live_channels(live: Live) -> dict[str, LiveStream]:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
+from tricue.camera.numbers import positive
 from tricue.data import oak, realsense
 from tricue.data.box_table import find_box_table, find_video_box_table, read_box_table
 from tricue.data.capture import Capture, is_capture, is_file_url, without_password
@@ -35,6 +36,7 @@ def open_source(
     fps: float | None = None,
     right: str | Path | int | None = None,
     target: str | None = None,
+    timeout: float | None = None,
     topics: Mapping[str, str] | None = None,
 ) -> Source:
     """Open a video file, a folder of images, a sequence folder, a recording, or a live camera.
@@ -45,8 +47,8 @@ def open_source(
 
     A recording is a ROS 1 bag (also a RealSense one), a ROS 2 folder, or an MCAP file. A camera is a number,
     a file such as ``/dev/video0``, a URL (rtsp, rtmp, srt, http, udp, tcp), or ``realsense:`` or ``oak:``,
-    followed by a serial number if needed. A camera's frame is always the newest; :attr:`Source.remarks` gives
-    the number of dropped ones.
+    followed by a serial number if needed. A camera's frame is always the newest; :attr:`Source.health` gives
+    the number of dropped ones. :meth:`Source.close`, or a ``with`` statement, releases it.
 
     depth: a folder of 16-bit images, or a sequence folder with depth, for the color images of ``place``;
         they are paired by order.
@@ -57,6 +59,8 @@ def open_source(
         order.
     target: one of :func:`tricue.data.layouts.list_targets`, for a folder with several. A KITTI sequence is
         limited to the frames in which it is labeled.
+    timeout: seconds without an image, 60 by default, after which iterating over a live camera raises
+        TimeoutError. Iterating again opens it again. Opening may take ten seconds, thirty for a local camera.
     topics: a recording's topics by channel: "color", "depth", "right". By default they are guessed, and named
         in a note.
     Raises ValueError or OSError that names the place and says what is wrong with it.
@@ -64,10 +68,10 @@ def open_source(
     place = _checked(place, "place")
     if depth_scale is not None and depth is None:
         _refuse_scale_of_device(place)
-    source = _opened(place, depth_scale, target, topics)
+    source = _opened(place, depth_scale, target, topics, timeout)
     shown = without_password(str(place))
     if right is not None:
-        source = _with_right(source, shown, _checked(right, "right"))
+        source = _with_right(source, shown, _checked(right, "right"), timeout)
     if depth is not None:
         source = _with_depth(source, shown, Path(depth), depth_scale)
     if depth_scale is not None and "depth" not in source.channels:
@@ -88,11 +92,16 @@ def _opened(
     scale: float | None,
     target: str | None = None,
     topics: Mapping[str, str] | None = None,
+    timeout: float | None = None,
 ) -> Source:
     if isinstance(place, str) and (device := live_device(place)):
         _refuse_topics(topics, device.name)
         _refuse_target(target, device.name)
-        return _open_live(device)
+        return _open_live(device, timeout)
+    if timeout is not None:
+        raise ValueError(
+            f"timeout: expected with a live camera, got {without_password(str(place))}; leave it out"
+        )
     if isinstance(place, str) and is_file_url(place):
         _refuse_topics(topics, without_password(place))
         _refuse_target(target, without_password(place))
@@ -158,8 +167,11 @@ def live_device(place: str) -> Device | None:
     return Capture(place) if is_capture(place) else None
 
 
-def _open_live(device: Device) -> Source:
-    live = Live(device) if device.remote else Live(device, Patience(start=BOOT_SECONDS))
+def _open_live(device: Device, timeout: float | None) -> Source:
+    patience = None if device.remote else Patience(start=BOOT_SECONDS)
+    if timeout is not None:
+        patience = (patience or Patience())._replace(silence=positive(timeout, "timeout", "seconds"))
+    live = Live(device) if patience is None else Live(device, patience)
     format_ = "stream" if device.remote else "camera"
     return Source(device.name, live_channels(live), format=format_, camera=live.camera)
 
@@ -179,9 +191,9 @@ def _with_truth(source: Source, truth: Truth | None) -> Source:
     return replace(source, truth=truth.boxes, absent=truth.absent, positions=truth.positions)
 
 
-def _with_right(source: Source, shown: str, right: str | Path) -> Source:
+def _with_right(source: Source, shown: str, right: str | Path, timeout: float | None) -> Source:
     """The source as a stereo pair: its color images on the left, those of ``right`` on the right."""
-    streams = [opened.channels.get("color") for opened in (source, _opened(right, None))]
+    streams = [opened.channels.get("color") for opened in (source, _opened(right, None, timeout=timeout))]
     option = f"--right {without_password(str(right))}"
     for stream, at in zip(streams, (shown, option), strict=True):
         if stream is None:

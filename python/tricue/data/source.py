@@ -17,6 +17,7 @@ from tricue.camera.numbers import positive
 from tricue.camera.read_calibration import KITTI_COLOR_CAMERAS
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.data.joint import Moment, common_joint, joints_of
+from tricue.data.live import Health, close_all, lives_of, total_health
 from tricue.data.streams import MAX_FPS, Images, Stream, remark_on_steps_back, steps_back
 
 Rectify = Callable[[NDArray[Any], NDArray[Any]], tuple[NDArray[Any], NDArray[Any]]]
@@ -110,6 +111,28 @@ class Source:
         if isinstance(clock, Images) and (numbers := steps_back(clock.times or ())):
             found.append(remark_on_steps_back(numbers))
         return tuple(found)
+
+    @property
+    def health(self) -> Health | None:
+        """The state of a live camera, or the sum of two; None for a recording. Thread-safe.
+
+        It has the number of dropped images, that of reconnections, and why no images come now.
+        """
+        lives = lives_of(self.channels.values())
+        return total_health(lives) if lives else None
+
+    def close(self) -> None:
+        """Release a live camera; a ``with`` statement does so at its end. A recording needs no closing.
+
+        A loop in another thread ends after at most one more frame. Iterating again opens the camera again.
+        """
+        close_all(lives_of(self.channels.values()))
+
+    def __enter__(self) -> "Source":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
     @property
     def first_box(self) -> Box | None:

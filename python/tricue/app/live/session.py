@@ -18,8 +18,7 @@ from tricue.app.project import Target, checked_name
 from tricue.app.trackers import fitting_trackers, make_tracker
 from tricue.camera.box import Box, as_box
 from tricue.camera.frame import Frame
-from tricue.data.joint import joints_of
-from tricue.data.live import Health, Live
+from tricue.data.live import Health, Live, lives_of, total_health
 from tricue.data.source import Source
 from tricue.errors import one_line
 from tricue.export.table import TableForm
@@ -104,13 +103,7 @@ class LiveSession:
     @property
     def health(self) -> Health:
         """The camera's health; for several devices the sum."""
-        found = [live.health for live in self._lives()]
-        return Health(
-            sum(each.dropped for each in found),
-            sum(each.reopened for each in found),
-            sum(each.silence for each in found),
-            next((each.trouble for each in found if each.trouble), ""),
-        )
+        return total_health(self._lives())
 
     @property
     def rate(self) -> float:
@@ -198,7 +191,7 @@ class LiveSession:
 
     def _lives(self) -> list[Live]:
         channels = () if self.source is None else self.source.channels.values()
-        return [joint for joint in joints_of(channels) if isinstance(joint, Live)]
+        return lives_of(channels)
 
     def _take(self, frame: Frame) -> None:
         """Track in the newest frame, unless paused."""
