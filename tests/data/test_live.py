@@ -223,6 +223,15 @@ def test_a_with_statement_releases_the_camera(brief: None) -> None:
         assert next(iter(source)).color is not None
 
 
+@pytest.mark.parametrize("wrong", [{"right": "97"}, {"fps": 20}])
+def test_a_camera_is_released_after_an_error(wrong: dict[str, Any]) -> None:
+    """It proves that no thread reads on if opening fails after the camera was opened."""
+    with mjpeg_server() as server:
+        with pytest.raises((OSError, ValueError), match=r"97|--fps"):
+            tricue.open_source(server.url, **wrong)
+        assert server.url not in [thread.name for thread in threading.enumerate()]
+
+
 def test_a_limit_of_waiting() -> None:
     """It proves that a loop ends soon after the images do, and that the next one waits for them."""
     with mjpeg_server() as server, tricue.open_source(server.url, timeout=0.3) as source:

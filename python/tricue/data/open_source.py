@@ -70,13 +70,17 @@ def open_source(
         _refuse_scale_of_device(place)
     source = _opened(place, depth_scale, target, topics, timeout)
     shown = without_password(str(place))
-    if right is not None:
-        source = _with_right(source, shown, _checked(right, "right"), timeout)
-    if depth is not None:
-        source = _with_depth(source, shown, Path(depth), depth_scale)
-    if depth_scale is not None and "depth" not in source.channels:
-        raise ValueError(f"{shown}: expected depth images where --depth-scale is given, found only color")
-    return source if fps is None else replace(source, rate=fps)
+    try:
+        if right is not None:
+            source = _with_right(source, shown, _checked(right, "right"), timeout)
+        if depth is not None:
+            source = _with_depth(source, shown, Path(depth), depth_scale)
+        if depth_scale is not None and "depth" not in source.channels:
+            raise ValueError(f"{shown}: expected depth images where --depth-scale is given, found only color")
+        return source if fps is None else replace(source, rate=fps)
+    except BaseException:
+        source.close()  # a camera, whose thread would read on
+        raise
 
 
 def _checked(place: Any, name: str) -> str | Path:
