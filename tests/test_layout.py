@@ -244,15 +244,13 @@ def test_only_the_command_line_parses_arguments() -> None:
 CV2_OF_SCENES = {"imwrite", "FileStorage", "FILE_STORAGE_WRITE", "inpaint", "INPAINT_TELEA"}
 """Files, and what every version of cv2 does alike."""
 CV2_OF_TRACKERS = {
-    "face_cascade": {"cvtColor", "COLOR_BGR2GRAY", "resize", "INTER_LINEAR"},  # of the first frame
-    "face_detection": {"cvtColor", "COLOR_BGR2GRAY"},  # of the first frame
     "overlay": {"resize", "INTER_NEAREST", "copyMakeBorder", "BORDER_CONSTANT"},  # for the eye
     "heads_in_disparities": {  # of the first frame
         *("resize", "INTER_AREA", "INTER_LINEAR", "copyMakeBorder", "BORDER_REPLICATE"),
         *("matchTemplate", "TM_CCORR", "minMaxLoc"),
     },
     "head_outline": {"Sobel", "CV_32F"},  # of the first frame
-    "rendered_face": {  # of the first frame
+    "face_detection": {  # of the first frame
         *("cvtColor", "COLOR_GRAY2BGR", "split", "resize", "INTER_AREA", "INTER_LINEAR", "copyMakeBorder"),
         *("BORDER_REPLICATE", "BORDER_REFLECT", "Sobel", "magnitude", "boxFilter", "filter2D"),
     },

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Detection of frontal faces, without a box, in video of one color camera: rates, false starts and times.
 
-    python -m benchmarks.quality.face_detection [--every 5] [--detector "rendered faces"] [DATA]
+    python -m benchmarks.quality.face_detection [--every 5] [--detector cv2] [DATA]
 
 "found" is the share of frames whose box overlaps the true one by 0.5 or more, "elsewhere" that of boxes
 without any overlap, "overlap" the median of overlaps above 0. In noise, and in sequences without frontal
 faces, which show walkers and riders at most, each box is a false start. In photographs of people, not all of
 them frontal, a box is right if at least half of its inner part is skin by a hand-drawn mask. All frames
-(--every 1) take half an hour.
+(--every 1) take half an hour. Peers are the cascades of cv2 4 and of scikit-image.
 """
 
 import argparse
@@ -24,8 +24,9 @@ import numpy as np
 from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.data.open_source import open_source
-from tricue.track.head_detection.face_detection import detectors, find_face
+from tricue.track.head_detection.face_detection import find_face
 
+from benchmarks.quality.common import face_cascades
 from benchmarks.quality.common.sequences import data_folder
 from benchmarks.quality.common.tables import markdown
 
@@ -41,6 +42,11 @@ OTHER_FACES = {"Football1"}  # behind the helmets' bars
 PHOTOGRAPHS = "photographs"
 MIN_SKIN = 0.5  # share of the inner half of a box on a face
 NOISE = 20  # images
+DETECTORS = {
+    "tricue": find_face,
+    "cv2": face_cascades.find_by_cv2,
+    "scikit-image": face_cascades.find_by_scikit_image,
+}
 
 Image = NDArray[np.uint8]
 Judge = Callable[[Box], float]  # the overlap of a box with the true one
@@ -63,12 +69,13 @@ def main() -> int:
     """Print the table."""
     command = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     command.add_argument("--every", type=int, default=5, help="of so many frames one is looked at")
-    installed = list(detectors())
-    command.add_argument("--detector", choices=installed, default=installed[0])
+    command.add_argument("--detector", choices=DETECTORS, default="tricue")
     command.add_argument("data", nargs="?", type=Path, default=data_folder(), help="recordings")
     options = command.parse_args()
+    if reason := face_cascades.missing(options.detector):
+        command.error(f"--detector {options.detector}: {reason}")
     cv2.setNumThreads(1)
-    find = partial(find_face, detector=options.detector)
+    find = DETECTORS[options.detector]
     images = chain(_recorded(options.data, options.every), _photographs(options.data), _noise())
     answers = [_answer(find, *each) for each in images]
     rows = [

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from tricue import Box
 from tricue.cli import main
-from tricue.track.head_detection import face_detection, rendered_face
 
 FRAMES, FIRST_FACE = 5, 2
 SIDE = 192
@@ -18,7 +17,7 @@ SIDE = 192
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
     """A photograph with a face, after two frames of gray."""
-    pytest.importorskip("skimage", reason="needs scikit-image: pip install tricue[face]")
+    pytest.importorskip("skimage", reason="needs scikit-image's photograph: pip install tricue[demo]")
     from tricue.scenes.rendering.photographs import load_photograph
 
     portrait = cv2.resize(load_photograph("astronaut"), (SIDE, SIDE), interpolation=cv2.INTER_AREA)
@@ -56,18 +55,4 @@ def test_no_face_is_an_error_in_a_line(
     error = capsys.readouterr().err
     assert "no face" in error
     assert error.endswith("give --box x,y,width,height\n")
-    assert error.count("\n") == 1
-
-
-@pytest.mark.parametrize("options", [["--detect", "face"], ["--tracker", "color-particle"]])
-def test_without_a_cascade_a_missing_face_is_told(
-    folder: Path, options: list[str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """It proves that without any cascade, too, one line says that there is no face, and names the box."""
-    monkeypatch.setattr(face_detection, "_load_cascade", lambda: None)
-    monkeypatch.setattr(face_detection, "_has_scikit_image", lambda: False)
-    monkeypatch.setattr(rendered_face, "find_largest", lambda *_: None)
-    assert main(["track", str(folder), *options]) == 2
-    error = capsys.readouterr().err
-    assert error.count("--box") == 1
     assert error.count("\n") == 1

@@ -59,7 +59,7 @@ def test_one_whole_package_is_well(site):
     """Version, folder and package are told, and all baselines are there."""
     site(WHOLE + LEGACY, opencv_contrib_python_headless="4.10.0.84")
     found = by_name(opencv.find_opencv())
-    assert set(found) == {"cv2", "baselines", "faces"}
+    assert set(found) == {"cv2", "baselines"}
     assert found["cv2"].verdict is Verdict.OK
     assert found["cv2"].text.startswith("4.10.0, ")
     assert "opencv-contrib-python-headless 4.10.0.84" in found["cv2"].text
@@ -75,26 +75,6 @@ def test_missing_baselines_name_the_package_that_has_them(site):
     assert found.text.startswith("MIL; CSRT, KCF, MOSSE, MedianFlow missing")
     assert "uninstall -y opencv-python-headless" in found.fix
     assert found.fix.endswith("-m pip install opencv-contrib-python-headless")
-
-
-def test_what_detects_faces_is_told(site, monkeypatch, tmp_path):
-    """By cv2's cascade, else by scikit-image's, else by rendered faces."""
-    site(WHOLE, opencv_python_headless="5.0.0.93")
-    versions = {"scikit-image": "0.26.0"}
-    monkeypatch.setattr(opencv, "installed", lambda package: versions.get(package, ""))
-    found = by_name(opencv.find_opencv())["faces"]
-    assert (found.verdict, found.fix) == (Verdict.OK, "")
-    assert "scikit-image 0.26.0" in found.text
-    versions.clear()
-    found = by_name(opencv.find_opencv())["faces"]
-    assert (found.verdict, found.fix) == (Verdict.OK, "")
-    assert "rendered faces" in found.text
-    cascades = f"class data:\n    haarcascades = {str(tmp_path)!r}\nCascadeClassifier = 1\n"
-    (tmp_path / "cv2" / "__init__.py").write_text(WHOLE + cascades)
-    assert "rendered faces" in by_name(opencv.find_opencv())["faces"].text
-    (tmp_path / opencv.CASCADE).touch()
-    found = by_name(opencv.find_opencv())["faces"]
-    assert (found.verdict, found.text) == (Verdict.OK, "detected by cv2's cascade")
 
 
 def test_several_packages_are_told(site):

@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from tricue.track.head_detection.rendered_face import channels_of
+from tricue.track.head_detection.face_detection import channels_of
 
 from tools.face_model import learn
 from tools.face_model.__main__ import FILE, installed, rendered, shares, table

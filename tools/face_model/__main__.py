@@ -16,7 +16,7 @@ import cv2
 import numpy as np
 from tricue.arrays import Image, Plane
 from tricue.track.head_detection import learned_face
-from tricue.track.head_detection.rendered_face import MIN_MATCH, MIN_SCORE, channels_of, skin
+from tricue.track.head_detection.face_detection import MIN_MATCH, MIN_SCORE, channels_of, skin
 
 from tools.face_model.learn import Model, learn
 from tools.face_model.portraits import MARGIN, portrait

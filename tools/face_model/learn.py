@@ -15,7 +15,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 from tricue.arrays import Floats, Image, Plane
-from tricue.track.head_detection.rendered_face import (
+from tricue.track.head_detection.face_detection import (
     COARSE,
     FINE,
     MATCH_BONUS,

@@ -4,7 +4,7 @@
 import cv2
 import numpy as np
 from tricue.arrays import Floats, Image
-from tricue.track.head_detection.rendered_face import WINDOW
+from tricue.track.head_detection.face_detection import WINDOW
 
 from tools.face_model.camera import photograph
 from tools.face_model.heads import MIDDLE, Head, random_head

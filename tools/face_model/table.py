@@ -12,7 +12,7 @@ MAX_WIDTH = 108  # characters of a line
 
 TEXT = '''\
 # SPDX-License-Identifier: MIT
-"""What was learned from rendered faces: the template and the votes of `rendered_face`.
+"""What was learned from rendered faces: the template and the votes of `face_detection`.
 
 Written by `python -m tools.face_model --write`.
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""cv2: its package, whether several share its folder, which trackers it has, and what detects faces."""
+"""cv2: its package, whether several share its folder, and which trackers it has."""
 
 from importlib import metadata
 
@@ -13,10 +13,7 @@ HEADLESS = "opencv-python-headless"
 CONTRIB = "opencv-contrib-python-headless"
 TRACKERS = ("CSRT", "KCF", "MIL", "MOSSE", "MedianFlow")
 """OpenCV's trackers, with which tricue evaluate compares."""
-CASCADE = "haarcascade_frontalface_default.xml"
-SCIKIT_IMAGE = "scikit-image"
 _LOAD = """
-import os
 import cv2
 names = {trackers!r}
 legacy = getattr(cv2, "legacy", None)
@@ -25,23 +22,19 @@ report(
     file=getattr(cv2, "__file__", None) or "",
     trackers=[name for name in names if hasattr(cv2, "Tracker" + name) or hasattr(legacy, "Tracker" + name)],
     threads=cv2.getNumThreads() if hasattr(cv2, "getNumThreads") else 0,
-    cascade=hasattr(cv2, "CascadeClassifier") and os.path.isfile(
-        os.path.join(getattr(getattr(cv2, "data", None), "haarcascades", ""), {cascade!r})
-    ),
 )
 """
 
 
 def find_opencv() -> list[Finding]:
     """Findings on cv2."""
-    answer = probe(_LOAD.format(trackers=TRACKERS, cascade=CASCADE))
+    answer = probe(_LOAD.format(trackers=TRACKERS))
     providers = provider_packages()
     found = [_import(answer, providers)]
     if len(providers) > 1:
         found.append(_several(providers))
     if answer.values.get("version"):
         found.append(_trackers(answer.values["trackers"]))
-        found.append(_faces(bool(answer.values["cascade"])))
     return found
 
 
@@ -99,15 +92,3 @@ def _trackers(present: list[str]) -> Finding:
     text = f"{', '.join(present) or 'none'}; {', '.join(missing)} missing, for comparisons by tricue evaluate"
     remove = f"{pip().replace('install', 'uninstall')}-y {' '.join(provider_packages()) or HEADLESS}"
     return Finding(SECTION, "baselines", Verdict.ABSENT, text, f"{remove}, then {pip(CONTRIB)}")
-
-
-def _faces(has_cascade: bool) -> Finding:
-    """A finding on what detects faces in single-camera video."""
-    if has_cascade:
-        return Finding(SECTION, "faces", Verdict.OK, "detected by cv2's cascade")
-    version = installed(SCIKIT_IMAGE)
-    if version:
-        text = f"detected by the cascade of {SCIKIT_IMAGE} {version}, as this cv2 has none"
-        return Finding(SECTION, "faces", Verdict.OK, text)
-    text = f"detected by comparison with rendered faces, as cv2 has no cascade and {SCIKIT_IMAGE} is missing"
-    return Finding(SECTION, "faces", Verdict.OK, text)

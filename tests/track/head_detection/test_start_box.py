@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""That trackers without a box start on a head where a frame has a pair or depth, whatever is installed."""
+"""That trackers without a box start on a head where a frame has a pair or depth."""
 
 from collections.abc import Callable
 from typing import Any
@@ -10,15 +10,7 @@ import tricue
 from tricue import Frame, kernels
 from tricue.errors import TargetNotFoundError
 from tricue.scenes import head, room_scene
-from tricue.track.head_detection import face_detection
 from tricue.track.head_detection.start_box import find_head_or_face
-
-
-@pytest.fixture(autouse=True)
-def no_cascade(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Neither cascade is installed."""
-    monkeypatch.setattr(face_detection, "_load_cascade", lambda: None)
-    monkeypatch.setattr(face_detection, "_has_scikit_image", lambda: False)
 
 
 def test_a_color_tracker_starts_on_a_head_of_a_pair(rendered: Callable[..., Any]) -> None:

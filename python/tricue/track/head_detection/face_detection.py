@@ -1,84 +1,205 @@
 # SPDX-License-Identifier: MIT
-"""Detection of a frontal face to start on, by the best detector that is installed.
+"""Detection of a frontal face to start on, by comparison with rendered faces.
 
-Cascades of classifiers (Viola and Jones 2001) come with cv2 4, with Haar features, and with scikit-image.
-Comparison with rendered faces needs neither.
+The image is reduced step by step, and in each reduced image all windows of one size are looked at. Ten
+channels describe them: the gradients in eight directions, relative to those around, and gray and redness,
+relative to their mean and spread in the window. They are averaged over square cells. A face passes twice: its
+cells match a template (a linear discriminant), and there is a majority of weighted votes, each about whether
+a pair of mirrored cells exceeds a threshold. Template and votes were learned from rendered faces
+(`learned_face`). A window that the template exaggerates by one strong feature fails at the votes, and a
+window of unlikely details at the template. In a color image, a face must also have the color of skin.
+
+Sources: Hariharan, Malik and Ramanan 2012 (linear discriminants of gradients); Friedman, Hastie and
+Tibshirani 2000 (boosting); Viola and Jones 2001 (windows of all sizes).
 """
 
-import threading
-from collections.abc import Callable
-from functools import cache
-from importlib.util import find_spec
-from pathlib import Path
-from typing import Any
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import cv2
+import numpy as np
+from numpy.typing import NDArray
 
-from tricue.arrays import Image
+from tricue.arrays import Flags, Floats, Image, Plane
 from tricue.camera.box import Box
-from tricue.track.head_detection import face_cascade, rendered_face
+from tricue.track.head_detection.learned_face import BIAS, TEMPLATE, VOTE_BIAS, VOTES
 
-Detector = Callable[[Image, int], Box | None]  # of the largest face; int: side of the smallest, pixels
-
-# Size of the head relative to a cascade's square, as in hand-drawn boxes of faces.
-HEAD_WIDTH_RATIO, HEAD_HEIGHT_RATIO = 0.75, 0.95
 MIN_SIDE, MIN_SHARE = 20, 10  # of the smallest face: pixels, and the image's shorter side over the face's
-_ONE_AT_A_TIME = threading.Lock()  # cv2's cascade stores its image and releases the GIL
+WINDOW = 28  # pixels
+COARSE, FINE = 4, 2  # pixels, sides of cells; the template has coarse cells, votes have both
+PAD = 4  # pixels by which a window may extend beyond the image
+SCALE_STEP = 1.15  # from one size of faces to the next
+WINDOW_SCALE = 1.3  # side of the window relative to that of the smallest face
+HEAD_WIDTH, HEAD_HEIGHT = 0.72, 0.86  # of the window, as in hand-drawn boxes of faces
+NEIGHBORHOOD = 13  # pixels, in which gradients are compared
+GRADIENT_NOISE, GRAY_NOISE, REDNESS_NOISE = 3.0, 6.0, 0.01  # added to what a channel is divided by
+MAX_CANDIDATES = 300  # windows of one size that the votes are about
+MIN_MATCH = -2.0  # of the template
+MATCH_BONUS = 2.0  # the template's score plus this is on a par with the votes' sum
+MIN_SCORE, MIN_SCORE_GRAY = 1.0, 2.0  # gray images lack the check of colors
+PLACE, LOG_SIZE = 0.18, 0.3  # a face's hits differ by less, in window sides and in log side
+MIN_GREEN_DEFICIT, MIN_BLUE_DEFICIT = 0.10, 0.15  # of skin, as shares of red
+MAX_GREEN_DEFICIT = 0.55
+MIN_CONTRAST, MAX_CONTRAST = 0.10, 0.55  # deviation of a face's gray levels, as a share of their mean
+MAX_GRAY_RANGE = 4.0  # levels, mean difference of a pixel's channels; compressed gray video isn't quite gray
+MIRRORED = (1, 0, 2, 3, 7, 6, 5, 4, 8, 9)  # channels of the mirrored image
+GRAY, REDNESS = 8, 9  # channels
 
 
-def find_face(image: Image, detector: str | None = None) -> Box | None:
-    """The largest frontal face in a BGR or gray image, or None.
-
-    detector: one of :func:`detectors`, by default the first.
-    """
-    installed = detectors()
-    find = installed[detector or next(iter(installed))]
-    return find(image, max(MIN_SIDE, min(image.shape[:2]) // MIN_SHARE))
+Pixels = NDArray[np.intp]
+Vote = tuple[int, int, int, int, float, float]
+"""Side of the cell, channel, row, column, threshold, and by how much the sum grows beyond it."""
 
 
-def detectors() -> dict[str, Detector]:
-    """The installed detectors by name, the best first."""
-    found: dict[str, Detector] = {}
-    if _load_cascade() is not None:
-        found["cv2"] = _find_by_cv2
-    if _has_scikit_image():
-        found["scikit-image"] = _find_by_scikit_image
-    return found | {"rendered faces": rendered_face.find_largest}
+class Channels(NamedTuple):
+    """planes: of all channels. mean, spread: of gray and redness, in the window that starts at a pixel."""
+
+    planes: list[Plane]
+    mean: list[Plane]
+    spread: list[Plane]
+
+    def relative(self, channel: int, values: Plane, y: Pixels, x: Pixels) -> Plane:
+        """A channel's values, of gray and redness relative to the windows that start at these pixels."""
+        if channel < GRAY:
+            return values
+        return (values - self.mean[channel - GRAY][y, x]) / self.spread[channel - GRAY][y, x]
 
 
-def _find_by_cv2(image: Image, smallest: int) -> Box | None:
-    gray = image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
-    size = (smallest, smallest)
-    with _ONE_AT_A_TIME:
-        found = _load_cascade().detectMultiScale(gray, scaleFactor=1.1, minNeighbors=5, minSize=size)
-    squares = [Box(*map(float, square)) for square in found]
-    return _crop_to_head(max(squares, key=lambda square: square.area, default=None))
+def find_face(image: Image) -> Box | None:
+    """The box of the largest frontal face in a BGR or gray image, or None."""
+    smallest = max(MIN_SIDE, min(image.shape[:2]) // MIN_SHARE)
+    color = image if image.ndim == 3 else cv2.cvtColor(image, cv2.COLOR_GRAY2BGR)
+    gray = image.ndim == 2 or float(np.ptp(image, axis=2).mean()) < MAX_GRAY_RANGE
+    hits = _hits(np.asarray(color, np.uint8), smallest, gray)
+    hits = hits[np.argsort(-hits[:, 0], kind="stable")]
+    hits = hits[hits[:, 0] > (MIN_SCORE_GRAY if gray else MIN_SCORE)]
+    largest = None
+    while len(hits):
+        _, x, y, side = hits[0]
+        near = np.hypot(hits[:, 1] - x, hits[:, 2] - y) / side
+        resized = np.abs(np.log(hits[:, 3] / side))
+        one = hits[(near < PLACE) & (resized < LOG_SIZE)]
+        weights = np.exp(one[:, 0] - one[0, 0])
+        x, y, side = (weights @ one[:, 1:] / weights.sum()).tolist()
+        if gray or _has_face_colors(image, x, y, side):
+            box = Box.from_ellipse(x, y, HEAD_WIDTH * side / 2, HEAD_HEIGHT * side / 2)
+            if largest is None or box.area > largest.area:
+                largest = box
+        hits = hits[(near >= 0.5) | (resized >= 2 * LOG_SIZE)]
+    return largest
 
 
-def _find_by_scikit_image(image: Image, smallest: int) -> Box | None:
-    return _crop_to_head(face_cascade.find_square(image, smallest))
+def _hits(image: Image, smallest: int, gray: bool) -> Floats:
+    """(N, 4) score, center x, y and side, pixels, of windows that match."""
+    hits = [np.empty((0, 4))]
+    for reduced, scale in _reduced(image, smallest):
+        channels = channels_of(reduced)
+        matches = match(channels)
+        if not gray:
+            matches[~skin(reduced)] = -np.inf
+        y, x = np.nonzero(matches > MIN_MATCH)
+        if len(y) > MAX_CANDIDATES:
+            best = np.argsort(-matches[y, x], kind="stable")[:MAX_CANDIDATES]
+            y, x = y[best], x[best]
+        score = np.minimum(matches[y, x] + MATCH_BONUS, votes(channels, y, x))
+        middle = WINDOW / 2 - PAD
+        side = np.full(len(y), WINDOW * scale)
+        hits.append(np.stack([score, (x + middle) * scale, (y + middle) * scale, side], axis=1))
+    return np.concatenate(hits)
 
 
-def _crop_to_head(square: Box | None) -> Box | None:
-    """The box of the head's upright ellipse, without the background on both sides of the detected square."""
-    if square is None:
-        return None
-    x, y, half, _ = square.ellipse
-    return Box.from_ellipse(x, y, HEAD_WIDTH_RATIO * half, HEAD_HEIGHT_RATIO * half)
+def _reduced(image: Image, smallest: int) -> Iterator[tuple[Image, float]]:
+    """The padded image in all sizes, and the factors by which it was reduced."""
+    height, width = image.shape[:2]
+    side = smallest * WINDOW_SCALE
+    while side <= 1.25 * min(height, width):
+        scale = side / WINDOW
+        size = round(width / scale), round(height / scale)
+        if min(size) + 2 * PAD < WINDOW:
+            break
+        method = cv2.INTER_AREA if scale > 1 else cv2.INTER_LINEAR
+        reduced = cv2.resize(image, size, interpolation=method)
+        padded = cv2.copyMakeBorder(reduced, PAD, PAD, PAD, PAD, cv2.BORDER_REPLICATE)
+        yield np.asarray(padded, np.uint8), scale
+        side *= SCALE_STEP
 
 
-@cache
-def _load_cascade() -> Any:  # missing in cv2 5's types
-    """cv2's cascade; None if it has none."""
-    folder = getattr(getattr(cv2, "data", None), "haarcascades", None)
-    classifier = getattr(cv2, "CascadeClassifier", None)
-    file = Path(folder or "", "haarcascade_frontalface_default.xml")
-    return None if folder is None or classifier is None or not file.is_file() else classifier(str(file))
+def channels_of(image: Image) -> Channels:
+    """All channels of a BGR image."""
+    blue, green, red = (np.asarray(each, np.float32) for each in cv2.split(image))
+    gray = np.float32(0.114) * blue + np.float32(0.587) * green + np.float32(0.299) * red
+    redness = (red - green) / (red + green + blue + 20)
+    x, y = (cv2.Sobel(gray, -1, *order, ksize=1, scale=0.5) for order in ((1, 0), (0, 1)))
+    root = np.float32(np.sqrt(0.5))
+    size = (NEIGHBORHOOD, NEIGHBORHOOD)
+    around = cv2.boxFilter(cv2.magnitude(x, y), -1, size, borderType=cv2.BORDER_REFLECT) + GRADIENT_NOISE
+    gradients = [
+        np.maximum(sign * along, 0) / around
+        for along in (x, y, (x + y) * root, (x - y) * root)
+        for sign in (1, -1)
+    ]
+    mean = [cells(each, WINDOW) for each in (gray, redness)]
+    spread = [
+        np.sqrt(np.maximum(cells(each * each, WINDOW) - middle * middle, 0)) + np.float32(noise)
+        for each, middle, noise in zip((gray, redness), mean, (GRAY_NOISE, REDNESS_NOISE), strict=True)
+    ]
+    return Channels([*gradients, gray, redness], mean, spread)
 
 
-@cache
-def _has_scikit_image() -> bool:
-    try:
-        return find_spec("skimage") is not None
-    except ValueError:  # sys.modules holds None in its place
-        return False
+def cells(plane: Plane, side: int) -> Plane:
+    """Means of the squares that start at each pixel."""
+    return np.asarray(
+        cv2.boxFilter(plane, -1, (side, side), anchor=(0, 0), borderType=cv2.BORDER_REPLICATE), np.float32
+    )
+
+
+def match(channels: Channels, template: Plane = TEMPLATE, bias: float = BIAS) -> Plane:
+    """How well each window matches the template; 0 where a face is as likely as not."""
+    total: Plane = np.full_like(channels.planes[0], bias)
+    for channel, weights in enumerate(template):
+        kernel = np.zeros((WINDOW - COARSE + 1,) * 2, np.float32)
+        kernel[::COARSE, ::COARSE] = weights
+        means = cells(channels.planes[channel], COARSE)
+        part = cv2.filter2D(means, -1, kernel, anchor=(0, 0), borderType=cv2.BORDER_REPLICATE)
+        if channel >= GRAY:
+            mean, spread = channels.mean[channel - GRAY], channels.spread[channel - GRAY]
+            part = (part - mean * weights.sum()) / spread
+        total += part
+    rows, columns = (size - WINDOW + 1 for size in total.shape)
+    return total[:rows, :columns]
+
+
+def votes(
+    channels: Channels, y: Pixels, x: Pixels, table: Sequence[Vote] = VOTES, bias: float = VOTE_BIAS
+) -> Floats:
+    """The sums of votes for the windows that start at these pixels."""
+    means = {side: [cells(plane, side) for plane in channels.planes] for side in (COARSE, FINE)}
+    total = np.full(len(y), bias)
+    for side, channel, row, column, threshold, vote in table:
+        last = WINDOW // side - 1
+        for of_pair, place in ((channel, column), (MIRRORED[channel], last - column)):
+            values = means[side][of_pair][y + side * row, x + side * place]
+            total += vote * (channels.relative(of_pair, values, y, x) > threshold)
+    return total
+
+
+def skin(image: Image) -> Flags:
+    """Whether the mean color of each window's inner half is as reddish as skin of any tone in any light."""
+    inner, border = 12, 8
+    mean = cv2.boxFilter(
+        image.astype(np.float32), -1, (inner, inner), anchor=(0, 0), borderType=cv2.BORDER_REPLICATE
+    )
+    rows, columns = (size - WINDOW + 1 for size in image.shape[:2])
+    blue, green, red = cv2.split(mean[border : border + rows, border : border + columns])
+    return np.asarray((red - green > MIN_GREEN_DEFICIT * red) & (red - blue > MIN_BLUE_DEFICIT * red))
+
+
+def _has_face_colors(image: Image, x: float, y: float, side: float) -> bool:
+    """Whether the window's inner half is no redder than skin and has a face's contrast."""
+    half = side * 6 / WINDOW
+    rows, columns = (slice(max(int(at - half), 0), int(at + half) + 1) for at in (y, x))
+    pixels = image[rows, columns].reshape(-1, 3).astype(np.float64)
+    _, green, red = pixels.mean(axis=0).tolist()
+    gray = pixels.mean(axis=1)
+    contrast = gray.std() / max(gray.mean(), 1)
+    return bool(red - green < MAX_GREEN_DEFICIT * red and MIN_CONTRAST < contrast < MAX_CONTRAST)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What was learned from rendered faces: the template and the votes of `rendered_face`.
+"""What was learned from rendered faces: the template and the votes of `face_detection`.
 
 Written by `python -m tools.face_model --write`.
 """

@@ -1,20 +1,24 @@
 # SPDX-License-Identifier: MIT
-"""A frontal face by scikit-image's cascade of local binary patterns (Liao et al. 2007).
+"""Peers of tricue's face detector: cascades of classifiers (Viola and Jones 2001), which other packages have.
 
-A window that passes is a hit. A face has many hits, at neighboring positions and sizes, and, since it is
-symmetric, also in the mirrored image. In a color image it must have the color of skin.
+cv2 4 has one of Haar features, scikit-image one of local binary patterns (Liao et al. 2007). cv2 groups the
+windows that pass; those that pass scikit-image's, the hits, are grouped here. A face has many hits, at
+neighboring positions and sizes, and, since it is symmetric, also in the mirrored image. In a color image it
+must have the color of skin.
 """
 
-from collections.abc import Callable
 from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-
 from tricue.arrays import Image
 from tricue.camera.box import Box
+from tricue.doctor.install import install_extra
+from tricue.track.head_detection.face_detection import MIN_SHARE, MIN_SIDE
 
 Squares = NDArray[np.float64]  # (N, 3): center x, y and side, pixels
 
@@ -24,14 +28,35 @@ SIMILAR = 0.2  # of the smaller square's side: largest difference between the ed
 MIN_HITS, MIN_HITS_GRAY = 11, 14  # in the image and its mirror image; a gray image has no color to check
 MIN_GREEN_DEFICIT, MIN_BLUE_DEFICIT = 0.10, 0.15  # of skin, as shares of red: 83 of 84 pictures of skin
 MAX_GRAY_RANGE = 4.0  # levels, mean difference of a pixel's channels; compressed gray video isn't quite gray
-SQUARE_SCALE = 1.09  # side of the square of OpenCV's Haar cascade on a face, relative to this cascade's
+SQUARE_SCALE = 1.09  # side of the square of cv2's cascade on a face, relative to scikit-image's
+# Size of the head relative to cv2's square, as in hand-drawn boxes of faces.
+HEAD_WIDTH_RATIO, HEAD_HEIGHT_RATIO = 0.75, 0.95
 
 
-def find_square(image: Image, smallest: int) -> Box | None:
-    """The square of the largest face in a BGR or gray image, scaled to cv2's size; None without a face.
+def missing(package: str) -> str:
+    """Why the cascade of a package can't be used, and what to do; "" if it can."""
+    if package == "cv2" and _haar_cascade() is None:
+        return f"cv2 {cv2.__version__} has no cascade: pip install 'opencv-python-headless<5'"
+    if package == "scikit-image" and find_spec("skimage") is None:
+        return f"expected scikit-image to be installed: {install_extra('demo')}"
+    return ""
 
-    smallest: side of the smallest face, pixels. ImportError without scikit-image.
-    """
+
+def find_by_cv2(image: Image) -> Box | None:
+    """The box of the largest face in a BGR or gray image, or None."""
+    gray = image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
+    size = (_smallest(image),) * 2
+    found = _haar_cascade().detectMultiScale(gray, scaleFactor=1.1, minNeighbors=5, minSize=size)
+    squares = [Box(*map(float, square)) for square in found]
+    if not squares:
+        return None
+    x, y, half, _ = max(squares, key=lambda square: square.area).ellipse
+    return Box.from_ellipse(x, y, HEAD_WIDTH_RATIO * half, HEAD_HEIGHT_RATIO * half)
+
+
+def find_by_scikit_image(image: Image) -> Box | None:
+    """The same."""
+    smallest = _smallest(image)
     gray: Any = image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
     hits = _find_hits(gray, smallest)
     if not len(_faces(image, hits, 0.5)):  # then the mirror image isn't needed
@@ -42,8 +67,14 @@ def find_square(image: Image, smallest: int) -> Box | None:
     if not len(faces):
         return None
     x, y, side = faces[np.argmax(faces[:, 2])]
-    half = SQUARE_SCALE * side / 2
-    return Box.from_ellipse(float(x), float(y), float(half), float(half))
+    half = float(SQUARE_SCALE * side / 2)
+    return Box.from_ellipse(float(x), float(y), HEAD_WIDTH_RATIO * half, HEAD_HEIGHT_RATIO * half)
+
+
+def _smallest(image: Image) -> int:
+    """The side of the smallest face, pixels, as tricue's detector has it."""
+    smallest: int = max(MIN_SIDE, min(image.shape[:2]) // MIN_SHARE)
+    return smallest
 
 
 def _find_hits(gray: Image, smallest: int) -> Squares:
@@ -53,7 +84,7 @@ def _find_hits(gray: Image, smallest: int) -> Squares:
     Images are scanned one at a time, because the order of hits within a call depends on the number of
     threads.
     """
-    cascade = _load_cascade()
+    cascade = _lbp_cascade()
     height, width = gray.shape
     hits, side = [np.empty((0, 3))], float(smallest)
     while side < min(gray.shape):
@@ -107,9 +138,18 @@ def _has_skin_color(image: Image, square: NDArray[np.float64]) -> bool:
 
 
 @cache
-def _load_cascade() -> Any:
+def _haar_cascade() -> Any:  # missing in cv2 5's types
+    """None if this cv2 has none."""
+    folder = getattr(getattr(cv2, "data", None), "haarcascades", None)
+    classifier = getattr(cv2, "CascadeClassifier", None)
+    file = Path(folder or "", "haarcascade_frontalface_default.xml")
+    return None if folder is None or classifier is None or not file.is_file() else classifier(str(file))
+
+
+@cache
+def _lbp_cascade() -> Any:
     from skimage import data
     from skimage.feature import Cascade
 
-    locate: Callable[[], str] = data.lbp_frontal_face_cascade_filename
+    locate: Any = data.lbp_frontal_face_cascade_filename
     return Cascade(locate())
