@@ -11,7 +11,7 @@ from tools.face_model.__main__ import FILE, installed, rendered, shares, table
 
 def test_a_small_model_is_the_same_again_and_knows_faces(monkeypatch: pytest.MonkeyPatch) -> None:
     """One seed gives one table, and faces are told from scenes."""
-    for name, value in {"VOTES": 20, "FIRST_VOTES": 6, "SAMPLE": 600}.items():
+    for name, value in {"VOTES": 20, "FIRST_VOTES": 6, "RATE": 1.0, "SAMPLE": 600}.items():
         monkeypatch.setattr(learn, name, value)
     models = [learn.learn(*rendered(0, 60, 15), np.random.default_rng(0)) for _ in range(2)]
     assert table(models[0]) == table(models[1])

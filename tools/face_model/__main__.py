@@ -16,7 +16,7 @@ import cv2
 import numpy as np
 from tricue.arrays import Image, Plane
 from tricue.track.head_detection import learned_face
-from tricue.track.head_detection.face_detection import MIN_MATCH, MIN_SCORE, channels_of, skin
+from tricue.track.head_detection.face_detection import MATCH_BONUS, MIN_SCORE, channels_of, skin
 
 from tools.face_model.learn import Model, learn
 from tools.face_model.portraits import MARGIN, portrait
@@ -34,8 +34,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m tools.face_model", description=__doc__.split("\n")[0])
     parser.add_argument("--write", action="store_true", help="learn, and write learned_face.py")
     parser.add_argument("--montage", metavar="FILE", help="write a picture of rendered faces and scenes")
-    parser.add_argument("--faces", metavar="N", type=int, default=3500, help="to learn from")
-    parser.add_argument("--scenes", metavar="N", type=int, default=3000, help="to learn from")
+    parser.add_argument("--faces", metavar="N", type=int, default=7000, help="to learn from")
+    parser.add_argument("--scenes", metavar="N", type=int, default=9000, help="to learn from")
     arguments = parser.parse_args()
     cv2.setNumThreads(1)
     if arguments.montage:
@@ -73,7 +73,7 @@ def _scores(model: Model, image: Image) -> Plane:
     """Of all windows; those that don't match the template keep its score."""
     channels = channels_of(image)
     scores = model.matches(channels)
-    y, x = np.nonzero(scores > MIN_MATCH)
+    y, x = np.nonzero(scores > MIN_SCORE - MATCH_BONUS)
     scores[y, x] = model.scores(channels, scores, y, x)
     return scores
 

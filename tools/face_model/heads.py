@@ -28,13 +28,13 @@ X, Y = np.meshgrid(np.arange(-100, 100 + STEP, STEP), np.arange(-135, 135 + STEP
 SIDE = np.abs(X)  # distance from the middle
 MIDDLE = -5.0  # y of the head's largest width
 
-EYE = 29, 35  # half of the eyes' distance
-BROW = 15, 24  # above the eyes
-NOSE, MOUTH, CHIN = (42, 52), (66, 78), (105, 124)  # below the eyes
-CROWN = 105, 120  # above the eyes
-HIGH_HAIRLINE, LOW_HAIRLINE = (35, 85), (8, 35)  # above the eyes
-HALF_WIDTH = 66, 80
-DEPTH = 75, 95  # of the skull in front of the ears
+EYE = 28, 36  # half of the eyes' distance
+BROW = 14, 25  # above the eyes
+NOSE, MOUTH, CHIN = (40, 54), (64, 80), (102, 127)  # below the eyes
+CROWN = 103, 122  # above the eyes
+HIGH_HAIRLINE, LOW_HAIRLINE = (28, 92), (8, 35)  # above the eyes
+HALF_WIDTH = 64, 82
+DEPTH = 72, 98  # of the skull in front of the ears
 IRIS = 6.3  # radius
 
 

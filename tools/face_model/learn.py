@@ -47,9 +47,10 @@ EXAMINED = 150  # windows that match best, of which the votes choose
 
 NEWTON_STEPS, RIDGE, WEIGHT = 8, 15.0, 16000  # of the logistic regression; weight of all windows
 GRAIN = 0.05  # to which the template is rounded
-VOTES, FIRST_VOTES = 160, 100  # of the model; of those before, which only mine
+VOTES, FIRST_VOTES = 600, 200  # of the model; of those before, which only mine
+RATE = 0.3  # of what a vote would best be: many small steps depend less on chance
 BINS, SAMPLE, FEATURES = 20, 5000, 900  # thresholds, windows and features that a vote is chosen from
-VOTE_GRAIN, THRESHOLD_DIGITS = 0.02, 2
+VOTE_GRAIN, THRESHOLD_DIGITS = 0.005, 2
 SHRINKAGE = 0.02  # of votes that few windows are concerned by
 
 
@@ -226,9 +227,9 @@ def _with_votes(
         feature, level = _best_threshold(levels, truth, weight, rng)
         exceeding = (levels[:, [feature, MIRROR[feature]]] > level).sum(axis=1)
         slope, middle = _line_fit(exceeding, truth, weight)
-        vote = round(round(slope / VOTE_GRAIN) * VOTE_GRAIN, 2)
-        bias += middle
-        total += middle + vote * exceeding
+        vote = round(round(RATE * slope / VOTE_GRAIN) * VOTE_GRAIN, 3)
+        bias += RATE * middle
+        total += RATE * middle + vote * exceeding
         chosen.append((*_feature(feature), float(thresholds[level, feature]), vote))
     return model._replace(votes=chosen, vote_bias=round(bias, 2))
 

@@ -31,12 +31,22 @@ def portrait(rng: Random) -> Image:
     scale = FINER / PIXEL * np.exp(rng.normal(0, LOG_SCALE)) * np.array([rng.uniform(0.94, 1.06), 1])
     y, x = np.mgrid[:side, :side]
     _body(rng, image, (x - middle[0]) / scale[1], (y - middle[1]) / scale[1], head, light)
-    project(head, shade(head, light, turn, rng.uniform(0.03, 0.12)), turn, image, scale, middle)
+    project(head, _lit(rng, head, light, turn), turn, image, scale, middle)
     smooth = cv2.GaussianBlur(image, (0, 0), 0.36 * FINER)
     image = np.asarray(cv2.resize(smooth, (SIZE, SIZE), interpolation=cv2.INTER_AREA), np.float64)
     if rng.uniform() < 0.3:  # something unseen casts a shadow
         image *= np.exp(0.3 * noise(rng, (SIZE, SIZE), SIZE / 2))[..., np.newaxis]
     return photograph(rng, image)
+
+
+def _lit(rng: Random, head: Head, light: Light, turn: Floats) -> Floats:
+    """The colors of a head's points in this light, and half of the time in a second one, as by a window."""
+    occlusion = rng.uniform(0.03, 0.12)
+    colors = shade(head, light, turn, occlusion)
+    if rng.uniform() < 0.5:
+        share = rng.uniform(0.2, 0.5)
+        colors += share * (shade(head, random_light(rng), turn, occlusion) - colors)
+    return colors
 
 
 def _body(rng: Random, image: Floats, x: Floats, y: Floats, head: Head, light: Light) -> None:

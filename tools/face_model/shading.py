@@ -25,11 +25,11 @@ class Light(NamedTuple):
 
 
 def random_light(rng: Random) -> Light:
-    """From in front and mostly from above."""
-    azimuth, elevation = np.radians(rng.normal(0, 45)), np.radians(rng.uniform(-10, 65))
+    """From everywhere in front, more often from above; also from below, as off a table or a screen."""
+    azimuth, elevation = np.radians(rng.normal(0, 60)), np.radians(rng.uniform(-35, 75))
     direction = [np.sin(azimuth) * np.cos(elevation), -np.sin(elevation), np.cos(azimuth) * np.cos(elevation)]
     color = np.exp(rng.normal(0, 0.12, 3))
-    return Light(rng.uniform(0.1, 0.9), np.array(direction), color, rng.uniform(0, 0.8))
+    return Light(rng.uniform(0.05, 0.95), np.array(direction), color, rng.uniform(0, 0.9))
 
 
 def rotation(yaw: float, pitch: float, roll: float) -> Floats:

@@ -70,7 +70,7 @@ def _matrix(rows: np.ndarray) -> str:
 def _votes(model: Model) -> str:
     """In lines that no vote is broken by: its spaces are underscores until the text is wrapped."""
     cells = (
-        f"({side},_{channel},_{row},_{column},_{threshold:.2f},_{vote:.2f}),"
+        f"({side},_{channel},_{row},_{column},_{threshold:.2f},_{vote:.3f}),"
         for side, channel, row, column, threshold, vote in model.votes
     )
     lines = textwrap.fill(

@@ -33,12 +33,12 @@ def pasted(sizes: list[tuple[int, int]]) -> np.ndarray:
     return canvas
 
 
-@pytest.mark.parametrize(("name", "index"), [("David", 40), ("Girl", 0), ("Jumping", 0), ("FaceOcc2", 0)])
-def test_a_real_face_is_found(data: Path, name: str, index: int) -> None:
-    """In real sequences, of which two are gray, the face found lies on the true one."""
+@pytest.mark.parametrize("name", ["David", "Girl", "Jumping", "FaceOcc2"])
+def test_a_real_face_is_found(data: Path, name: str) -> None:
+    """In the first frame of real sequences, of which two are gray, the face found lies on the true one."""
     source = open_source(data / "color" / name)
-    image = next(frame for i, frame in enumerate(source) if i == index).color
-    true = source.true_box(index)
+    image = next(iter(source)).color
+    true = source.true_box(0)
     assert image is not None
     assert true is not None
     found = find_face(image)
