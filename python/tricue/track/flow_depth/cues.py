@@ -87,8 +87,8 @@ def _is_uniform(gray: NDArray[np.uint8], region: Region) -> bool:
     """Whether a region has a single gray value, as in a black image."""
     x0, y0, x1, y1 = region
     cells = gray[y0:y1, x0:x1]
-    value = cells[0, 0]
-    return bool((cells[0] == value).all() and (cells == value).all())  # usually the first row decides
+    first = cells[0, 0]
+    return bool(first == cells[-1, -1] and (cells == first).all())  # usually two corners decide
 
 
 def _no_measurements(region: Region) -> CueMap:
