@@ -51,6 +51,15 @@ Vote = tuple[int, int, int, int, float, float]
 """Side of the cell, channel, row, column, threshold, and by how much the sum grows beyond it."""
 
 
+class PlaneVotes(NamedTuple):
+    """About cells of one side and channel, whose first pixels in the window are at row and column."""
+
+    row: Pixels
+    column: Pixels
+    threshold: Plane
+    vote: Floats
+
+
 class Channels(NamedTuple):
     """planes: of all channels. mean, spread: of gray and redness, in the window that starts at a pixel."""
 
@@ -192,24 +201,25 @@ def votes(
     total = np.full(len(y), bias)
     y, x = y[:, np.newaxis], x[:, np.newaxis]
     for (side, channel), of_plane in _by_plane(tuple(table)).items():
-        row, column, threshold, vote = of_plane
-        means = cells(channels.planes[channel], side)
-        values = means[y + row.astype(np.intp), x + column.astype(np.intp)]
-        total += (channels.relative(channel, values, y, x) > threshold) @ vote
+        values = cells(channels.planes[channel], side)[y + of_plane.row, x + of_plane.column]
+        total += (channels.relative(channel, values, y, x) > of_plane.threshold) @ of_plane.vote
     return total
 
 
 @lru_cache(maxsize=2)
-def _by_plane(table: tuple[Vote, ...]) -> dict[tuple[int, int], Floats]:
-    """The votes of both mirrored cells, by the cells' side and channel: arrays of the cells' first rows and
-    columns, pixels, of thresholds, and of votes.
-    """
-    planes: dict[tuple[int, int], list[tuple[float, ...]]] = {}
+def _by_plane(table: tuple[Vote, ...]) -> dict[tuple[int, int], PlaneVotes]:
+    """The votes of both mirrored cells, by the cells' side and channel."""
+    planes: dict[tuple[int, int], list[tuple[int, int, float, float]]] = {}
     for side, channel, row, column, threshold, vote in table:
         last = WINDOW // side - 1
         for of_pair, place in ((channel, column), (MIRRORED[channel], last - column)):
             planes.setdefault((side, of_pair), []).append((side * row, side * place, threshold, vote))
-    return {plane: np.array(rows).T for plane, rows in planes.items()}
+    return {plane: _arrays(rows) for plane, rows in planes.items()}
+
+
+def _arrays(rows: list[tuple[int, int, float, float]]) -> PlaneVotes:
+    row, column, threshold, vote = map(np.array, zip(*rows, strict=True))
+    return PlaneVotes(row, column, threshold.astype(np.float32), vote)
 
 
 def skin(image: Image) -> Flags:
