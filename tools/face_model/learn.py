@@ -51,6 +51,7 @@ VOTES, FIRST_VOTES = 600, 200  # of the model; of those before, which only mine
 RATE = 0.3  # of what a vote would best be: many small steps depend less on chance
 BINS, SAMPLE, FEATURES = 20, 5000, 900  # thresholds, windows and features that a vote is chosen from
 VOTE_GRAIN, THRESHOLD_DIGITS = 0.005, 2
+SCORE_DIGITS = 6  # so that equal sums of votes are equal in any order of summation
 SHRINKAGE = 0.02  # of votes that few windows are concerned by
 
 
@@ -71,7 +72,7 @@ class Model(NamedTuple):
         if not self.votes:
             return np.asarray(matches[y, x], np.float64)
         voted = votes(channels, y, x, self.votes, self.vote_bias)
-        return np.asarray(np.minimum(matches[y, x] + MATCH_BONUS, voted))
+        return np.asarray(np.minimum(matches[y, x] + MATCH_BONUS, np.round(voted, SCORE_DIGITS)))
 
 
 def learn(portraits: Sequence[Image], scenes: Sequence[Image], rng: Random) -> Model:
