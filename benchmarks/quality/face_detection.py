@@ -7,7 +7,7 @@
 without any overlap, "overlap" the median of overlaps above 0. In noise, and in sequences without frontal
 faces, which show walkers and riders at most, each box is a false start. In photographs of people, not all of
 them frontal, a box is right if at least half of its inner part is skin by a hand-drawn mask. All frames
-(--every 1) take half an hour. Peers are the cascades of cv2 4 and of scikit-image.
+(--every 1) take half an hour. Baselines are the cascades of cv2 4 and of scikit-image.
 
 With --left-out, tricue's least scores, the only numbers that real images decide, are chosen for each sequence
 on all others: as the lowest with which at most 0.5 % of the frames without faces have a false start, in color

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Peers of tricue's face detector: cascades of classifiers (Viola and Jones 2001), which other packages have.
+"""Baselines of face detection: cascades of classifiers (Viola and Jones 2001), which other packages have.
 
 cv2 4 has one of Haar features, scikit-image one of local binary patterns (Liao et al. 2007). cv2 groups the
 windows that pass; those that pass scikit-image's, the hits, are grouped here. A face has many hits, at

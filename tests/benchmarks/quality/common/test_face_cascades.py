@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The peers of the face detector."""
+"""The baselines of face detection."""
 
 import sys
 
@@ -10,18 +10,18 @@ import pytest
 from benchmarks.quality import face_detection
 from benchmarks.quality.common import face_cascades
 
-PEERS = ["cv2", "scikit-image"]
+BASELINES = ["cv2", "scikit-image"]
 
 
-@pytest.fixture(params=PEERS)
+@pytest.fixture(params=BASELINES)
 def find(request):
-    """The detector of a peer that is installed."""
+    """The detector of a baseline that is installed."""
     if reason := face_cascades.missing(request.param):
         pytest.skip(reason)
     return face_detection.DETECTORS[request.param]
 
 
-def test_a_peer_finds_a_face(find):
+def test_a_baseline_finds_a_face(find):
     """A photograph's face is found in color and in gray, and none in noise."""
     pytest.importorskip("skimage", reason="needs scikit-image's photograph: pip install tricue[demo]")
     from tricue.camera.box import Box
@@ -35,16 +35,16 @@ def test_a_peer_finds_a_face(find):
     assert [find(each) for each in (noise, noise[:3, :3], noise[:1, :, 0])] == [None] * 3
 
 
-@pytest.mark.parametrize("peer", PEERS)
-def test_a_missing_peer_is_an_error_in_a_line(peer, monkeypatch, capsys):
+@pytest.mark.parametrize("baseline", BASELINES)
+def test_a_missing_baseline_is_an_error_in_a_line(baseline, monkeypatch, capsys):
     """Without the package, or with one that lacks the cascade, the error says what to install."""
     monkeypatch.setattr(face_cascades, "_haar_cascade", lambda: None)
     monkeypatch.setattr(face_cascades, "find_spec", lambda _: None)
-    monkeypatch.setattr(sys, "argv", ["face_detection", "--detector", peer])
+    monkeypatch.setattr(sys, "argv", ["face_detection", "--detector", baseline])
     with pytest.raises(SystemExit):
         face_detection.main()
     error = capsys.readouterr().err.splitlines()[-1]
-    assert f"--detector {peer}: " in error
+    assert f"--detector {baseline}: " in error
     assert "pip install" in error
 
 
