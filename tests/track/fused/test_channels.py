@@ -153,3 +153,11 @@ def test_without_the_cue_depth_is_not_read(run):
 def test_depth_comes_before_a_stereo_pair(run):
     """A frame with color, depth and right is measured by its depth."""
     assert run("plain", 20 * ["all"]) == run("plain", 20 * ["rgbd"]) != run("plain", 20 * ["pair"])
+
+
+def test_without_the_cue_depth_may_have_another_size(shoot, run):
+    """Depth that isn't read needn't be registered to color."""
+    frames = shoot("plain", 5 * ["rgbd"])
+    coarse = [Frame(f.color, depth=f.depth[::2, ::2], timestamp=f.timestamp) for f in frames]
+    cues = ("filter", "color", "size")
+    assert run("plain", frames=coarse, cues=cues) == run("plain", 5 * ["color"], cues=cues)

@@ -49,7 +49,7 @@ def observe_frame(
 
     shape: the first frame's; None for the first. with_depth: whether to read depth in addition to color.
     ValueError if the size isn't the first frame's or the camera's. UnregisteredDepthError, a ValueError, if
-    depth and color differ in size.
+    depth that is read differs from color in size.
     """
     given = as_frame(frame)
     name, image = _picture(given)
@@ -65,7 +65,7 @@ def _observe(
     """The parts of a frame's observation that don't depend on the target."""
     name, image = _picture(frame)
     size = image.shape[:2]
-    if frame.depth is not None:
+    if with_depth and frame.depth is not None:
         validation.check_depth_size(frame.depth, size)
     rig, camera = rig_and_camera(*cameras, size, name)
     color = None if frame.color is None else _bgr(frame.color)
