@@ -174,6 +174,22 @@ def test_a_killed_worker_is_one_clear_error(started, things, alone):
         assert list(several.update(things.frames[3])) == [1, 3, 5]
 
 
+def test_a_worker_that_another_thread_ends(started, things):
+    """As at the interpreter's exit, while a daemon thread calls: that gets the same error."""
+    with started(FUSED, workers=2) as several:
+        worker = several._targets._workers[0]
+        os.kill(process_of(several), signal.SIGSTOP)  # so that it takes a moment
+        ending = threading.Thread(target=worker._end_process)
+        ending.start()
+        while not worker._connection.closed:
+            time.sleep(0.01)
+        going_on = threading.Timer(0.5, os.kill, [process_of(several), signal.SIGCONT])
+        going_on.start()
+        with pytest.raises(WorkerEndedError, match="ended with exit code 0; its targets 2, 4 are gone"):
+            several.update(things.frames[1])
+        ending.join()
+
+
 def test_a_worker_that_is_killed_during_an_update(started, things, alone):
     """The target of this process, which had gone on, goes back."""
     expected = alone(FUSED)

@@ -149,7 +149,7 @@ class RemoteTargets(TargetGroup):
         """End the worker, unless it has ended already; return the error that says so."""
         self.ended, self._ids = True, set()
         self._end_process()
-        code = self._process.returncode
+        code = self._process.wait()  # another thread may be ending it, as the interpreter does at its exit
         how = f"by signal {-code}" if code < 0 else f"with exit code {code}"
         return WorkerEndedError(f"a worker process ended {how}")
 
