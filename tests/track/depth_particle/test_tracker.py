@@ -128,6 +128,18 @@ def test_covariance_grows_while_occluded(seed, crossed):
     assert np.median(variance[hidden]) > np.median(variance[~hidden])
 
 
+def test_covariance_grows_while_a_prediction_slows_down():
+    """It grows from frame to frame as well where somebody was hidden for two seconds and then isn't there."""
+    scene = walker(seed=0, frames=10)
+    tracker = DepthParticleTracker(intrinsics=scene.intrinsics)
+    tracker.init(scene.frames[0], scene.boxes[0])
+    for frame in scene.frames[1:]:
+        tracker.update(frame)
+    near, nothing = (Frame(depth=np.full_like(frame.depth, meters)) for meters in (0.4, np.nan))
+    variance = [np.trace(tracker.update(each).covariance) for each in [near] * 30 + [nothing] * 30]
+    assert (np.diff(variance) > 0).all()
+
+
 def test_covariance_grows_as_long_as_nobody_is_seen(walkers):
     """Who was last seen 30 seconds ago may be 10 m away; after an hour the place is unknown by 100 m."""
     scene = walkers[0]

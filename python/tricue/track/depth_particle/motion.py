@@ -2,6 +2,7 @@
 """The motion model of a person walking in front of a depth camera: (39) in meters, nearly constant size."""
 
 import math
+from collections.abc import Sequence
 from functools import cache
 from typing import NamedTuple
 
@@ -64,10 +65,12 @@ class BodyMotion(NamedTuple):
         scale = np.array((*position, p.size_noise * mean_width, p.size_noise * mean_height))
         return Prediction(drift, scale, *_bounds(p.near, p.far))
 
-    def position_deviation(self, p: DepthParticleParams, seconds: float) -> tuple[float, float, float]:
-        """The standard deviations of X, Y, Z after a number of seconds, meters."""
+    def position_deviation(
+        self, p: DepthParticleParams, seconds: float, before: Sequence[float] = MIN_POSITION_NOISE
+    ) -> tuple[float, float, float]:
+        """The standard deviations of X, Y, Z after a number of seconds, and ``before`` them, meters."""
         growth = (p.position_noise + p.speed_noise * math.hypot(*self.velocity.tolist())) * seconds
-        (x, y, z), (along_x, along_y, along_z) = MIN_POSITION_NOISE, AXIS_NOISE
+        (x, y, z), (along_x, along_y, along_z) = before, AXIS_NOISE
         return x + growth * along_x, y + growth * along_y, z + growth * along_z
 
     def update(self, state: Floats, p: DepthParticleParams, seconds: float, visible: bool) -> "BodyMotion":

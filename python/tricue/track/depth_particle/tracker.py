@@ -26,7 +26,7 @@ from tricue.track.depth_particle.depth_model import DepthModel, DepthObservation
 from tricue.track.depth_particle.initialize import initialize_in_box, initialize_on_person
 from tricue.track.depth_particle.matching import TargetObject
 from tricue.track.depth_particle.measurement import NOT_MEASURED, OBJECT_DEVIATION, Measurement
-from tricue.track.depth_particle.motion import MIN_SIZE, BodyMotion, Prediction
+from tricue.track.depth_particle.motion import MIN_POSITION_NOISE, MIN_SIZE, BodyMotion, Prediction
 from tricue.track.depth_particle.occluder import find_occluder
 from tricue.track.depth_particle.others import region_in, remember_others
 from tricue.track.depth_particle.params import DepthParticleParams
@@ -294,7 +294,9 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             index = find_occluder(state.objects, expected, p.occluder_margin)
             occluder = None if index is None else state.objects.states[index, :3]
         missed_seconds = state.missed_seconds + seconds
-        spread = np.minimum(state.motion.position_deviation(p, missed_seconds), MAX_SIGMA)
+        # Summed up frame by frame, as the velocity, with which it grows, decays.
+        before = MIN_POSITION_NOISE if state.position_spread is None else state.position_spread.tolist()
+        spread = np.minimum(state.motion.position_deviation(p, seconds, before), MAX_SIGMA)
         kept = velocity_kept(VELOCITY_KEPT_OCCLUDED if occluded else VELOCITY_KEPT, seconds, COASTING_RATE)
         return state._replace(
             random=self._random.save(),
