@@ -110,6 +110,20 @@ def test_they_end_with_the_object(started):
     assert ends(process)
 
 
+def test_closing_ends_them_beside_a_fork(started):
+    """A process that was forked has their connections open; they end at once all the same."""
+    several = started(FUSED, workers=2)
+    worker = several._targets._workers[0]._process
+    child = os.fork()
+    if child == 0:
+        time.sleep(PATIENCE)
+        os._exit(0)
+    several.close()
+    os.kill(child, signal.SIGKILL)
+    os.waitpid(child, 0)
+    assert worker.returncode == 0
+
+
 SCRIPT = """
 import sys, time
 import numpy as np

@@ -155,10 +155,13 @@ class RemoteTargets(TargetGroup):
 
 
 def _end(connection: Connection, process: "subprocess.Popen[bytes]", owner: int) -> None:
-    """End a worker; it ends by itself once its connection is closed."""
-    connection.close()
+    """End a worker; it ends by itself once its connection is shut down, also if a fork has it open, too."""
     if os.getpid() != owner:
+        connection.close()
         return
+    with suppress(OSError), socket.socket(fileno=os.dup(connection.fileno())) as same:
+        same.shutdown(socket.SHUT_RDWR)
+    connection.close()
     try:
         process.wait(PATIENCE)
     except subprocess.TimeoutExpired:
