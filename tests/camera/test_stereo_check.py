@@ -98,6 +98,14 @@ def test_rotated_pairs_are_noticed(pairs: list[Pair], degrees: float) -> None:
         assert "not to be rectified" in check.problem
 
 
+def test_negative_disparities_of_unrectified_pairs_are_no_swap(made: list[Pair]) -> None:
+    """It proves that rows come first: of cameras that look inward, such disparities prove no swap."""
+    for left, right in made:
+        check = check_stereo(warped(right, down=3.0), left)
+        assert check.negative_share > 0.95
+        assert "not to be rectified" in check.problem
+
+
 def test_cameras_of_two_focal_lengths_are_noticed(made: list[Pair]) -> None:
     """It proves that a difference in scale shows in the rows, too."""
     for left, right in made[:6]:

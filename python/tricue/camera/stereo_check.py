@@ -39,16 +39,17 @@ class StereoCheck(NamedTuple):
         """A sentence that says what is wrong with the stereo pair; "" if nothing was found."""
         if self.matches < MIN_MATCHES:
             return ""
-        if self.negative_share > MAX_NEGATIVE_SHARE:
-            return (
-                f"left and right seem to be swapped: {self.negative_share:.0%} of {self.matches} matches "
-                "have a negative disparity; give the left camera's image as color, the right one's as right"
-            )
+        # First, as disparities of cameras that look inward are negative before rectification.
         if self.row_error > MAX_ROW_ERROR:
             return (
                 "the stereo pair seems not to be rectified: rows of left and right differ by "
                 f"{self.row_error:.1f} px over the image; rectify raw stereo pairs by their calibration "
                 "(tricue.camera.rectification)"
+            )
+        if self.negative_share > MAX_NEGATIVE_SHARE:
+            return (
+                f"left and right seem to be swapped: {self.negative_share:.0%} of {self.matches} matches "
+                "have a negative disparity; give the left camera's image as color, the right one's as right"
             )
         return ""
 
