@@ -252,6 +252,17 @@ def test_bad_angles_are_named():
         assert head.command(track_at(9, 0), timestamp=seconds).pan_speed > 0
 
 
+@pytest.mark.parametrize("camera", [CAMERA, None], ids=["box", "position"])
+def test_tracks_that_are_not_finite_are_named(camera):
+    """As a third party's may be; the motors get no NaN, neither then nor later."""
+    good, bad = (Track(Box(x, 0, 5, 5), 1.0, TRACKED, np.array([x, 0.0, 2.0])) for x in (0.2, math.nan))
+    heads = PanTilt(camera), PanTilt(camera)
+    with pytest.raises(ValueError, match=r"track: expected a (box|position) of finite numbers"):
+        heads[0].command(bad, timestamp=0.0)
+    first, second = (head.command(good, timestamp=1.0) for head in heads)
+    assert first == second
+
+
 def test_a_timestamp_in_milliseconds_is_told():
     """As a frame tells it, at the line that gave it; it is used, as any clock is right."""
     head = PanTilt(CAMERA)

@@ -4,6 +4,7 @@ section 6: tracks become commands for a pan-tilt head.
 """
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -136,11 +137,11 @@ class PanTilt:
         """Towards the target, in the camera's frame: right, down, forward."""
         camera = self.intrinsics
         if camera is not None:
-            x, y = track.box.center
+            x, y = _finite_numbers(track.box.center, "box")
             return (x - 0.5 - camera.cx) / camera.fx, (y - 0.5 - camera.cy) / camera.fy, 1.0
         if track.position is None:
             raise ValueError("track: expected a position, as there are no intrinsics, got None")
-        x, y, z = track.position.tolist()
+        x, y, z = _finite_numbers(track.position.tolist(), "position")
         return x, y, z
 
     def _measure(self, direction: np.ndarray, interval: float) -> None:
@@ -190,6 +191,12 @@ class PanTilt:
 def _wrapped(angle: np.ndarray) -> np.ndarray:
     """Angles in [-pi, pi)."""
     return np.asarray((angle + math.pi) % (2 * math.pi) - math.pi)
+
+
+def _finite_numbers(values: Sequence[float], name: str) -> Sequence[float]:
+    if not all(map(math.isfinite, values)):  # of a third party's track
+        raise ValueError(f"track: expected a {name} of finite numbers, got {values}")
+    return values
 
 
 def _share(value: float, name: str) -> float:
