@@ -179,6 +179,25 @@ def test_ctrl_c_leaves_all(things, alone, started):
         assert on(several, things.frames[3:]) == alone(KINDS)[2:]
 
 
+class InterruptingTracks(dict[int, Track]):
+    """Tracks of which each raises KeyboardInterrupt."""
+
+    def __getitem__(self, target: int) -> Track:
+        raise KeyboardInterrupt
+
+
+@each_workers
+def test_ctrl_c_after_the_last_target_leaves_all(workers, things, alone, started, monkeypatch):
+    """It comes when all were followed, and their tracks aren't kept yet."""
+    with started(FUSED, workers=workers) as several:
+        update = several._targets.update
+        with monkeypatch.context() as patched:
+            patched.setattr(several._targets, "update", lambda *frame: InterruptingTracks(update(*frame)))
+            with pytest.raises(KeyboardInterrupt):
+                several.update(things.frames[5])
+        assert on(several, things.frames[1:]) == alone(FUSED)
+
+
 @each_workers
 def test_a_warning_as_an_error_leaves_all(workers, things, alone, started):
     """With warnings turned into errors an update fails as a whole, each time, and a start as well."""

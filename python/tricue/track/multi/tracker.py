@@ -138,10 +138,11 @@ class MultiTracker:
             try:
                 found = self._targets.update(self._updates, shared)
                 self._warn(shared)
+                tracks = {target: found[target] for target in self._tracks}
             except BaseException:
                 self._targets.undo(self._updates)
                 raise
-            before, self._tracks = self._tracks, {target: found[target] for target in self._tracks}
+            before, self._tracks = self._tracks, tracks  # calls nothing that Ctrl-C could interrupt
             found = self.tracks
         self._tell_of(
             {target: track for target, track in found.items() if _has_become_lost(before[target], track)}
