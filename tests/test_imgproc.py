@@ -12,6 +12,7 @@ from tricue import imgproc
 
 RNG = np.random.default_rng(7)
 NOISE = RNG.random((24, 36, 3), np.float32)
+LONG = np.zeros((1, 32767), np.float32)
 PLANE = np.add.outer(3.0 * np.arange(24), 2.0 * np.arange(36)).astype(np.float32)  # 2 column + 3 row
 WARP_STEP = 1 / 64  # pixels: OpenCV before version 5 rounds positions to 1/32 pixel
 
@@ -154,6 +155,8 @@ REFUSED: dict[str, tuple[Callable[[], Any], type[Exception], str]] = {
     "mirrored": (lambda: imgproc.erode(PLANE[:, ::-1], 3), ValueError, "packed pixels"),
     "upside down": (lambda: imgproc.erode(PLANE[::-1], 3), ValueError, "packed pixels"),
     "side": (lambda: imgproc.dilate(PLANE, 0), ValueError, "side: expected 1 or more"),
+    "huge side": (lambda: imgproc.box_blur(PLANE, 2**31 - 1), ValueError, "side: expected at most"),
+    "huge window": (lambda: imgproc.erode(PLANE, 2**31 - 1), ValueError, "side: expected at most"),
     "anchor": (lambda: imgproc.dilate(PLANE, 2, 2), ValueError, "anchor: expected"),
     "size": (lambda: imgproc.resize(PLANE, 0, 5, "area"), ValueError, "height, width: expected"),
     "sigma": (lambda: imgproc.gaussian_blur(PLANE, 0.0), ValueError, "sigma: expected"),
@@ -162,6 +165,13 @@ REFUSED: dict[str, tuple[Callable[[], Any], type[Exception], str]] = {
     "method": (lambda: imgproc.resize(PLANE, 2, 2, "best"), ValueError, "method: expected one of"),  # type: ignore[arg-type]
     "matrix": (lambda: imgproc.warp_perspective(PLANE, np.eye(2), 2, 2), ValueError, "matrix: expected"),
     "maps": (lambda: imgproc.remap(PLANE, PLANE, PLANE[:5]), ValueError, "rows: expected the shape"),
+    "long": (lambda: imgproc.shift(LONG, 0, 0, 1, 5), ValueError, "image: expected at most 32766"),
+    "long warp": (
+        lambda: imgproc.warp_perspective(LONG, np.eye(3), 1, 5),
+        ValueError,
+        "image: expected at most",
+    ),
+    "long maps": (lambda: imgproc.remap(PLANE, LONG, LONG), ValueError, "columns: expected at most 32766"),
     "target": (lambda: imgproc.copy_where(PLANE, PLANE > 0, NOISE), ValueError, "target: expected"),
     "points": (
         lambda: imgproc.fill_polygon(np.zeros((3, 3), np.int32), 4, 4),

@@ -4,6 +4,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <utility>
@@ -15,6 +16,8 @@ namespace tricue::bindings {
 namespace {
 
 constexpr int kMaxChannels = 4;
+constexpr int kMaxWindow = 16384;  // pixels, of a window's side: OpenCV takes it as an image of side² bytes
+constexpr int kMaxWarped = 32766;  // pixels, of the sides of what OpenCV warps
 constexpr const char* kExpected = "a uint8, float32 or float64 image (H, W) or (H, W, C), C from 1 to 4";
 
 /// Shows in signatures as an array of any type: a result has the type of the image.
@@ -104,12 +107,26 @@ cv::Mat matrix(const Array<double>& object, int rows) {
     return cv::Mat(rows, 3, CV_64F, const_cast<double*>(contiguous<double>(array, "matrix"))).clone();
 }
 
-/// A square window; -1 is the anchor in its middle.
-cv::Mat square(int side, int anchor = -1) {
+void require_side(int side) {
     if (side < 1) throw py::value_error("side: expected 1 or more pixels, got " + std::to_string(side));
+    if (side > kMaxWindow)
+        throw py::value_error("side: expected at most " + std::to_string(kMaxWindow) + " pixels, got " +
+                              std::to_string(side));
+}
+
+/// A square window; -1 is the anchor in its middle.
+cv::Mat square(int side, int anchor) {
+    require_side(side);
     if (anchor < -1 || anchor >= side)
         throw py::value_error("anchor: expected a pixel of the square, got " + std::to_string(anchor));
     return cv::Mat::ones(side, side, CV_8U);
+}
+
+void require_warped(const py::array& array, const char* name) {
+    const cv::Mat seen = view(array, name);
+    if (std::max(seen.rows, seen.cols) > kMaxWarped)
+        throw py::value_error(std::string(name) + ": expected at most " + std::to_string(kMaxWarped) +
+                              " rows and columns, got " + describe(array));
 }
 
 py::array resize(const Image& image, int height, int width, const std::string& method) {
@@ -127,7 +144,7 @@ py::array gaussian_blur(const Image& image, double sigma, const std::string& bor
 }
 
 py::array box_blur(const Image& image, int side) {
-    square(side);
+    require_side(side);
     return filled(image, [&](const cv::Mat& source, cv::Mat& target) {
         cv::blur(source, target, cv::Size(side, side));
     });
@@ -151,12 +168,14 @@ py::array shift(const Image& image, double x, double y, int height, int width, c
                 const std::string& border, double value) {
     const cv::Mat moved = (cv::Mat_<double>(2, 3) << 1, 0, x, 0, 1, y);
     const int flag = method_of(method), edge = border_of(border);
+    require_warped(image, "image");
     return filled(image, height, width, [&](const cv::Mat& source, cv::Mat& target) {
         cv::warpAffine(source, target, moved, target.size(), flag, edge, cv::Scalar::all(value));
     });
 }
 
 py::array warp_perspective(const Image& image, const Array<double>& homography, int height, int width) {
+    require_warped(image, "image");
     return filled(image, height, width,
                   [map = matrix(homography, 3)](const cv::Mat& source, cv::Mat& target) {
                       cv::warpPerspective(source, target, map, target.size());
@@ -169,6 +188,8 @@ py::array remap(const Image& image, const Array<float>& columns, const Array<flo
     const auto y = require<float>(rows, "rows", 2, "float32 (h, w)");
     if (x.shape(0) != y.shape(0) || x.shape(1) != y.shape(1))
         throw py::value_error("rows: expected the shape of columns, got " + describe(y));
+    require_warped(image, "image");
+    require_warped(x, "columns");
     const cv::Mat across = view(x, "columns"), down = view(y, "rows");
     return filled(image, across.rows, across.cols,
                   [&, edge = border_of(border)](const cv::Mat& source, cv::Mat& target) {
