@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/check.hpp"
 #include "cues/color/hog_color_cells.hpp"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double kMaxOffset = 0.5;    // cells; a peak farther off would be in the next cell
 constexpr double kLeastShare = 0.05;  // of the maximum: lower bound for logarithms
+constexpr double kMaxPenalty = std::numeric_limits<float>::max();  // infinity times 0 columns isn't a number
 
 /// `row` has the columns from -most to most off the middle.
 double peak_offset(const float* row, int column, int most) {
@@ -26,7 +28,7 @@ double peak_offset(const float* row, int column, int most) {
 
 Shift find_shift(const Floats& response, const ShiftRange& range) {
     const Eigen::Index middle = response.cols() / 2;
-    const auto penalty = static_cast<float>(range.penalty);
+    const auto penalty = static_cast<float>(std::clamp(range.penalty, -kMaxPenalty, kMaxPenalty));
     const float* best_row = nullptr;
     int best = 0;
     float most = 0.0F;

@@ -79,6 +79,14 @@ def test_range_and_penalty(kernels: Kernels) -> None:
     assert abs(kernels.log_polar_shift(moved, PLACES, TAPER, own, 2, 1, 10.0)[0]) <= 0.5
 
 
+def test_a_penalty_that_is_infinite_in_float32_keeps_the_middle(kernels: Kernels) -> None:
+    """It excludes all columns but the middle one, whose penalty is 0."""
+    patch = noise(4)
+    moved, own = np.roll(patch, 2, axis=1), filter_for(patch)
+    found = kernels.log_polar_shift(moved, PLACES, TAPER, own, 2, 1, 1e39)
+    assert found == kernels.log_polar_shift(moved, PLACES, TAPER, own, 2, 1, 1e30)
+
+
 @pytest.mark.parametrize(
     ("index", "value", "message"),
     [

@@ -14,6 +14,7 @@ from tricue.reference.fuse.correlation_response import correlation_response
 
 MAX_OFFSET = 0.5  # cells; a peak farther off would be in the next cell
 MIN_SHARE = 0.05  # of the maximum: lower bound of a neighbor before its logarithm is taken
+MAX_PENALTY = float(np.finfo(np.float32).max)  # infinity times 0 columns isn't a number
 
 
 def log_polar_shift(
@@ -36,7 +37,8 @@ def log_polar_shift(
     row, column = len(response) // 2, response.shape[1] // 2
     near = response[row - most_down : row + most_down + 1, column - most_right : column + most_right + 1]
     squares = np.arange(-most_right, most_right + 1, dtype=np.float32) ** 2
-    evidence = near - np.float32(penalty) * squares
+    with np.errstate(over="ignore"):
+        evidence = near - np.float32(np.clip(penalty, -MAX_PENALTY, MAX_PENALTY)) * squares
     row, column = divmod(int(evidence.argmax()), near.shape[1])
     return column - most_right + gaussian_peak_offset(near[row], column), float(near[row, column])
 
