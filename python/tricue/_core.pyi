@@ -1328,7 +1328,7 @@ def gradient_flow(
     edge pixels, so flow near the edge is less exact.
 
     Args:
-        previous: uint8 (H, W), gray, at least one pixel
+        previous: uint8 (H, W), gray, sides of 1 to 16384 pixels
         current: uint8 (H, W), gray, of the same size
         sigma: of the Gaussian, pixels, 0.5 to 16
         min_angle: smallest angle of valid flow, in [0, 1]
@@ -1344,7 +1344,7 @@ def gradient_flow(
         contrast: float32 (h, w): equation (6), (gray levels / pixel²)²
 
     Raises:
-        ValueError: on frames without pixels or of different sizes, or numbers out of range
+        ValueError: on frames without pixels, too large or of different sizes, or numbers out of range
 
     Source: Okada, Shirai, Miura 1996, section 2.
     """
@@ -2267,7 +2267,7 @@ def pyramid_flow(
     region is computed; beyond it the flow at its edge is repeated.
 
     Args:
-        previous: uint8 (H, W), gray, at least one pixel
+        previous: uint8 (H, W), gray, sides of 1 to 16384 pixels
         current: uint8 (H, W), gray, of the same size
         sigma: of the filters' Gaussian, pixels of each level, 0.5 to 16
         levels: levels of the pyramid, 2 to 8, each half as large as the one before
@@ -2286,7 +2286,7 @@ def pyramid_flow(
         contrast: float32 (h, w): mean of (6) over the window, (gray levels / pixel²)²
 
     Raises:
-        ValueError: on frames without pixels or of different sizes, or numbers out of range
+        ValueError: on frames without pixels, too large or of different sizes, or numbers out of range
 
     Source: Okada, Shirai, Miura 1996, section 2; pooling and warping as in Lucas, Kanade 1981 and
     Bouguet 2000.
@@ -2850,7 +2850,7 @@ def sample_ellipses(
     x + minor u, rounded twice.
 
     Args:
-        image: uint8 (H, W, 3) BGR, at least one pixel
+        image: uint8 (H, W, 3) BGR, at least one pixel, 2 GB at most
         ellipses: float64 (N, 4): center x, y, semi-axes along x (minor) and y (major), pixels, finite
         pattern: float64 (n, 2): (u, v) in semi-axes, (0, 0) the center, u² + v² = 1 the outline; finite
 

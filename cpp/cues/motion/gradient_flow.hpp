@@ -22,7 +22,7 @@ namespace tricue {
 /// sigma: half of the wavelength that the filters' gradients pass best, beyond which the direction is ambiguous. Filters are cut
 /// off at 3.5 sigma; frames are extended by their edge pixels, so flow near the edge is less exact.
 ///
-/// @param previous uint8 (H, W), gray, at least one pixel
+/// @param previous uint8 (H, W), gray, sides of 1 to 16384 pixels
 /// @param current uint8 (H, W), gray, of the same size
 /// @param sigma of the Gaussian, pixels, 0.5 to 16
 /// @param min_angle smallest angle of valid flow, in [0, 1]
@@ -33,7 +33,7 @@ namespace tricue {
 /// @returns angle float32 (h, w): equation (5), |sin| of the angle between the two constraints' lines in the u-v plane, in
 ///     [0, 1]; 0 where |G|² or |H|² is below 1e-6, which is rounding
 /// @returns contrast float32 (h, w): equation (6), (gray levels / pixel²)²
-/// @throws std::invalid_argument on frames without pixels or of different sizes, or numbers out of range
+/// @throws std::invalid_argument on frames without pixels, too large or of different sizes, or numbers out of range
 /// Source: Okada, Shirai, Miura 1996, section 2.
 FlowPlanes gradient_flow(const ImageView& previous, const ImageView& current, double sigma,
                          const FlowMinima& minima, const std::optional<Region>& region = {});

@@ -26,7 +26,7 @@ struct FlowPyramid {
 /// than max_step: there the coarser levels were wrong. At every level only the region is computed; beyond it the flow at its edge
 /// is repeated.
 ///
-/// @param previous uint8 (H, W), gray, at least one pixel
+/// @param previous uint8 (H, W), gray, sides of 1 to 16384 pixels
 /// @param current uint8 (H, W), gray, of the same size
 /// @param sigma of the filters' Gaussian, pixels of each level, 0.5 to 16
 /// @param min_angle smallest angle of valid flow, in [0, 1]
@@ -37,7 +37,7 @@ struct FlowPyramid {
 /// @returns angle float32 (h, w): 2 sqrt(det) / trace of the normal equations, in [0, 1]; (5) for one pixel with constraints of
 ///     equal strength
 /// @returns contrast float32 (h, w): mean of (6) over the window, (gray levels / pixel²)²
-/// @throws std::invalid_argument on frames without pixels or of different sizes, or numbers out of range
+/// @throws std::invalid_argument on frames without pixels, too large or of different sizes, or numbers out of range
 /// Source: Okada, Shirai, Miura 1996, section 2; pooling and warping as in Lucas, Kanade 1981 and Bouguet 2000.
 FlowPlanes pyramid_flow(const ImageView& previous, const ImageView& current, double sigma,
                         const FlowPyramid& pyramid, const FlowMinima& minima,
