@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from tricue import Box, Frame, Status, Track
 from tricue.cli.outputs import CsvOutput, JsonOutput, Step, VideoOutput
 from tricue.draw.canvas import STATUS_COLORS
+from tricue.draw.status_strip import AHEAD
 from tricue.export.table import COLUMNS
 
 IMAGE = np.zeros((8, 8, 3), np.uint8)
@@ -129,6 +130,19 @@ def test_shades_change_slowly(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
     assert 0 < np.abs(second - first).max() < 40
     assert black.tolist() == [0, 0, 0]
     assert np.abs(last - first).max() < 40
+
+
+def test_strips_show_when_a_target_started(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that the strip of a target that started later is dark up to there."""
+    frame, track = Frame(np.full((480, 480, 3), 255, np.uint8)), Track(Box(9, 9, 50, 60), 0.5, Status.TRACKED)
+    steps = [
+        Step(2, frame, track, 0.1, tracks={1: track}),
+        Step(3, frame, track, 0.1, tracks={1: track, 2: track}),
+    ]
+    _, last = pictures(VideoOutput(tmp_path / "o.mp4", 5.0, length=4, first=1), steps, monkeypatch)
+    tracked = STATUS_COLORS[Status.TRACKED]
+    assert [tuple(last[-1, x].tolist()) for x in range(60, 480, 120)] == [AHEAD, tracked, tracked, AHEAD]
+    assert [tuple(last[-9, x].tolist()) for x in range(60, 480, 120)] == [AHEAD, AHEAD, tracked, AHEAD]
 
 
 def test_the_overlay_has_the_frames_times(tmp_path: Path) -> None:

@@ -168,8 +168,8 @@ class VideoOutput:
 
     rig: the stereo rig, if the tracker knows it; then the disparity is shown, or the target's mask if the
     tracker has one. assumed: whether its camera is only assumed, which each picture then says. length: the
-    number of frames to come; a strip for each target shows when it was tracked, occluded and lost. trail:
-    seconds over which the targets' paths are drawn, None for no paths.
+    number of frames from the frame ``first`` on; a strip for each target shows when it was tracked, occluded
+    and lost. trail: seconds over which the targets' paths are drawn, None for no paths.
     """
 
     def __init__(
@@ -180,9 +180,10 @@ class VideoOutput:
         assumed: bool = False,
         length: int | None = None,
         trail: float | None = None,
+        first: int = 0,
     ) -> None:
         self._fps, self._trail, self._trails = fps, trail, dict[int, Trail]()
-        self._length, self._strips = length, dict[int, StatusStrip]()
+        self._first, self._length, self._strips = first, length, dict[int, StatusStrip]()
         self._assumed = "   assumed camera" if assumed else ""
         self._writer = OverlayWriter(path, fps)
         self._rig = rig
@@ -203,7 +204,7 @@ class VideoOutput:
         if self._trail is not None:
             self._draw_trails(picture, step, self._trail)
         for line, (target, track) in enumerate(step.targets.items()):
-            strip = self._strips.setdefault(target, StatusStrip(self._length))
+            strip = self._strips.setdefault(target, StatusStrip(self._length, step.number - self._first))
             strip.add(track.status)
             strip.draw(picture, line)
         self._writer.write(picture, step.time(self._fps))

@@ -94,7 +94,9 @@ def _with_start_hint(found: Iterator[Step], run: TrackRun, clock: RunClock) -> I
 def _outputs(options: argparse.Namespace, run: TrackRun) -> Iterator[Output]:
     """Open the outputs one at a time, so that the first is closed if the second can't be opened."""
     if options.output:
-        yield VideoOutput(options.output, run.source.fps, run.rig, run.assumed, run.frames, options.trail)
+        yield VideoOutput(
+            options.output, run.source.fps, run.rig, run.assumed, run.frames, options.trail, run.first
+        )
     world = run.intrinsics is not None and run.intrinsics.pose is not None
     form = TableForm(world, run.targets is not None, run.assumed)
     if options.csv:

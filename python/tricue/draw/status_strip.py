@@ -9,7 +9,7 @@ from tricue.track.base.track import Status
 
 MIN_HEIGHT = 6  # pixels
 SHARE = 80  # the image's height over the strip's
-AHEAD = (40, 40, 40)  # BGR of frames still to come
+AHEAD = (40, 40, 40)  # BGR of frames still to come, or before the target's start
 
 _CODES = {status: code for code, status in enumerate(Status, 1)}
 _PALETTE = np.array([AHEAD, *(STATUS_COLORS[status] for status in Status)], np.uint8)
@@ -18,12 +18,13 @@ _PALETTE = np.array([AHEAD, *(STATUS_COLORS[status] for status in Status)], np.u
 class StatusStrip:
     """The statuses of a target, frame by frame, drawn as one strip.
 
-    length: the number of frames to come; None if unknown, the strip is then always full.
+    length: the number of frames in all; None if unknown, the strip is then always full. before: how many of
+    them lie before the target's start.
     """
 
-    def __init__(self, length: int | None = None) -> None:
+    def __init__(self, length: int | None = None, before: int = 0) -> None:
         self._length = length or 0
-        self._codes = bytearray()
+        self._codes = bytearray(before)
 
     def add(self, status: Status) -> None:
         """Add the status in the next frame."""
