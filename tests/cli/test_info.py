@@ -152,6 +152,19 @@ def test_a_video_is_counted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
     assert found[-1] == f"  note         true boxes found: {tmp_path / 'clip.csv'}"
 
 
+def test_a_pair_lasts_as_long_as_its_shorter_video(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that a left video with more frames than the right one changes neither duration nor rate."""
+    left, right = tmp_path / "left.avi", tmp_path / "right.avi"
+    for path, count in ((left, 5), (right, 4)):
+        writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), 10.0, (64, 48))
+        for _ in range(count):
+            writer.write(np.zeros((48, 64, 3), np.uint8))
+        writer.release()
+    assert lines(capsys, left, "--right", right)[1] == "  frames       4, 10 a second, 0.30 s"
+
+
 def test_assumed_times(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """It proves that a frame rate that nobody told is said to be assumed."""
     folder = color(tmp_path / "i", 3)

@@ -28,11 +28,11 @@ def count_frames(stream: Stream) -> int:
 
 
 def compute_duration(source: Source, frames: int) -> float:
-    """Seconds from the first frame to the last."""
+    """Seconds from the first frame to the last, of so many."""
     clock = source.clock
     times = clock.times if source.rate is None and isinstance(clock, Images | Video) else None
-    if times and not steps_back(times):
-        return times[-1] - times[0]
+    if times and frames and not steps_back(times):
+        return times[frames - 1] - times[0]
     return max(0, frames - 1) / source.fps
 
 
