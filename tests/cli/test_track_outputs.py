@@ -55,7 +55,7 @@ def out(folder: Path) -> list[str]:
 NEVER_STARTED = [
     (["--box", "5000,16,16,16"], "box: expected a part inside the image"),
     (["--box", BOX, "--start", "100"], "frame 100: expected a frame to start in"),
-    (["--box", f"100:{BOX}"], "frame 100: expected a frame to start in"),
+    (["--box", f"100:{BOX}"], "frame 100: expected a frame to start in; v ends before it"),
     (["--tracker", "stereo-head", "--box", BOX], "frame: expected the channel right"),
     (["--box", BOX, "--plot", "{}/in/v.avi/p.png"], "Not a directory"),
 ]

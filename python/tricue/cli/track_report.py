@@ -62,8 +62,8 @@ def not_started(run: TrackRun, clock: RunClock) -> str:
     """Why no frame was tracked, and what to do."""
     if run.first and not clock.decoded:
         length = run.source.length
-        has = "" if length is None else f"; {run.source.name} has {length}"
-        return f"frame {run.first}: expected a frame to start in{has}"
+        has = "ends before it" if length is None else f"has {length}"
+        return f"frame {run.first}: expected a frame to start in; {run.source.name} {has}"
     if clock.not_found_reason:
         reason = f"the tracker started in none of {_frames(clock.decoded)}: {clock.not_found_reason}"
     else:
