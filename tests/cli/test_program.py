@@ -137,6 +137,10 @@ BAD = [
         "tricue reproduce: experiment: expected one of .*sabeti-fig1.*, got 'sabeti-fig9'",
     ),
     (["reproduce", "sabeti-fig1", "--seeds", "0"], "tricue reproduce: seeds, jobs: expected 1 or more"),
+    (
+        ["track", "{walk}", "--tracker", "fused", "--unit", "0.1"],
+        "tricue track: --unit: expected with a stereo pair",
+    ),
     (["demo", "magic"], "tricue demo: argument tracker: expected one of .*, got 'magic'"),
     (["fly"], "tricue: argument COMMAND: invalid choice: 'fly'"),
     ([], "tricue: the following arguments are required: COMMAND"),

@@ -71,7 +71,8 @@ def find_calibration(options: Namespace, source: Source) -> Calibration:
         return _find_stereo(options, source)
     for option, value in (("--rectify", options.rectify), ("--unit", options.unit is not None)):
         if value:
-            raise ValueError(f"{option}: expected with a tracker that takes a stereo pair; leave it out")
+            missing = "a stereo pair" if "rig" in cameras else "a tracker that takes a stereo pair"
+            raise ValueError(f"{option}: expected with {missing}; leave it out")
     given = "--calibration" if options.calibration else "--fov" if options.fov else ""
     if "intrinsics" not in cameras:
         if given:
