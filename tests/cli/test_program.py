@@ -119,6 +119,10 @@ BAD = [
         ["track", "{walk}", "--box", "1,2,-3,4"],
         "tricue track: argument --box: expected width and height above 0",
     ),
+    (
+        ["track", "{walk}", "--box", "-5,2,3,4"],
+        "tricue track: argument --box: expected one argument; one that begins with a minus needs --box=",
+    ),
     (["track", "{walk}", "--box", "1,2,nan,4"], "tricue track: argument --box: expected finite numbers"),
     (
         ["track", "{walk}", "--box", "1,2,3,4", "--detect", "face"],

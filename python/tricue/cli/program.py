@@ -50,6 +50,8 @@ class Parser(argparse.ArgumentParser):
         return options, unknown
 
     def error(self, message: str) -> NoReturn:
+        if found := re.fullmatch(r"argument (--[a-z-]+): expected one argument", message):
+            message += f"; one that begins with a minus needs {found[1]}="
         self.exit(USAGE, f"{self.prog}: {message}; see {self.prog} --help\n")
 
 
