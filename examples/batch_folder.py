@@ -43,7 +43,11 @@ def track_video(video: Path, box: list[float] | None, target: Path) -> dict[str,
 
 def plan(folder: Path, boxes: dict[str, list[float]], output: Path) -> dict[Path, Path]:
     """The CSV of each video. ValueError if one would overwrite another, or lie beside its video."""
-    videos = sorted(path for path in folder.iterdir() if path.suffix.lower() in SUFFIXES)
+    videos = sorted(
+        path
+        for path in folder.iterdir()
+        if path.suffix.lower() in SUFFIXES and not path.name.startswith(".")  # macOS leaves such beside files
+    )
     if not videos:
         raise ValueError(f"{folder}: no videos ({', '.join(sorted(SUFFIXES))})")
     if strays := sorted(boxes.keys() - {video.name for video in videos}):

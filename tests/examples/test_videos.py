@@ -111,6 +111,7 @@ def test_an_overlay_over_its_video(
         (["a.avi", "a.mp4"], "", "tracks", "a.avi and a.mp4 would have the same CSV"),
         (["a.avi"], "", "videos", "--output: expected another folder"),
         ([], "", "tracks", "videos: no videos"),
+        (["._a.mp4"], "", "tracks", "videos: no videos"),
     ],
 )
 def test_a_folder_that_would_give_wrong_tables(
