@@ -32,7 +32,7 @@ CASES: Mapping[str, DemoCase] = {
     "color alone": (_rgbd, ("color",)),
     "depth alone": (_rgbd, ("depth",)),
     "color and depth": (_rgbd, ("color", "depth")),
-    "a pair": (partial(stress_scene, "all", channels="stereo"), ("color", "right")),
+    "a stereo pair": (partial(stress_scene, "all", channels="stereo"), ("color", "right")),
 }
 
 
