@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 import shutil
 
+import cv2
 import numpy as np
 import pytest
 from hypothesis import given
@@ -175,3 +176,22 @@ def test_the_noisy_box_is_where_the_tracker_starts(evaluated):
     )
     true = Box(*noisy.truth[0].tolist())
     assert tuple(noisy.boxes[5]) == pytest.approx(tuple(jittered(true, "there", 1)))
+
+
+def test_true_boxes_after_the_end_of_a_video_are_ignored(tmp_path, patrol):
+    """Orders cover the frames that a video has, as they do for images, so that no run asks for another."""
+    frames, boxes = patrol
+    (tmp_path / "clip").mkdir()
+    size = frames[0].color.shape[1::-1]
+    writer = cv2.VideoWriter(str(tmp_path / "clip" / "clip.avi"), cv2.VideoWriter.fourcc(*"MJPG"), 25, size)
+    for frame in frames:
+        writer.write(frame.color)
+    writer.release()
+    rows = [*boxes, *boxes[-3:]]
+    text = "".join(f"{','.join(map(str, box))}\n" for box in rows)
+    (tmp_path / "clip" / "groundtruth.txt").write_text(text)
+    opened = Entry("clip", tmp_path / "clip").open()
+    assert Order(backward=True).seen(opened).tolist() == list(range(len(frames)))[::-1]
+    evaluation = evaluate(tmp_path, tmp_path / "out", Options(("still-box",), protocols=ALL))
+    assert not evaluation.failed
+    assert max(each.row.frames for each in evaluation.results) == len(frames)

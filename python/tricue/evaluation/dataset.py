@@ -8,7 +8,7 @@ import hashlib
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +24,8 @@ from tricue.data.layouts import list_targets
 from tricue.data.open_source import Source, open_source
 from tricue.data.otb import find_range
 from tricue.data.recordings.recording import is_recording
-from tricue.data.streams import Images
+from tricue.data.streams import Images, Video
+from tricue.data.summary import count_frames
 
 FORMAT_RATES = {"KITTI tracking": 10.0}
 """Frame rates (frames/s) of formats whose files don't contain them (Geiger et al. 2013)."""
@@ -139,6 +140,18 @@ class OpenedSequence:
     def size(self) -> tuple[int, int]:
         """Width and height of the images in whose pixels the boxes are."""
         return self.source.channels[self.channel].size
+
+    @cached_property
+    def frames(self) -> int:
+        """The number of frames; those of a video are counted, once in a process."""
+        if self.source.length is not None:
+            return self.source.length
+        return min(
+            _count_video(each.path, each.path.stat().st_mtime_ns)
+            if isinstance(each, Video)
+            else count_frames(each)
+            for each in self.source.channels.values()
+        )
 
     @property
     def intrinsics(self) -> Intrinsics | None:
@@ -314,6 +327,11 @@ def _depth_scale_of(entry: Entry, scale: float | None) -> float | None:
     if "depth" in source.channels:
         return scale if is_recording(entry.place) else None
     return scale if any("depth" in note for note in source.notes) else None
+
+
+@lru_cache(maxsize=1000)
+def _count_video(path: Path, modified: int) -> int:  # modified: a changed video is counted again
+    return Video(path).count()
 
 
 def _fit_to_frames(values: NDArray, frames: int, filler: float | bool) -> NDArray:  # type: ignore[type-arg]

@@ -78,7 +78,7 @@ class Order(NamedTuple):
         """The same for a sequence's labeled frames, starting with the first true box; empty if fewer than two
         are left.
         """
-        boxes = opened.boxes[: opened.source.length]
+        boxes = opened.boxes[: opened.frames]
         numbers = self.numbers(len(boxes))
         known = np.flatnonzero(~np.isnan(boxes[numbers]).any(axis=1))
         kept = numbers[known[0] :] if known.size else numbers[:0]
