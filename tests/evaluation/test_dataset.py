@@ -106,6 +106,15 @@ def test_a_digest_is_of_the_images_not_of_their_place(tmp_path):
     assert Entry("walk", tmp_path / "here").open().digest != first
 
 
+def test_a_digest_is_of_the_times(tmp_path):
+    """A list that gives the same images another frame rate gives trackers other times."""
+    entry = Entry("walk", write_rgbd(tmp_path / "walk"))
+    first, listed = entry.open().digest, tmp_path / "walk" / "sequence"
+    listed.write_text(f"{listed.read_text().rstrip()}\nfps=5\n")
+    assert entry.open().source.fps == 5
+    assert entry.open().digest != first
+
+
 def test_a_key_that_is_no_cameras_tells_of_no_other_camera(tmp_path):
     """The unit of depth, in its table alone, or a size that one table leaves out, makes no two cameras."""
     camera = "fx = 40.0\nfy = 40.0\ncx = 24.0\ncy = 18.0\n"

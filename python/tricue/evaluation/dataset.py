@@ -230,14 +230,17 @@ class OpenedSequence:
 
     @property
     def digest(self) -> str:
-        """A hash of what a run depends on: the truth and the images' names and sizes, not their folder."""
-        found = hashlib.sha256(repr((self.entry.name, self.entry.reading, self.entry.target)).encode())
+        """A hash of what a run depends on: truth, the images' names, sizes and times, not their folder."""
+        known = self.entry.name, self.entry.reading, self.entry.target, self.clipped, self.source.rate
+        found = hashlib.sha256(repr(known).encode())
         for values in (self.source.truth, self.source.absent, self.source.positions):
             found.update(b"" if values is None else np.ascontiguousarray(values).tobytes())
         for name, stream in self.source.channels.items():
             found.update(
                 repr((name, [(path.name, path.stat().st_size) for path in stream_files(stream)])).encode()
             )
+            if isinstance(stream, Images):  # their times are in other files; a video's are in its own
+                found.update(repr((stream.rate, stream.times)).encode())
         for path in (self.source.calibration, self.entry.place / STEREO_CALIBRATION):
             if path is not None and path.is_file():
                 found.update(path.read_bytes())
