@@ -5,6 +5,7 @@ import dataclasses
 import re
 import shutil
 import subprocess
+from unittest import mock
 
 import cv2
 import pytest
@@ -82,6 +83,21 @@ def test_each_figure_is_a_file_of_a_columns_width(evaluation, tmp_path, format_)
             assert b"/Type3" not in content
     again = figures.write_figures(evaluation, tmp_path / "two", [format_])
     assert [path.read_bytes() for path in again] == [path.read_bytes() for path in written]
+
+
+def test_attributes_count_sequences_not_a_trackers_results(folders, tmp_path):
+    """Results for only one sequence don't change how many sequences have an attribute."""
+    (tmp_path / "theirs").mkdir()
+    truth = folders / "there" / "groundtruth_rect.txt"
+    shutil.copy(truth, tmp_path / "theirs" / "there.txt")
+    options = Options(("still-box",), results=(f"theirs={tmp_path / 'theirs'}",), restarts=False)
+    found = evaluate(folders, tmp_path, options)
+    found = dataclasses.replace(found, attributes=measure_all(found.opened, tmp_path))
+    text = latex.write_latex(found, tmp_path / "table.tex").read_text()
+    assert re.search(r"^light change & 1 & ", text, re.MULTILINE)
+    with mock.patch("matplotlib.axes.Axes.set_yticks") as ticks:
+        figures.write_figures(found, tmp_path / "figures", ["svg"])
+    assert "light change (1)" in ticks.call_args.args[1]
 
 
 def test_an_unknown_format_is_told():

@@ -11,7 +11,7 @@ from typing import Any
 
 from tricue.evaluation import tables
 from tricue.evaluation.attributes.definitions import BY_KEY
-from tricue.evaluation.attributes.results import tracker_lines
+from tricue.evaluation.attributes.results import sequences_with, tracker_lines
 from tricue.evaluation.differences import comparison
 from tricue.evaluation.evaluate import Evaluation
 from tricue.evaluation.report.plot_styles import LineStyle, line_styles
@@ -80,7 +80,8 @@ def write_figures(evaluation: Evaluation, folder: Path, formats: Sequence[str]) 
             attributes = list(dict.fromkeys(line["attribute"] for line in rows))
             shown = _best(group)
             size = WIDTH, 0.6 + 0.26 * len(attributes) + _LEGEND_LINE * math.ceil(len(shown) / 2)
-            draw = _by_attribute(rows, attributes, shown, styles)
+            counts = {each: len(sequences_with(evaluation, name, each)) for each in attributes}
+            draw = _by_attribute(rows, counts, shown, styles)
             written += _save(folder / f"{name}-attributes", formats, size, draw)
     return written
 
@@ -185,16 +186,16 @@ def _best(group: Group) -> list[str]:
 
 def _by_attribute(
     rows: Sequence[dict[str, Any]],
-    attributes: Sequence[str],
+    counts: Mapping[str, int],
     trackers: Sequence[str],
     styles: Mapping[str, LineStyle],
 ) -> Callable[[Any], None]:
-    """AUC with intervals, a line of points per attribute."""
+    """AUC with intervals, a line of points per attribute. counts: of the sequences that have it."""
     found = {(line["attribute"], line["tracker"]): line for line in rows}
 
     def draw(axes: Any) -> None:
         step = 0.7 / max(1, len(trackers))
-        for row, attribute in enumerate(attributes):
+        for row, attribute in enumerate(counts):
             for index, tracker in enumerate(trackers):
                 line = found.get((attribute, tracker))
                 if line is None or math.isnan(line["auc"]):
@@ -204,10 +205,9 @@ def _by_attribute(
                 if not math.isnan(line["low"]):
                     axes.plot([line["low"], line["high"]], [y, y], color=color, linewidth=0.8)
                 axes.plot(line["auc"], y, "o", color=color, markersize=2.5)
-        counts = {line["attribute"]: line["sequences"] for line in rows}
-        names = [f"{BY_KEY[each].title} ({counts[each]})" for each in attributes]
-        axes.set_yticks(range(len(attributes)), names)
-        axes.set(xlim=(0, 1), ylim=(len(attributes) - 0.5, -0.5), xlabel="AUC")
+        names = [f"{BY_KEY[each].title} ({count})" for each, count in counts.items()]
+        axes.set_yticks(range(len(counts)), names)
+        axes.set(xlim=(0, 1), ylim=(len(counts) - 0.5, -0.5), xlabel="AUC")
         _legend(axes, [styles[name] for name in trackers], trackers, "o")
 
     return draw

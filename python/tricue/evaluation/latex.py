@@ -8,7 +8,7 @@ from typing import Any
 
 from tricue.evaluation import tables
 from tricue.evaluation.attributes.definitions import BY_KEY
-from tricue.evaluation.attributes.results import tracker_lines
+from tricue.evaluation.attributes.results import sequences_with, tracker_lines
 from tricue.evaluation.differences import BETTER, comparison, protocols_of
 from tricue.evaluation.evaluate import Evaluation
 from tricue.evaluation.markdown import unmarked
@@ -96,11 +96,11 @@ def _by_attribute(evaluation: Evaluation, group: str, lines: Sequence[dict[str, 
     found = {(line["attribute"], line["tracker"]): line for line in lines}
     attributes = dict.fromkeys(line["attribute"] for line in lines)
     trackers = dict.fromkeys(line["tracker"] for line in lines)
-    counts = {line["attribute"]: line["sequences"] for line in lines}
     rows = []
     for each in attributes:
         cells = [found.get((each, tracker), {}).get("auc", math.nan) for tracker in trackers]
-        rows.append([escape(BY_KEY[each].title), str(counts[each]), *map(_number, cells)])
+        count = len(sequences_with(evaluation, group, each))
+        rows.append([escape(BY_KEY[each].title), str(count), *map(_number, cells)])
     caption = f"AUC on the sequences with an attribute, by tracker. {_caption(evaluation, group)}"
     return _table(["Attribute", "sequences", *map(escape, trackers)], rows, caption, f"{group}-attributes")
 
