@@ -95,6 +95,19 @@ def test_the_rate_is_that_of_the_file(tmp_path):
     assert measure(slow).has("low_rate")
 
 
+def test_boxes_after_the_end_of_a_video_show_nothing(tmp_path):
+    """A jump in rows that no frame belongs to is no attribute, as with images."""
+    writer = cv2.VideoWriter(str(tmp_path / "clip.avi"), cv2.VideoWriter.fourcc(*"MJPG"), 25, SIZE)
+    for _ in range(3):
+        writer.write(scene().color)
+    writer.release()
+    (tmp_path / "groundtruth.txt").write_text("60,50,24,24\n" * 3 + "10,10,90,90\n")
+    found = measure(Entry("clip", tmp_path).open())
+    assert found.known("fast") == 2
+    assert not found.has("fast")
+    assert not found.has("scale")
+
+
 def test_blur_is_told_from_light_and_contrast():
     """A frame that is smeared is blurred; one that is only darker isn't."""
     clear = [scene() for _ in range(30)]

@@ -56,7 +56,7 @@ class SequenceAttributes:
 
 def measure(opened: OpenedSequence) -> SequenceAttributes:
     """Read the whole sequence once. ValueError or OSError if that can't be done."""
-    boxes = opened.boxes[: opened.source.length]
+    boxes = opened.boxes[: opened.frames]
     depth = opened.channel == "depth" or ("depth" in opened.channels and opened.registered)
     color = opened.channel == "color"
     found = truth_values(opened)

@@ -9,7 +9,7 @@ from tricue.evaluation.dataset import OpenedSequence
 
 def truth_values(opened: OpenedSequence) -> dict[str, Floats]:
     """Values (M,) by attribute key; NaN without a true box, or where unknown."""
-    boxes = opened.boxes[: opened.source.length]
+    boxes = opened.boxes[: opened.frames]
     first = boxes[opened.start]
     area = boxes[:, 2] * boxes[:, 3]
     centers = boxes[:, :2] + boxes[:, 2:] / 2
