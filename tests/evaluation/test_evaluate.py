@@ -224,3 +224,18 @@ def test_a_folder_that_cant_be_written_is_told_before_the_first_run(folders, tmp
     file.touch()
     with pytest.raises(OSError, match="file"):
         evaluate(folders, file, Options(("still-box",)), work=lambda _: pytest.fail("it ran"))
+
+
+def test_a_first_box_alone_is_no_success(folders, tmp_path):
+    """If only the box is known on which trackers start, as in test sets, no tracker is perfect."""
+    for name in ("back", "there"):
+        shutil.copytree(folders / name, tmp_path / "data" / name)
+    path = tmp_path / "data" / "there" / "groundtruth_rect.txt"
+    path.write_text(path.read_text().splitlines()[0] + "\n")
+    options = Options(("still-box",), protocols=("every-3",))
+    evaluation = evaluate(tmp_path / "data", tmp_path / "out", options)
+    back, there = (each.row for each in evaluation.one_pass)
+    assert there.frames == 20
+    assert np.isnan([there.auc, there.precision, there.iou, there.tracked, there.failures]).all()
+    assert tables.summary(evaluation)[0]["auc"] == back.auc
+    assert [note.partition(":")[0] for note in evaluation.notes] == ["there"]

@@ -12,6 +12,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from tricue.errors import one_line
 from tricue.evaluation.attributes.measure import SequenceAttributes
 from tricue.evaluation.dataset import Entry, OpenedSequence, ReadOptions, find_entries
@@ -285,7 +287,12 @@ class _Plan:
         """The results so far, in the order of the tasks."""
         results = tuple(self._results())
         opened = tuple(self.opened.values())
-        notes = (missing_note(self.options.trackers), *self._results_notes(), *self._surplus_notes())
+        notes = (
+            missing_note(self.options.trackers),
+            *self._results_notes(),
+            *self._surplus_notes(),
+            *self._unknown_notes(),
+        )
         return Evaluation(
             self.options, opened, self.trackers, results, self.left_out, failed, tuple(filter(None, notes))
         )
@@ -311,6 +318,12 @@ class _Plan:
             if frames is not None and (more := len(opened.boxes) - frames) > 0:
                 rows = "1 row" if more == 1 else f"{more} rows"
                 yield f"{name}: {rows} of true boxes more than there are frames"
+
+    def _unknown_notes(self) -> Iterator[str]:
+        """The sequences of which only the first true box is known, such as those of test sets."""
+        for name, opened in self.opened.items():
+            if np.isnan(opened.boxes[opened.start + 1 : opened.source.length]).any(axis=1).all():
+                yield f"{name}: only the first true box is known, on which trackers start: no overlap counts"
 
     def _results(self) -> Iterator[RunResult]:
         for task in self.tasks:

@@ -91,12 +91,16 @@ class Speed:
 
 
 def score_run(record: Record, opened: OpenedSequence) -> ScoredRun:
-    """Compare a run with the truth, from its first start on."""
+    """Compare a run with the truth, from its first start on. If no later box is known, the first one, on
+    which the tracker started, isn't compared either.
+    """
     run, since = record.run, slice(record.starts[0], None)
     numbers = record.numbers[since]
     frames = int(numbers.max()) + 1
     boxes = opened.clip(run.boxes)[since]
     truth, absent = opened.truth(frames)[numbers], opened.absent(frames)[numbers]
+    if np.isnan(truth[1:]).any(axis=1).all():
+        truth[:1] = np.nan
     return ScoredRun(
         start=int(numbers[0]),
         boxes=boxes,
@@ -147,7 +151,7 @@ def make_row(
         auroc=confidence.auroc(run.overlaps, run.scores, run.absent),
         ok_while_lost=confidence.tracked_while_lost(run.overlaps, run.tracked, run.absent).of_all,
         position_error=_median(run.position_errors),
-        failures=float("nan") if robustness is None else float(robustness.failures),
+        failures=float(robustness.failures) if robustness and robustness.frames else float("nan"),
         accuracy=float("nan") if robustness is None else robustness.accuracy,
         trouble=run.error,
         run=kind,
