@@ -254,6 +254,11 @@ def test_as_many_lines_as_frames_of_a_video(tmp_path):
     write_lines(tmp_path / "16" / "clip.txt", ["5,5,20,20"] * 16)
     with pytest.raises(ResultError, match="has 16 lines, the sequence 20 frames and 15 rows of true boxes"):
         results_spec(f"theirs={tmp_path / '16'}").read(opened)
+    write_lines(tmp_path / "clip.csv", ["5,5,20,20"] * 25)
+    opened = Entry("clip", tmp_path / "clip.avi").open()
+    write_lines(tmp_path / "25" / "clip.txt", ["5,5,20,20"] * 25)
+    with pytest.raises(ResultError, match="has 25 lines, the sequence 20 frames"):
+        results_spec(f"theirs={tmp_path / '25'}").read(opened)
 
 
 def test_what_is_no_box_is_told(tmp_path, there, found):

@@ -235,10 +235,8 @@ def _read_run(
     spec: ResultsSpec, opened: OpenedSequence, path: Path, times: Floats | None
 ) -> tuple[Record, float]:
     """The run in a file, and the first pixel's coordinate in it."""
-    frames, rows, start = opened.source.length or len(opened.boxes), len(opened.boxes), opened.start
+    frames, rows, start = opened.frames, len(opened.boxes), opened.start
     lines = read_lines(path)
-    if opened.source.length is None and len(lines) not in (rows, rows - start):  # a video
-        frames = sum(1 for _ in opened.source)
     # Some have no lines before the first true box, some, as OTB's, none after the truth's last row.
     fitting = {rows - start: start, rows: 0} if rows < frames else {}
     skipped = {**fitting, frames - start: start, frames: 0}.get(len(lines))
