@@ -7,7 +7,9 @@ relative to their mean and spread in the window. They are averaged over square c
 cells match a template (a linear discriminant), and there is a majority of weighted votes, each about which of
 two mirrored cells exceed a threshold. Template and votes were learned from rendered faces
 (`learned_face`). A window that the template exaggerates by one strong feature fails at the votes, and a
-window of unlikely details at the template. In a color image, a face must also have the color of skin.
+window of unlikely details at the template. What resembles a face by chance does so at one size, a face at
+several, so its score is the mean of those at the best three sizes. In a color image, a face must also have
+the color of skin.
 
 Sources: Hariharan, Malik and Ramanan 2012 (linear discriminants of gradients); Friedman, Hastie and
 Tibshirani 2000 (boosting); Viola and Jones 2001 (windows of all sizes).
@@ -36,9 +38,10 @@ NEIGHBORHOOD = 13  # pixels, in which gradients are compared
 GRADIENT_NOISE, GRAY_NOISE, REDNESS_NOISE = 3.0, 6.0, 0.01  # added to what a channel is divided by
 MAX_CANDIDATES = 300  # windows of one size that the votes are about
 MATCH_BONUS = 2.0  # the template's score plus this is on a par with the votes' sum
-MIN_SCORE, MIN_SCORE_GRAY = 0.99, 1.40  # by benchmarks.quality.face_detection --left-out
-WEAKER = 2.0  # hits with scores lower by this also count for a face's place and size
-PLACE, LOG_SIZE = 0.18, 0.3  # a face's hits differ by less, in window sides and in log side
+MIN_SCORE, MIN_SCORE_GRAY = 0.25, 0.64  # of a face, by benchmarks.quality.face_detection --left-out
+MIN_HIT = -3.0  # least score of a window
+SIZES = 3  # of a face, whose best windows' mean is its score
+PLACE, LOG_SIZE = 0.08, 0.3  # a face's hits differ by less, in window sides and in log side
 MIN_GREEN_DEFICIT, MIN_BLUE_DEFICIT = 0.10, 0.15  # of skin, as shares of red
 MAX_GREEN_DEFICIT = 0.55
 MIN_CONTRAST, MAX_CONTRAST = 0.10, 0.55  # deviation of a face's gray levels, as a share of their mean
@@ -76,7 +79,7 @@ class Channels(NamedTuple):
 
 
 class Face(NamedTuple):
-    """score: the lower one of the votes' sum and the match with the template, plus MATCH_BONUS."""
+    """score: the mean of its best windows' scores at the best SIZES sizes."""
 
     box: Box
     score: float
@@ -89,24 +92,34 @@ def find_face(image: Image) -> Box | None:
 
 
 def find_faces(image: Image, min_score: float) -> list[Face]:
-    """All frontal faces in a BGR or gray image, the best first."""
+    """All frontal faces in a BGR or gray image, those with the best window first."""
     smallest = max(MIN_SIDE, min(image.shape[:2]) // MIN_SHARE)
     color = image if image.ndim == 3 else cv2.cvtColor(image, cv2.COLOR_GRAY2BGR)
     gray = is_gray(image)
-    hits = _hits(np.asarray(color, np.uint8), smallest, gray, min_score - WEAKER)
+    hits = _hits(np.asarray(color, np.uint8), smallest, gray)
     hits = hits[np.argsort(-hits[:, 0], kind="stable")]
     faces = []
     while len(hits) and hits[0, 0] > min_score:
-        score, x, y, side = hits[0].tolist()
+        best, x, y, side = hits[0].tolist()
         near = np.hypot(hits[:, 1] - x, hits[:, 2] - y) / side
         resized = np.abs(np.log(hits[:, 3] / side))
         one = hits[(near < PLACE) & (resized < LOG_SIZE)]
-        weights = np.exp(one[:, 0] - score)
+        score = _mean_of_sizes(one)
+        weights = np.exp(one[:, 0] - best)
         x, y, side = (weights @ one[:, 1:] / weights.sum()).tolist()
-        if gray or _has_face_colors(image, x, y, side):
+        if score > min_score and (gray or _has_face_colors(image, x, y, side)):
             faces.append(Face(Box.from_ellipse(x, y, HEAD_WIDTH * side / 2, HEAD_HEIGHT * side / 2), score))
         hits = hits[(near >= 0.5) | (resized >= 2 * LOG_SIZE)]
     return faces
+
+
+def _mean_of_sizes(hits: Floats) -> float:
+    """The mean score of the best windows at the best sizes; hits: the best first."""
+    first = np.unique(hits[:, 3], return_index=True)[1]
+    best = np.full(SIZES, MIN_HIT)
+    found = np.sort(hits[first, 0])[::-1][:SIZES]
+    best[: len(found)] = found
+    return float(best.mean())
 
 
 def is_gray(image: Image) -> bool:
@@ -114,15 +127,18 @@ def is_gray(image: Image) -> bool:
     return image.ndim == 2 or float(np.ptp(image, axis=2).mean()) < MAX_GRAY_RANGE
 
 
-def _hits(image: Image, smallest: int, gray: bool, min_score: float) -> Floats:
-    """(N, 4) score, center x, y and side, pixels, of windows that match."""
+def _hits(image: Image, smallest: int, gray: bool) -> Floats:
+    """(N, 4) score, center x, y and side, pixels, of windows that match.
+
+    score: the lower one of the votes' sum and the match with the template, plus MATCH_BONUS.
+    """
     hits = [np.empty((0, 4))]
     for reduced, scale in _reduced(image, smallest):
         channels = channels_of(reduced)
         matches = match(channels)
         if not gray:
             matches[~skin(reduced)] = -np.inf
-        y, x = np.nonzero(matches + MATCH_BONUS > min_score)
+        y, x = np.nonzero(matches + MATCH_BONUS > MIN_HIT)
         if len(y) > MAX_CANDIDATES:
             best = np.argsort(-matches[y, x], kind="stable")[:MAX_CANDIDATES]
             y, x = y[best], x[best]
@@ -130,7 +146,7 @@ def _hits(image: Image, smallest: int, gray: bool, min_score: float) -> Floats:
         middle = WINDOW / 2 - PAD
         side = np.full(len(y), WINDOW * scale)
         found = np.stack([score, (x + middle) * scale, (y + middle) * scale, side], axis=1)
-        hits.append(found[score > min_score])
+        hits.append(found[score > MIN_HIT])
     return np.concatenate(hits)
 
 
