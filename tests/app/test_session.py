@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from tricue import Box, Status, Track
 from tricue.app.exports import EXPORTS
+from tricue.errors import BoxError
 
 from tests.app.conftest import FRAMES, START, moving
 from tests.app.session_runs import Counting, SessionOf, counts, run, wait
@@ -36,6 +37,22 @@ def test_target_is_followed_backwards(video: Path, session_of: SessionOf) -> Non
     tracks = session.project.target(1).tracks
     assert sorted(tracks) == list(range(26))
     assert max(abs(tracks[at].box.x - 20 - at) for at in range(26)) < 4
+
+
+def test_box_on_which_nothing_can_start_is_refused(video: Path, session_of: SessionOf) -> None:
+    """A box outside the image, or too thin for trackers, is refused when it is drawn, not on tracking."""
+    session = session_of(video)
+    session.add(0, START, "fused")
+    before = session.project
+    for box, message in (
+        ((500, 500, 20, 20), "a part inside the image of 160x120"),
+        ((0, 0, 1, 9), "2 pixels"),
+    ):
+        with pytest.raises(BoxError, match=message):
+            session.add(0, box, "fused")
+        with pytest.raises(BoxError, match=message):
+            session.draw(1, 5, box)
+    assert session.project == before
 
 
 @pytest.mark.usefixtures("counting")

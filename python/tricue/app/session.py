@@ -16,8 +16,10 @@ from tricue.app.runs import Direction, Follower, Run
 from tricue.app.saver import Saver
 from tricue.app.trackers import fitting_trackers
 from tricue.app.video_job import VideoJob
+from tricue.camera.box import Box, as_box
 from tricue.camera.rig import Intrinsics
 from tricue.errors import one_line
+from tricue.track.base.validation import check_box_in
 
 
 class Session:
@@ -112,16 +114,18 @@ class Session:
             self._saver.changed()
 
     def add(self, frame: int, box: Any, tracker: str) -> int:
-        """Add a target; return its id."""
+        """Add a target; return its id. BoxError for a box on which no tracker could start."""
         self.check_frame(frame)
         self.check_tracker(tracker)
-        self.edit(lambda project: edits.add_target(project, frame, box, tracker))
+        inside = self._check_box(box)
+        self.edit(lambda project: edits.add_target(project, frame, inside, tracker))
         return self.history.present.targets[-1].id
 
     def draw(self, target: int, frame: int, box: Any) -> None:
-        """Draw a target's box in a frame."""
+        """Draw a target's box in a frame; BoxError as in :meth:`add`."""
         self.check_frame(frame)
-        self.edit(lambda project: edits.draw_box(project, target, frame, box))
+        inside = self._check_box(box)
+        self.edit(lambda project: edits.draw_box(project, target, frame, inside))
 
     def choose_tracker(self, target: int, tracker: str) -> None:
         """Use another tracker for the target from its next run on."""
@@ -261,6 +265,10 @@ class Session:
         last = self.recording.length - 1
         if not isinstance(frame, int) or isinstance(frame, bool) or not 0 <= frame <= last:
             raise ValueError(f"frame: expected a number from 0 to {last}, got {frame!r:.40}")
+
+    def _check_box(self, box: Any) -> Box:
+        width, height = self.recording.size
+        return check_box_in(as_box(box), (height, width))
 
     def check_tracker(self, name: Any) -> None:
         """ValueError for a tracker that doesn't exist or doesn't run on this recording."""
