@@ -120,6 +120,16 @@ def test_page_fits_and_reads(
     assert tab.page.evaluate(CONTRASTS) == []
 
 
+def test_long_name_fits_a_phone(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """The longest name that a target may have is cut off in the list, and doesn't widen the page."""
+    tab = open_tab(server.url, PHONE, touch=True)
+    tab.draw(*START)
+    with tab.done("rename"):
+        tab.page.fill("#target-name", "W" * 80)
+        tab.key("Enter")
+    assert tab.page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+
+
 @pytest.mark.parametrize("size", [LAPTOP, PHONE], ids=["laptop", "phone"])
 def test_many_targets_leave_room_for_the_picture(
     server: Server, open_tab: Callable[..., Tab], size: dict[str, int]
