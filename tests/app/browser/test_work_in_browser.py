@@ -87,6 +87,25 @@ def test_killed_and_opened_again(video: Path, open_tab: Callable[..., Tab]) -> N
         again.end()
 
 
+def test_picture_comes_back_with_the_connection(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """A frame that was gone to while a tunnel to the server was down is shown once it is up again."""
+    tab = open_tab(server.url)
+    page = tab.page
+    tab.expected += ["net::ERR_"]
+    page.add_init_script(
+        "window.sockets = [];"
+        "window.WebSocket = class extends WebSocket { constructor(url) { super(url); sockets.push(this); } }"
+    )
+    page.reload()
+    tab.shows(0)
+    page.route("**/frame/1.jpg", lambda route: route.abort())
+    tab.key("ArrowRight")
+    page.locator("#hint", has_text="Frame 1 can't be shown").wait_for()
+    page.unroute("**/frame/1.jpg")
+    page.evaluate("sockets[0].close()")
+    page.locator("#hint", has_text="Drag a box around the target").wait_for()
+
+
 def test_several_targets(server: Server, open_tab: Callable[..., Tab]) -> None:
     """A second target, another tracker, a name, all followed together, one deleted."""
     tab = open_tab(server.url)

@@ -109,6 +109,12 @@ function show(frame, image) {
   say(`shown ${frame}`);
 }
 
+/** Fetch a picture again that couldn't be had, perhaps because the connection was down. */
+function retry() {
+  stage.show(model.frame, null, true);
+  load();
+}
+
 function say(text) {
   document.documentElement.dataset.page = text; // for tests
 }
@@ -174,6 +180,7 @@ listen({
   },
   status(there) {
     if (!there) stopPlaying();
+    else if (stage.shown === model.frame && !stage.image) retry();
     get("gone").hidden = there || finished;
     get("gone-file").textContent = model.state ? workText(model.state) : "";
   },
