@@ -190,6 +190,21 @@ def test_pairs(tmp_path: Path, capsys: pytest.CaptureFixture[str], shift: float,
     assert any(line.startswith("  warning") for line in printed) == warned
 
 
+@pytest.mark.filterwarnings("default")
+@pytest.mark.parametrize("baseline", [5, 12])
+def test_a_wide_baseline_is_told_once(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], baseline: float
+) -> None:
+    """It proves that the report alone has the warning, from the width on from which others warn."""
+    left, right, file = color(tmp_path / "a", 2), color(tmp_path / "b", 2), tmp_path / "calib.txt"
+    shift = 500 * baseline
+    file.write_text(f"P2: 500 0 32 0 0 500 24 0 0 0 1 0\nP3: 500 0 32 {-shift} 0 500 24 0 0 0 1 0\n")
+    assert main(["info", str(left), "--right", str(right), "--calibration", str(file)]) == 0
+    captured = capsys.readouterr()
+    assert f"  warning      a baseline of {baseline} m is implausible" in captured.out
+    assert captured.err == ""
+
+
 def test_the_boards_unit(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """It proves that --unit brings an OpenCV calibration in millimeters to meters, as in tricue track, and is
     refused where it has no effect.

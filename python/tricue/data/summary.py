@@ -2,6 +2,7 @@
 """Summaries of a source: sizes, times, depths, truth and calibration as plain values, ready for JSON."""
 
 import math
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.read_calibration import read_intrinsics, read_rig
-from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.camera.rig import MAX_PLAUSIBLE_BASELINE, Intrinsics, StereoRig
 from tricue.data.depth_images import METERS_PER_MILLIMETER, DepthReader
 from tricue.data.joint import JointStream, joints_of
 from tricue.data.open_source import Source
@@ -18,7 +19,7 @@ from tricue.data.streams import Images, Stream, Video, steps_back
 
 MAX_SAMPLED_FRAMES = 100  # of which the depth is summarized
 DEPTH_LEVELS = 1 << 16  # values of a 16-bit image
-PLAUSIBLE_BASELINES = 0.001, 10.0  # meters
+MIN_PLAUSIBLE_BASELINE = 0.001  # meters
 Summary = dict[str, Any]
 
 
@@ -160,10 +161,11 @@ def _summarize_positions(positions: NDArray[np.float64] | None) -> Summary | Non
 
 def _summarize_camera(source: Source, path: Path, unit: float | None) -> Summary:
     if "right" in source.channels:
-        rig = read_rig(path, source.size, unit, source.kitti_cameras)
-        low, high = PLAUSIBLE_BASELINES
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "baseline: ")  # the summary has a warning of its own
+            rig = read_rig(path, source.size, unit, source.kitti_cameras)
         summary = _summarize_known(rig)
-        if not low <= rig.baseline <= high:
+        if not MIN_PLAUSIBLE_BASELINE <= rig.baseline <= MAX_PLAUSIBLE_BASELINE:
             summary["warning"] = f"a baseline of {rig.baseline:.4g} m is implausible; is it in another unit?"
         return summary
     channel = "depth" if "depth" in source.channels else "color"
