@@ -379,7 +379,9 @@ def test_a_video_that_the_disk_has_no_room_for_is_an_error(
 
 @pytest.mark.filterwarnings("default")
 def test_a_video_that_is_cut_off_warns(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """It proves that a video of which half is missing is tracked as far as it goes, and that this is told."""
+    """It proves that a video of which half is missing is tracked or described as far as it goes, and that
+    this is told.
+    """
     whole = tmp_path / "whole.avi"
     writer = cv2.VideoWriter(str(whole), cv2.VideoWriter.fourcc(*"MJPG"), 25.0, (64, 48))
     noise = np.random.default_rng(0).integers(0, 256, (40, 48, 64, 3), np.uint8)
@@ -389,6 +391,8 @@ def test_a_video_that_is_cut_off_warns(tmp_path: Path, capsys: pytest.CaptureFix
     for share, told in ((1.0, 0), (0.5, 1)):
         (tmp_path / "v.avi").write_bytes(whole.read_bytes()[: int(share * whole.stat().st_size)])
         assert main(["track", str(tmp_path / "v.avi"), "--box", "20,16,16,16"]) == 0
+        assert capsys.readouterr().err.count("of its 40 frames can be decoded; is it cut off?") == told
+        assert main(["info", str(tmp_path / "v.avi")]) == 0
         assert capsys.readouterr().err.count("of its 40 frames can be decoded; is it cut off?") == told
 
 

@@ -191,18 +191,23 @@ class Video:
 
     @cached_property
     def times(self) -> Sequence[float]:
-        """The times of all frames, in seconds from the first; this reads the whole video."""
-        capture = self._open()
+        """The times of all frames, in seconds from the first; this reads the whole video.
+
+        A warning tells of a video that is cut off.
+        """
+        capture, times = self._open(), FrameTimes(self.fps)
+        stated = self._stated(capture)
         try:
-            return [seconds for seconds, _ in self._grab(capture, FrameTimes(self.fps))]
+            found = [seconds for seconds, _ in self._grab(capture, times)]
         finally:
             capture.release()
+        self._warn_of_cut(len(found), times, *stated)
+        return found
 
     def __iter__(self) -> Iterator[tuple[float, AnyImage]]:
         """A damaged frame between others gets the previous image, so that later frames keep their numbers."""
         capture, count, times = self._open(), 0, FrameTimes(self.fps)
-        stated = capture.get(cv2.CAP_PROP_FRAME_COUNT)
-        rate = plausible_fps(capture.get(cv2.CAP_PROP_FPS)) or self.fps
+        stated = self._stated(capture)
         image: AnyImage | None = None
         damaged = []
         try:
@@ -224,9 +229,7 @@ class Video:
             )
             text = f"{self.place}: took the frame before in place of {several}frame {damaged[0]}"
             warnings.warn(text, stacklevel=2)
-        missing = _missing(count, times, stated, rate)
-        if missing and not self._is_read_whole(count, stated / rate):
-            warnings.warn(f"{self.place}: only {missing} can be decoded; is it cut off?", stacklevel=2)
+        self._warn_of_cut(count, times, *stated)
 
     def at(self, indices: Sequence[int]) -> Iterator[tuple[float, AnyImage]]:
         """Reads all frames up to the last index, because seeking in videos isn't reliable."""
@@ -251,6 +254,17 @@ class Video:
     def count(self) -> int:
         """The number of frames; this reads the whole video."""
         return len(self.times)
+
+    def _stated(self, capture: cv2.VideoCapture) -> tuple[float, float]:
+        """The number of frames and the frame rate that the container states."""
+        rate = plausible_fps(capture.get(cv2.CAP_PROP_FPS)) or self.fps
+        return capture.get(cv2.CAP_PROP_FRAME_COUNT), rate
+
+    def _warn_of_cut(self, count: int, times: FrameTimes, stated: float, rate: float) -> None:
+        """Warn if much less was decoded than the container states."""
+        missing = _missing(count, times, stated, rate)
+        if missing and not self._is_read_whole(count, stated / rate):
+            warnings.warn(f"{self.place}: only {missing} can be decoded; is it cut off?", stacklevel=3)
 
     def _grab(self, capture: cv2.VideoCapture, times: FrameTimes) -> Iterator[tuple[float, bool]]:
         """The time of each frame, and whether it could be grabbed; False for a damaged one between others."""
