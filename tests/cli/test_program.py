@@ -146,6 +146,9 @@ BAD = [
         "tricue track: --unit: expected with a stereo pair",
     ),
     (["demo", "magic"], "tricue demo: argument tracker: expected one of .*, got 'magic'"),
+    (["info", ""], "tricue info: an argument is empty; is a shell variable unset?"),
+    (["evaluate", "{walk}", "--output", ""], "tricue evaluate: an argument is empty"),
+    (["track", "{walk}", "--box", "1,2,3,4", "--csv="], "tricue track: argument --csv: it is empty"),
     (["fly"], "tricue: argument COMMAND: invalid choice: 'fly'"),
     ([], "tricue: the following arguments are required: COMMAND"),
 ]

@@ -47,7 +47,16 @@ class Parser(argparse.ArgumentParser):
         options, unknown = super().parse_known_args(args, namespace)
         if unknown:
             self.error(f"unrecognized arguments: {' '.join(unknown)}")
+        self._refuse_empty(args or ())
         return options, unknown
+
+    def _refuse_empty(self, words: Sequence[str]) -> None:
+        """Report empty arguments, because as a path each would be the folder where the command is started."""
+        for word in words:
+            if not word:
+                self.error("an argument is empty; is a shell variable unset?")
+            if re.fullmatch(r"--[a-z-]+=", word):
+                self.error(f"argument {word[:-1]}: it is empty; is a shell variable unset?")
 
     def error(self, message: str) -> NoReturn:
         if found := re.fullmatch(r"argument (--[a-z-]+): expected one argument", message):
