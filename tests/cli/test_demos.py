@@ -164,6 +164,29 @@ def test_errors_are_shares_of_the_distance() -> None:
     np.testing.assert_allclose(stereo.relative_errors(SceneResult(scene, tracks)), 1.0)
 
 
+@pytest.mark.parametrize(
+    ("module", "make"),
+    [
+        (depth, partial(walker, frames=6)),
+        (flow_depth, partial(overtaking, frames=6)),
+        (fused, partial(stress_scene, "plain", size=(120, 90), channels="rgbd")),
+    ],
+    ids=["depth", "flow_depth", "fused"],
+)
+def test_no_legend_is_drawn_over_a_path(module: Any, make: Callable[..., Any]) -> None:
+    """The plots of a demo have one legend, outside of all of them, with what each path shows."""
+    from matplotlib.figure import Figure
+
+    scene = make(seed=1)
+    tracks = [Track(Box(0, 0, 9, 9), 1.0, Status.TRACKED, place) for place in scene.positions]
+    lost = [Track(Box(0, 0, 9, 9), 0.0, Status.LOST, place) for place in scene.positions]
+    figure = Figure(layout="constrained")
+    module._plot(figure, {"tracked": SceneResult(scene, tracks), "lost": SceneResult(scene, lost)})
+    assert all(axes.get_legend() is None for axes in figure.axes)
+    (legend,) = figure.legends
+    assert {"truth", "tracked", "lost"} <= {text.get_text() for text in legend.get_texts()}
+
+
 def test_the_picture_is_there_without_color_and_without_truth() -> None:
     """Depth alone makes a picture of the same size, and the true box is only drawn where there is one."""
     track = Track(Box(20, 20, 30, 30), 1.0, Status.TRACKED)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tricue.cli.demos.metric import SceneResult, follow_all
+from tricue.cli.demos.metric import SceneResult, follow_all, share_legend
 from tricue.cli.steps import steps
 from tricue.draw.depth_pictures import depth_range
 from tricue.draw.overlays import depth_overlay
@@ -96,3 +96,4 @@ def _plot(figure: Any, results: Mapping[str, SceneResult[DepthScene]]) -> None:
         error.set_title(f"median {np.nanmedian(errors[result.seen]):.1f} cm where half visible", loc="left")
         error.set(yscale="log", ylim=(MIN_PLOTTED_ERROR, 500), ylabel="position error, cm")
     rows[-1, 1].set_xlabel("frame (shaded: less than half visible)")
+    share_legend(figure, rows[:, 0])

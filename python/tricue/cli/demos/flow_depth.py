@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tricue.cli.demos.metric import SceneResult, follow_all
+from tricue.cli.demos.metric import SceneResult, follow_all, share_legend
 from tricue.cli.steps import steps
 from tricue.draw.masks import flow_depth_overlay
 from tricue.draw.video import OverlayWriter
@@ -101,3 +101,4 @@ def _plot(figure: Any, results: Mapping[str, SceneResult[WalkScene]]) -> None:
         overlap.set_title(f"{held:.1%} above 0.5 where half visible", loc="left")
         overlap.set(ylim=(0, 1), ylabel="IoU")
     rows[-1, 1].set_xlabel("frame (shaded: less than half visible; dashed: the pass)")
+    share_legend(figure, rows[:, 0])

@@ -11,7 +11,7 @@ import numpy as np
 from tricue.arrays import Floats, Image
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
-from tricue.cli.demos.metric import SceneResult, follow_all
+from tricue.cli.demos.metric import SceneResult, follow_all, share_legend
 from tricue.cli.outputs import Step
 from tricue.cli.steps import steps
 from tricue.draw.overlays import depth_overlay, overlay
@@ -125,3 +125,4 @@ def _plot(figure: Any, results: Mapping[str, SceneResult[StressScene]]) -> None:
         overlap.set_title(f"{held:.1%} above 0.5 where half visible", loc="left")
         overlap.set(ylim=(0, 1.1), ylabel="IoU")
     rows[-1, 1].set_xlabel("frame (shaded: less than half visible; dotted: something begins)")
+    share_legend(figure, rows[:, 0])

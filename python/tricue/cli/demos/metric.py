@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Measurements of the demos in meters: position errors, overlaps, reported statuses."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,3 +73,17 @@ def follow_all(
             progress(done, f"scenes, now {name}")
             results[name] = follow(name, make(seed=seed), video)
     return results
+
+
+def share_legend(figure: Any, paths: Iterable[Any]) -> None:
+    """Replace the legends of paths by one below them, as each would hide a part of its narrow picture."""
+    handles: dict[str, Any] = {}
+    for axes in paths:
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
+            handles.setdefault(label, handle)
+        if legend := axes.get_legend():
+            legend.remove()
+    if handles:
+        figure.legend(
+            handles.values(), handles.keys(), loc="outside lower center", ncols=len(handles), frameon=False
+        )
