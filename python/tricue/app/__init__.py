@@ -26,10 +26,10 @@ def select_boxes(
     """Let the user draw boxes in the page, until its button Done is pressed.
 
     place, opening: as :func:`tricue.data.open_source.open_source` takes them; a recording, no live camera.
-    port: of the server on 127.0.0.1, None for a free one. browser: whether to open a browser; the address
-    is printed to stderr either way. Returns frames, from 0, with the boxes drawn in them, none if nothing
-    was drawn; nothing is kept in a project's file. ImportError without the extra ``app``, OSError where the
-    port is in use.
+    port: of the server on 127.0.0.1, None for 8765 or, if that is in use, a free one. browser: whether to
+    open a browser; the address is printed to stderr either way. Returns frames, from 0, with the boxes drawn
+    in them, none if nothing was drawn; nothing is kept in a project's file. ImportError without the extra
+    ``app``, OSError where the port is in use.
     """
     require()
     from tricue.app.serve import serve_selection
