@@ -282,6 +282,20 @@ def test_a_folder_of_sequences(tmp_path: Path, capsys: pytest.CaptureFixture[str
     assert found[0]["boxes"] == 2
 
 
+@pytest.mark.parametrize(
+    "option", [("--fps", "15"), ("--target", "Car 0"), ("--calibration", "c.yml"), ("--unit", "1")]
+)
+def test_a_folder_of_sequences_refuses_options_of_one(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], option: tuple[str, str]
+) -> None:
+    """It proves that an option about one recording is an error of one line instead of being ignored."""
+    vot(tmp_path / "a")
+    assert main(["info", str(tmp_path), *option]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.startswith(f"tricue info: {option[0]}: expected with one recording, {tmp_path} is a ")
+
+
 def test_the_unit_of_a_folder_of_sequences(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """It proves that --depth-scale is for the sequences that need it, and leaves the others alone."""
     (color(tmp_path / "a", 2) / "boxes.csv").write_text("1,2,3,4\n")

@@ -66,6 +66,7 @@ def run(options: argparse.Namespace) -> int:
         below = [path for path in find_sequences(root) if path != root] if root.is_dir() else []
         if not below:
             raise
+        _refuse_options_of_one(root, options)
         return _list(root, below, options)
     facts = _facts(source, options)
     _print(facts, _lines(facts), options.json)
@@ -180,6 +181,15 @@ def _calibration_lines(camera: Summary | None) -> Iterator[str]:
 
 def _line(name: str, text: str) -> str:
     return f"  {name:{VALUE_COLUMN}}{text}"
+
+
+def _refuse_options_of_one(root: Path, options: argparse.Namespace) -> None:
+    """ValueError for an option that would be ignored, because it is about a single recording."""
+    for name in ("fps", "right", "target", "topics", "calibration", "unit"):
+        if getattr(options, name) is not None:
+            raise ValueError(
+                f"--{name}: expected with one recording, {root} is a folder of them; leave it out"
+            )
 
 
 def _list(root: Path, places: list[Path], options: argparse.Namespace) -> int:
