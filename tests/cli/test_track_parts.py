@@ -4,6 +4,7 @@
 import csv
 import json
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -11,8 +12,10 @@ import pytest
 import tricue.app
 from tricue import Box
 from tricue.cli.program import main
+from tricue.data.open_source import open_source
 from tricue.draw.video import OverlayWriter
 
+from tests.cli.test_info import kitti
 from tests.cli.test_track_several import images, rows
 
 __all__ = ["images"]
@@ -135,6 +138,21 @@ def test_boxes_from_the_browser(
         assert next(csv.DictReader(file))["frame"] == "3"
     drawn.clear()
     assert run(capsys, *words) == (2, [], "tricue track: --select: expected a box, none was drawn\n")
+
+
+def test_the_browser_shows_the_frames_that_are_tracked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It proves that --select numbers the frames of a target, which KITTI labels in some of them only."""
+    folder, seen = kitti(tmp_path / "kitti"), []
+
+    def select(place: str, **opening: Any) -> list[tuple[int, Box]]:
+        seen.append(open_source(place, **opening).length)
+        return []
+
+    monkeypatch.setattr(tricue.app, "select_boxes", select)
+    assert main(["track", str(folder), "--target", "Van 3", "--select"]) == 2
+    assert seen == [open_source(folder, target="Van 3").length] == [2]
 
 
 def test_json_lines_for_other_programs(

@@ -137,7 +137,8 @@ def _selected(options: argparse.Namespace) -> list[StartBox]:
     """The boxes that the user draws in the browser; ValueError if there are none."""
     from tricue.app import select_boxes
 
-    found = [StartBox(box, frame) for frame, box in select_boxes(options.input, **opening(options))]
+    drawn = select_boxes(options.input, target=options.target, **opening(options))
+    found = [StartBox(box, frame) for frame, box in drawn]
     if not found:
         raise ValueError("--select: expected a box, none was drawn")
     return found
