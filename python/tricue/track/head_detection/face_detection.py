@@ -36,12 +36,14 @@ WINDOW_SCALE = 1.3  # side of the window relative to that of the smallest face
 HEAD_WIDTH, HEAD_HEIGHT = 0.72, 0.86  # of the window, as in hand-drawn boxes of faces
 NEIGHBORHOOD = 13  # pixels, in which gradients are compared
 GRADIENT_NOISE, GRAY_NOISE, REDNESS_NOISE = 3.0, 6.0, 0.01  # added to what a channel is divided by
-MAX_CANDIDATES = 1000  # windows of one size that the votes are about, to bound the time
+MAX_CANDIDATES = 300  # windows of one size that the votes are about, to bound the time
 MATCH_BONUS = 2.0  # the template's score plus this is on a par with the votes' sum
 MIN_SCORE, MIN_SCORE_GRAY = 0.25, 0.64  # of a face, by benchmarks.quality.face_detection --left-out
 MIN_HIT = -3.0  # least score of a window
 SIZES = 3  # of a face, whose best windows' mean is its score
-PLACE, LOG_SIZE = 0.08, 0.3  # a face's hits differ by less, in window sides and in log side
+PLACE, LOG_SIZE = 0.18, 0.3  # a face's hits differ by less, in window sides and in log side
+SAME_PLACE = 0.08  # of its best hit; in window sides, of the hits that its score is the mean of
+DIGITS = 3  # of a face's place; the last ones depend on where cv2 finds an array in memory
 MIN_GREEN_DEFICIT, MIN_BLUE_DEFICIT = 0.10, 0.15  # of skin, as shares of red
 MAX_GREEN_DEFICIT = 0.55
 MIN_CONTRAST, MAX_CONTRAST = 0.10, 0.55  # deviation of a face's gray levels, as a share of their mean
@@ -103,10 +105,11 @@ def find_faces(image: Image, min_score: float) -> list[Face]:
         best, x, y, side = hits[0].tolist()
         near = np.hypot(hits[:, 1] - x, hits[:, 2] - y) / side
         resized = np.abs(np.log(hits[:, 3] / side))
-        one = hits[(near < PLACE) & (resized < LOG_SIZE)]
-        score = _mean_of_sizes(one)
+        alike = resized < LOG_SIZE
+        score = _mean_of_sizes(hits[alike & (near < SAME_PLACE)])
+        one = hits[alike & (near < PLACE)]
         weights = np.exp(one[:, 0] - best)
-        x, y, side = (weights @ one[:, 1:] / weights.sum()).tolist()
+        x, y, side = np.round(weights @ one[:, 1:] / weights.sum(), DIGITS).tolist()
         if score > min_score and (gray or _has_face_colors(image, x, y, side)):
             faces.append(Face(Box.from_ellipse(x, y, HEAD_WIDTH * side / 2, HEAD_HEIGHT * side / 2), score))
         hits = hits[(near >= 0.5) | (resized >= 2 * LOG_SIZE)]
