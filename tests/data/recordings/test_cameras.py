@@ -222,6 +222,14 @@ def test_a_pair_of_realsense() -> None:
     assert "the baseline isn't known" in pair(view(BARE), view(BARE)).notes[0]
 
 
+def test_a_raw_pair_whose_right_camera_info_is_for_another_size() -> None:
+    """It proves that such a pair isn't rectified, as the right image would be another one's."""
+    right = info(shift=0.125, **BENT)._replace(width=640, height=480)
+    found = pair(view(info(**BENT), rectified=False), view(right, rectified=False))
+    assert found.rectify is None
+    assert found.notes[-1] == "/a has images of 64x48, its camera_info is for 640x480"
+
+
 def test_a_raw_pair_is_rectified() -> None:
     """It proves that lenses that bend, and cameras that are turned, are rectified by the recorded R and P, as
     OpenCV would with its own.

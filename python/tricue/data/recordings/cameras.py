@@ -140,6 +140,9 @@ def _stereo(left: View, right: View, transforms: Sequence[Transform]) -> Cameras
     first, second = left.info, right.info
     if camera is None or first is None or second is None or not _is_calibrated(second):
         return Cameras(notes=notes or (f"{right.topic} has no camera_info of a calibrated camera",))
+    other, other_notes = _intrinsics(right)
+    if other is None:
+        return Cameras(camera, notes=(*notes, *other_notes))
     baseline = _place(second) - _place(first)
     if baseline and not left.rectified and _is_raw(first, second):
         try:
@@ -147,9 +150,6 @@ def _stereo(left: View, right: View, transforms: Sequence[Transform]) -> Cameras
         except ValueError as error:
             return Cameras(camera, notes=(*notes, f"the pair can't be rectified: {error}"))
         return Cameras(rectification.rig, rectify=rectification, notes=("the raw pair is rectified",))
-    other, other_notes = _intrinsics(right)
-    if other is None:
-        return Cameras(camera, notes=(*notes, *other_notes))
     if not _is_same(camera, other, MAX_SAME_RECTIFIED):
         return Cameras(camera, notes=(*notes, _note_two_cameras(camera, other)))
     between = None if baseline else find_extrinsics(transforms, left.frame, right.frame)
