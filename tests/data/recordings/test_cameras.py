@@ -93,6 +93,14 @@ def test_one_camera() -> None:
     assert calibrate({"color": view(raw)}, []) == Cameras(Intrinsics(55, 56, 30, 22, *SIZE))
 
 
+@pytest.mark.parametrize("value", [0.0, math.nan, math.inf])
+def test_a_camera_without_a_projection(value: float) -> None:
+    """It proves that K counts where P isn't filled in, and that a pair then has no baseline."""
+    unfilled = info(p=(value,) * 12)
+    assert calibrate({"color": view(unfilled)}, []).camera == Intrinsics(60, 60, 31.5, 23.5, *SIZE)
+    assert "the baseline isn't known" in pair(view(info()), view(unfilled)).notes[-1]
+
+
 @pytest.mark.parametrize(
     ("camera", "note"),
     [

@@ -98,9 +98,8 @@ def _intrinsics(view: View) -> tuple[Intrinsics | None, tuple[str, ...]]:
     if (info.width, info.height) != view.size:
         said = f"{info.width}x{info.height}"
         return None, (f"{view.topic} has images of {width}x{height}, its camera_info is for {said}",)
-    projection = info.p if len(info.p) == 12 and info.p[0] else ()
-    if view.rectified and projection:
-        fx, cx, fy, cy = (projection[i] for i in (0, 2, 5, 6))
+    if view.rectified and _has_projection(info):
+        fx, cx, fy, cy = (info.p[i] for i in (0, 2, 5, 6))
     else:
         fx, cx, fy, cy = (info.k[i] for i in (0, 2, 4, 5))
     bent = not view.rectified and np.abs(info.d).max(initial=0) > 0
@@ -111,6 +110,11 @@ def _intrinsics(view: View) -> tuple[Intrinsics | None, tuple[str, ...]]:
 def _is_calibrated(info: CameraMessage) -> bool:
     """Whether K is valid; in an uncalibrated camera it is 0, NaN or missing."""
     return len(info.k) == 9 and bool(np.isfinite(info.k).all()) and min(info.k[0], info.k[4]) > 0
+
+
+def _has_projection(info: CameraMessage) -> bool:
+    """Whether P is valid; where nobody rectifies the images, it is 0, NaN or missing."""
+    return len(info.p) == 12 and bool(np.isfinite(info.p).all()) and min(info.p[0], info.p[5]) > 0
 
 
 def _color_and_depth(color: View, depth: View, transforms: Sequence[Transform]) -> Cameras:
@@ -166,7 +170,7 @@ def _stereo(left: View, right: View, transforms: Sequence[Transform]) -> Cameras
 
 def _place(info: CameraMessage) -> float:
     """The position of a camera in a rectified pair, from its P: meters to the right of the pair's origin."""
-    return -info.p[3] / info.p[0] if len(info.p) == 12 and info.p[0] else 0.0
+    return -info.p[3] / info.p[0] if _has_projection(info) else 0.0
 
 
 def _rectification(left: CameraMessage, right: CameraMessage, size: tuple[int, int]) -> Rectification:
