@@ -22,6 +22,7 @@ from tricue.camera.types import Matrix, PathLike, Size
 
 # Keys of the left camera (1) and the right one (2): first those of OpenCV's sample stereo_calib.
 _CAMERA_KEYS = ("M{}", "K{}", "cameraMatrix{}", "camera_matrix_{}", "CM{}")
+DISTORTION_COUNTS = 4, 5, 8, 12, 14  # of OpenCV's coefficients
 _ZERO_DISPARITY = 0x400  # cv2.CALIB_ZERO_DISPARITY, which has another name in cv2 5
 
 
@@ -29,7 +30,7 @@ class StereoCalibration(NamedTuple):
     """Two cameras before rectification, left first, as cv2.stereoCalibrate gives them."""
 
     cameras: tuple[Matrix, Matrix]  # (3, 3), pixels
-    distortions: tuple[Matrix, Matrix]  # (n,), n = 4, 5, 8, 12 or 14
+    distortions: tuple[Matrix, Matrix]  # (n,), n of DISTORTION_COUNTS
     rotation: Matrix  # (3, 3), left to right
     translation: Matrix  # (3,), left to right, in the unit of the calibration's board
 
@@ -172,7 +173,7 @@ class _CalibrationFiles(NamedTuple):
         assert distortions
         for camera, distortion in zip(cameras, distortions, strict=True):
             self._check(camera, (3, 3), "a camera matrix")
-            if distortion.size not in (4, 5, 8, 12, 14):
+            if distortion.size not in DISTORTION_COUNTS:
                 raise ValueError(
                     f"{self.names}: expected 4, 5, 8, 12 or 14 distortion coefficients, got {distortion.size}"
                 )

@@ -238,6 +238,25 @@ def test_a_raw_pair_whose_right_camera_info_is_for_another_size() -> None:
     assert found.notes[-1] == "/a has images of 64x48, its camera_info is for 640x480"
 
 
+@pytest.mark.parametrize(
+    ("other", "note"),
+    [
+        ({"d": (-0.1, 0.0, 0.0)}, "D isn't one of plumb_bob"),
+        ({"d": (-0.1, math.nan, 0.0, 0.0)}, "D isn't one of plumb_bob"),
+        ({"r": (0.0,) * 9}, "R isn't a rotation"),
+        ({"r": (math.nan,) * 9}, "R isn't a rotation"),
+        ({"r": ()}, "R isn't a rotation"),
+        ({"p": ()}, "P isn't known"),
+    ],
+)
+def test_a_raw_pair_with_an_incomplete_camera_info(other: dict[str, tuple[float, ...]], note: str) -> None:
+    """It proves that a pair isn't rectified to black images, or at all, by numbers that weren't filled in."""
+    left, right = info(**{**BENT, **other}), info(shift=0.125, **BENT)
+    found = pair(view(left, rectified=False), view(right, rectified=False))
+    assert found.rectify is None
+    assert found.notes[-1] == f"the pair can't be rectified: {note}"
+
+
 def test_a_raw_pair_is_rectified() -> None:
     """It proves that lenses that bend, and cameras that are turned, are rectified by the recorded R and P, as
     OpenCV would with its own.
