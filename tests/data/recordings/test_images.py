@@ -171,6 +171,7 @@ def test_depth_by_format(form: str, depth: bool) -> None:
         (message(SMOOTH, "nv21"), "the encoding 'nv21' of color isn't known"),
         (message(SMOOTH, "bgr8")._replace(height=31), "an image of 40x31 bgr8 pixels with 3600 bytes"),
         (message(SMOOTH, "bgr8")._replace(width=0), "an image of 0x30"),
+        (message(SMOOTH[:, :5, :2], "yuyv"), "yuyv pixels, which share their color in pairs, in rows of 5"),
         (packed(b"no jpeg", "jpeg"), "a compressed image that can't be decoded"),
         (packed(b"", "jpeg"), "a compressed image that can't be decoded"),
     ],

@@ -73,6 +73,8 @@ def to_color(message: ImageMessage) -> NDArray[np.uint8]:
     if encoding not in _TO_BGR:
         raise ValueError(f"the encoding {encoding!r} of color isn't known")
     channels = 2 if encoding in _TWO_BYTES else _CHANNELS.get(encoding, 1)
+    if channels == 2 and message.width % 2:
+        raise ValueError(f"{encoding} pixels, which share their color in pairs, in rows of {message.width}")
     rows = _rows(message, channels)
     image = rows.reshape(message.height, message.width, channels)[..., slice(None) if channels > 1 else 0]
     conversion = _TO_BGR[encoding]
