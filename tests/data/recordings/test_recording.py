@@ -258,6 +258,18 @@ def test_true_boxes_beside_a_recording(tmp_path: Path) -> None:
     assert source.notes[-1].startswith("true boxes found")
 
 
+def test_color_that_begins_late(tmp_path: Path) -> None:
+    """It proves that a topic that begins late is told to be left out, and is read if it is named."""
+    sent = [each for each in walk(100) if each.topic != COLOR or each.time > START + 3 * SECOND]
+    path = mcap(tmp_path, sent)
+    assert open_source(path).notes[0] == (
+        f"topics chosen: depth={DEPTH}; left out {COLOR} (it has no image at the beginning); "
+        "--topics chooses others"
+    )
+    named = open_source(path, topics={"color": COLOR, "depth": DEPTH})
+    assert [frame.channels for frame in named] == [("color", "depth")] * 9
+
+
 @pytest.mark.parametrize("write", WRITERS)
 def test_cameras_that_come_late(tmp_path: Path, write: Writer) -> None:
     """It proves that a camera_info and a transform that are recorded seconds after the images are found."""

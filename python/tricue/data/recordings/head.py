@@ -58,7 +58,11 @@ class Head:
 
 
 def read_head(container: Container, images: Collection[str] | None = None) -> Head:
-    """Read the beginning of a recording. images: the image topics to read, by default all."""
+    """Read the beginning of a recording.
+
+    images: the image topics to read, each up to its first image at least; by default all that are at the
+    beginning.
+    """
     head = Head()
     decoders: dict[str, Decoder] = {}
     for topic in container.topics.values():
@@ -69,8 +73,13 @@ def read_head(container: Container, images: Collection[str] | None = None) -> He
                 head.unread[topic.name] = str(error)
     pending = {name for name in decoders if container.topics[name].kind in IMAGES}
     late = {name for name in decoders if container.topics[name].kind in CAMERAS or name == STATIC_TRANSFORMS}
-    for message in _until_known(container, decoders, pending, late):
+    missing = set[str]()
+    if images is not None:
+        counts = container.counts()
+        missing = {name for name in pending if counts[name]}
+    for message in _until_known(container, decoders, pending, late, missing):
         late.discard(message.topic)
+        missing.discard(message.topic)
         if container.topics[message.topic].kind in IMAGES and message.topic not in pending:
             continue
         try:
@@ -91,18 +100,19 @@ def _matters(topic: Topic, images: Collection[str] | None) -> bool:
 
 
 def _until_known(
-    container: Container, names: Collection[str], pending: set[str], late: set[str]
+    container: Container, names: Collection[str], pending: set[str], late: set[str], missing: set[str]
 ) -> Iterator[Message]:
     """Yield messages until no topic is pending, or until too long after the first image.
 
-    late: topics that may come later than images; their first message is enough.
+    late: topics that may come later than images; their first message is enough. missing: topics that are
+    waited for however late they come.
     """
     first = None
     images = frozenset(pending)
     for message in container.messages(names) if pending else ():
         if message.topic in images and first is None:
             first = message.time
-        if first is not None:
+        if first is not None and not missing:
             passed = 1e-9 * (message.time - first)
             if passed > (HEAD_SECONDS if not late else LATE_SECONDS):
                 return

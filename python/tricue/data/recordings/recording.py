@@ -237,7 +237,7 @@ def open_recording(path: Path, topics: Mapping[str, str] | None = None, scale: f
     return Source(
         path.resolve().stem,
         {channel: JointStream(recording, channel) for channel in ordered},
-        notes=(*(() if topics else (_note_choice(ordered, head),)), *cameras.notes),
+        notes=(*(() if topics else (_note_choice(ordered, container, head),)), *cameras.notes),
         register=cameras.register,
         rectify=cameras.rectify,
         camera=cameras.camera,
@@ -305,8 +305,17 @@ def _depth_units(head: Head, scale: float | None) -> DepthUnits:
     return DepthUnits(head.units) if head.units else DepthUnits()
 
 
-def _note_choice(chosen: Mapping[str, str], head: Head) -> str:
+def _note_choice(chosen: Mapping[str, str], container: Container, head: Head) -> str:
     others = [name for name in head.images if name not in chosen.values()]
+    if unseen := [
+        name for name, topic in container.topics.items() if topic.kind in IMAGES and name not in head.images
+    ]:
+        counts = container.counts()
+        others += [
+            f"{name} ({head.unread.get(name, 'it has no image at the beginning')})"
+            for name in unseen
+            if counts[name]
+        ]
     named = ", ".join(f"{channel}={name}" for channel, name in chosen.items())
     rest = f"; left out {', '.join(others)}" if others else ""
     return f"topics chosen: {named}{rest}" + ("; --topics chooses others" if others else "")
