@@ -155,6 +155,16 @@ def test_the_browser_shows_the_frames_that_are_tracked(
     assert seen == [open_source(folder, target="Van 3").length] == [2]
 
 
+def test_no_boxes_are_drawn_in_images_that_will_be_rectified(
+    images: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that --select refuses --rectify, after which the boxes would be in other pixels."""
+    monkeypatch.setattr(tricue.app, "select_boxes", lambda place, **_: [(0, Box(17, 20, 24, 32))])
+    words = [str(images), "--right", str(images), "--select", "--rectify", "--calibration", "raw.yml"]
+    code, _, error = run(capsys, *words)
+    assert (code, error[:56]) == (2, "tricue track: --select: expected without --rectify, as t")
+
+
 def test_json_lines_for_other_programs(
     images: Path, drift_tracker: str, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -137,6 +137,10 @@ def _selected(options: argparse.Namespace) -> list[StartBox]:
     """The boxes that the user draws in the browser; ValueError if there are none."""
     from tricue.app import select_boxes
 
+    if options.rectify:
+        raise ValueError(
+            "--select: expected without --rectify, as the page shows images that aren't rectified; give --box"
+        )
     drawn = select_boxes(options.input, target=options.target, **opening(options))
     found = [StartBox(box, frame) for frame, box in drawn]
     if not found:
