@@ -17,6 +17,7 @@ from tricue.draw.video import OverlayWriter
 
 from tests.cli.test_info import kitti
 from tests.cli.test_track_several import images, rows
+from tests.data.depth_folders import color_folder, depth_folder
 
 __all__ = ["images"]
 
@@ -163,6 +164,18 @@ def test_no_boxes_are_drawn_in_images_that_will_be_rectified(
     words = [str(images), "--right", str(images), "--select", "--rectify", "--calibration", "raw.yml"]
     code, _, error = run(capsys, *words)
     assert (code, error[:56]) == (2, "tricue track: --select: expected without --rectify, as t")
+
+
+def test_no_boxes_of_depth_are_drawn_in_color(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that --select refuses a tracker of depth alone where depth has other pixels than color."""
+    color_folder(tmp_path / "color", 2)
+    depth_folder(tmp_path / "depth", [1000, 1000])
+    monkeypatch.setattr(tricue.app, "select_boxes", lambda place, **_: [(0, Box(10, 8, 12, 16))])
+    words = [str(tmp_path), "--depth-scale", "0.001", "--tracker", "depth-particle", "--select"]
+    code, _, error = run(capsys, *words)
+    assert (code, error[:56]) == (2, "tricue track: --select: depth-particle takes boxes in de")
 
 
 def test_json_lines_for_other_programs(

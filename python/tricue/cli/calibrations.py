@@ -85,6 +85,17 @@ def find_calibration(options: Namespace, source: Source) -> Calibration:
     return _find_intrinsics(source, cameras, _advice("--calibration FILE or --fov H,V", options))
 
 
+def is_registered(options: Namespace, source: Source) -> bool:
+    """Whether depth is in color's pixels without a calibration's help, as far as is known."""
+    color, depth = (source.channels[name].size for name in ("color", "depth"))
+    if source.register is not None:
+        return True
+    if color != depth:
+        return False
+    file = options.calibration or source.calibration
+    return file is None or read_registration(file, depth, color) is None
+
+
 def _takes_rig(source: Source, cameras: Collection[str]) -> bool:
     """Whether a tracker that takes these cameras gets a stereo rig for a source, not a single camera."""
     return "rig" in cameras and ("right" in source.channels or "intrinsics" not in cameras)

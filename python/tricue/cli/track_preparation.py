@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from tricue.camera.box import Box
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.cli.arguments import StartBox
-from tricue.cli.calibrations import find_calibration
+from tricue.cli.calibrations import find_calibration, is_registered
 from tricue.cli.output_files import check_different, check_not_read
 from tricue.cli.outputs import STANDARD_OUTPUT, Step
 from tricue.cli.source_options import opening
@@ -22,6 +22,7 @@ from tricue.data.open_source import Source, open_source
 from tricue.draw.video import check_name, written_path
 from tricue.draw.writable import check_writable
 from tricue.errors import BoxError
+from tricue.track.base.registry import traits
 from tricue.track.base.settings import make_tracker, read_settings
 from tricue.track.base.track import Tracker
 from tricue.track.base.validation import check_box_in
@@ -137,15 +138,27 @@ def _selected(options: argparse.Namespace) -> list[StartBox]:
     """The boxes that the user draws in the browser; ValueError if there are none."""
     from tricue.app import select_boxes
 
-    if options.rectify:
-        raise ValueError(
-            "--select: expected without --rectify, as the page shows images that aren't rectified; give --box"
-        )
+    _check_selection(options)
     drawn = select_boxes(options.input, target=options.target, **opening(options))
     found = [StartBox(box, frame) for frame, box in drawn]
     if not found:
         raise ValueError("--select: expected a box, none was drawn")
     return found
+
+
+def _check_selection(options: argparse.Namespace) -> None:
+    """ValueError if the images in the page aren't those in whose pixels the tracker takes boxes."""
+    if options.rectify:
+        raise ValueError(
+            "--select: expected without --rectify, as the page shows images that aren't rectified; give --box"
+        )
+    if options.tracker is None or any("color" in each.names for each in traits(options.tracker).channels):
+        return
+    source = open_source(options.input, target=options.target, **opening(options))
+    if {"color", "depth"} <= source.channels.keys() and not is_registered(options, source):
+        raise ValueError(
+            f"--select: {options.tracker} takes boxes in depth's pixels, the page shows color's; give --box"
+        )
 
 
 def _numbered(options: argparse.Namespace) -> list[tuple[int, Box]]:
