@@ -123,6 +123,14 @@ def test_many_depth_images_are_sampled(tmp_path: Path, capsys: pytest.CaptureFix
     assert line.endswith("25.0 % invalid pixels; of 100 frames, evenly spaced")
 
 
+def test_depth_of_far_scenes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that depths beyond 65.5 m, in units larger than a millimeter, are reported as they are."""
+    depth(tmp_path / "depth", 1)
+    assert main(["info", str(tmp_path / "depth"), "--depth-scale", "0.1", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)["depth"]
+    assert (found["near_m"], found["far_m"]) == (pytest.approx(100.4), pytest.approx(109.4))
+
+
 def test_depth_of_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """It proves that depth without a single measurement has no range."""
     cv2.imwrite(str(tmp_path / "1.png"), np.zeros((4, 4), np.uint16))

@@ -18,7 +18,7 @@ from tricue.data.recordings.recording import Recording
 from tricue.data.streams import Images, Stream, Video, steps_back
 
 MAX_SAMPLED_FRAMES = 100  # of which the depth is summarized
-DEPTH_LEVELS = 1 << 16  # values of a 16-bit image
+DEPTH_LEVELS = 1 << 20  # more values than 16 bits have; in millimeters, up to a kilometer
 MIN_PLAUSIBLE_BASELINE = 0.001  # meters
 Summary = dict[str, Any]
 
@@ -78,7 +78,8 @@ def summarize_depth(stream: Stream, source: str) -> Summary | None:
     length = count_frames(stream)
     chosen = np.unique(np.linspace(0, length - 1, min(MAX_SAMPLED_FRAMES, length)).round().astype(int))
     counts = np.zeros(DEPTH_LEVELS, np.int64)
-    level = min(scale, METERS_PER_MILLIMETER)  # depth may be recorded in meters, as floats
+    # depth may be recorded in meters, as floats
+    level = scale if isinstance(stream, Images) else min(scale, METERS_PER_MILLIMETER)
     for _, meters in stream.at(chosen.tolist()):
         units = np.rint(np.nan_to_num(meters.ravel() / level, posinf=0)).clip(0, DEPTH_LEVELS - 1)
         counts += np.bincount(units.astype(np.int64), minlength=DEPTH_LEVELS)
