@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import zstandard
 from tricue import open_source
+from tricue.app.frames import Recording
 from tricue.cli.program import main
 from tricue.data.joint import JointStream
 from tricue.doctor.install import install_extra
@@ -79,6 +80,8 @@ def test_a_message_that_is_not_decompressed(tmp_path: Path) -> None:
     rewrite(next(folder.glob("*.db3")), lambda data: zstandard.compress(data)[:-5], 3)
     source = open_source(folder)
     assert blues(source) == [10, 20, 40, 50, 60]
+    assert source.remarks == ("left out 1 unreadable message",)
+    Recording(source).frame(4)  # lists the frames first
     assert source.remarks == ("left out 1 unreadable message",)
 
 

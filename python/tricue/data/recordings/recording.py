@@ -67,7 +67,8 @@ class Recording:
         rate = head.fps(chosen[self.clock])
         self.fps = rate or DEFAULT_FPS
         self._left_out: Counter[str] = Counter()
-        self._moments = self._unreadable = self._damaged = 0
+        self._moments = self._damaged = 0
+        self._unreadable: set[tuple[str, int, int]] = set()  # topic, time and place of each message
         self._steps_back: list[int] = []
 
     @property
@@ -97,7 +98,8 @@ class Recording:
                 f"with no {others} image within {self.tolerance / 1e6:.3g} ms"
             )
         if self._unreadable:
-            found.append(f"left out {self._unreadable} unreadable message{'s' * (self._unreadable > 1)}")
+            count = len(self._unreadable)
+            found.append(f"left out {count} unreadable message{'s' * (count > 1)}")
         if self._damaged:
             found.append(f"took the frame before in place of {self._damaged} with a damaged image")
         if self._steps_back:
@@ -116,7 +118,7 @@ class Recording:
         each topic's first image.
         """
         remaining = None if indices is None else deque(indices)
-        number = self._unreadable = self._damaged = 0
+        number = self._damaged = 0
         images = {channel: self._first[channel] for channel in channels}
         undecoded: list[dict[str, Timed[Stored]]] = []
         for paired in self._paired():
@@ -196,7 +198,7 @@ class Recording:
             try:
                 image = to_image(self._decoders[message.topic](message.data))
             except ValueError:
-                self._unreadable += 1
+                self._unreadable.add((message.topic, message.time, place))
                 continue
             channel = self._channels[message.topic]
             yield Timed(channel, image.time or message.time, Stored(message.time, place, image))
