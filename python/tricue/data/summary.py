@@ -3,6 +3,7 @@
 
 import math
 import warnings
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -30,8 +31,7 @@ def count_frames(stream: Stream) -> int:
 
 def compute_duration(source: Source, frames: int) -> float:
     """Seconds from the first frame to the last, of so many."""
-    clock = source.clock
-    times = clock.times if source.rate is None and isinstance(clock, Images | Video) else None
+    times = _times(source.clock) if source.rate is None else None
     if times and frames and not steps_back(times):
         return times[frames - 1] - times[0]
     return max(0, frames - 1) / source.fps
@@ -44,6 +44,15 @@ def compute_rate(source: Source, frames: int) -> float:
         return source.fps
     mean = (frames - 1) / seconds
     return source.fps if math.isclose(mean, source.fps, rel_tol=1e-6) else mean
+
+
+def _times(clock: Stream) -> Sequence[float] | None:
+    """The times of the frames in seconds; None if they aren't known."""
+    if isinstance(clock, Images | Video):
+        return clock.times
+    if isinstance(clock, JointStream) and isinstance(clock.joint, Recording):
+        return clock.joint.times
+    return None
 
 
 def summarize_channel(stream: Stream) -> Summary:

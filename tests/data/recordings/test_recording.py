@@ -223,6 +223,13 @@ def test_info_shows_topics(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -
         assert line in said.splitlines()
 
 
+def test_the_duration_of_a_recording_with_a_gap(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that tricue info adds the time in which nothing was recorded."""
+    sent = [raw("/a", START + index * SECOND // 10, color(1), "bgr8") for index in (*range(20), 100)]
+    assert main(["info", str(mcap(tmp_path, sent))]) == 0
+    assert "  frames       21, 10 a second, 10.00 s" in capsys.readouterr().out.splitlines()
+
+
 def test_tracking_in_a_recording(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """It proves that tricue track reads a recording with its own camera, and tells what was left out."""
     rng = np.random.default_rng(0)

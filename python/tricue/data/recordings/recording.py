@@ -3,6 +3,7 @@
 
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
@@ -138,8 +139,13 @@ class Recording:
         if remaining:
             raise ValueError(f"{self.container.path}: expected {remaining[0] + 1} frames, got {number}")
 
+    @cached_property
+    def times(self) -> Sequence[float]:
+        """The times of all frames, in seconds; this reads the whole recording, without decoding images."""
+        return [1e-9 * paired[self.clock].time for paired in self._paired()]
+
     def count(self) -> int:
-        return sum(1 for _ in self._paired())
+        return len(self.times)
 
     def topics(self) -> list[TopicSummary]:
         """All topics, by name, with the numbers of their messages."""
