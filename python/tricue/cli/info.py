@@ -3,6 +3,7 @@
 
 import argparse
 import json
+import warnings
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -74,14 +75,16 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _open(options: argparse.Namespace) -> Source:
-    source = open_source(
-        options.place,
-        depth_scale=options.depth_scale,
-        fps=options.fps,
-        right=options.right,
-        target=options.target,
-        topics=options.topics,
-    )
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "baseline: ")  # the summary has a warning of its own
+        source = open_source(
+            options.place,
+            depth_scale=options.depth_scale,
+            fps=options.fps,
+            right=options.right,
+            target=options.target,
+            topics=options.topics,
+        )
     if any(isinstance(stream, LiveStream) for stream in source.channels.values()):
         raise ValueError(f"{source.name}: expected a recording, of which the frames can be counted")
     return source

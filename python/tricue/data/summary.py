@@ -173,11 +173,7 @@ def _summarize_camera(source: Source, path: Path, unit: float | None) -> Summary
     if "right" in source.channels:
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", "baseline: ")  # the summary has a warning of its own
-            rig = read_rig(path, source.size, unit, source.kitti_cameras)
-        summary = _summarize_known(rig)
-        if not MIN_PLAUSIBLE_BASELINE <= rig.baseline <= MAX_PLAUSIBLE_BASELINE:
-            summary["warning"] = f"a baseline of {rig.baseline:.4g} m is implausible; is it in another unit?"
-        return summary
+            return _summarize_known(read_rig(path, source.size, unit, source.kitti_cameras))
     channel = "depth" if "depth" in source.channels else "color"
     return _summarize_intrinsics(read_intrinsics(path, source.size, channel, source.kitti_cameras[0]))
 
@@ -185,7 +181,10 @@ def _summarize_camera(source: Source, path: Path, unit: float | None) -> Summary
 def _summarize_known(camera: Intrinsics | StereoRig) -> Summary:
     if isinstance(camera, Intrinsics):
         return _summarize_intrinsics(camera)
-    return {**_summarize_intrinsics(camera.intrinsics), "baseline_m": camera.baseline}
+    summary = {**_summarize_intrinsics(camera.intrinsics), "baseline_m": camera.baseline}
+    if not MIN_PLAUSIBLE_BASELINE <= camera.baseline <= MAX_PLAUSIBLE_BASELINE:
+        summary["warning"] = f"a baseline of {camera.baseline:.4g} m is implausible; is it in another unit?"
+    return summary
 
 
 def _summarize_intrinsics(camera: Intrinsics) -> Summary:

@@ -179,6 +179,26 @@ def test_a_stereo_pair(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.parametrize("baseline", [0.0001, 120.0])
+def test_an_implausible_baseline_is_told_once(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], baseline: float
+) -> None:
+    """It proves that tricue info doubts the unit of a recording's own baseline, as it does a file's."""
+    p = [30.0, 0, 15.5, -30 * baseline, 0, 30, 11.5, 0, 0, 0, 1, 0]
+    sent = [
+        each
+        for side, other in (("left", {}), ("right", {"p": p}))
+        for each in (
+            info(f"/{side}/camera_info", START, (32, 24), 30.0, **other),
+            raw(f"/{side}/image_rect", START, color(1), "bgr8"),
+        )
+    ]
+    assert main(["info", str(mcap(tmp_path, sent))]) == 0
+    out, error = capsys.readouterr()
+    assert f"  warning      a baseline of {baseline:.4g} m is implausible" in out
+    assert error == ""
+
+
 def test_a_folder_of_images_beside_its_bag(tmp_path: Path) -> None:
     """It proves that images that were taken out of a bag are read, not the bag beside them."""
     (tmp_path / "rgb").mkdir()
