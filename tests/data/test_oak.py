@@ -89,6 +89,20 @@ def fake_depthai(frames: int) -> tuple[ModuleType, list[str]]:
     return module, links
 
 
+def test_oak_without_stereo_cameras(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves, on a stand-in for depthai, that a camera with color alone is an error of one line."""
+    module, _ = fake_depthai(frames=1)
+
+    def create(kind: str) -> None:
+        raise RuntimeError(f"no {kind} at CAM_B")
+
+    pipeline = SimpleNamespace(create=create, stop=lambda: None)
+    module.Pipeline = lambda _device: pipeline  # type: ignore[attr-defined]
+    monkeypatch.setitem(sys.modules, "depthai", module)
+    with pytest.raises(OSError, match="oak:: can't give color and depth"):
+        tricue.open_source("oak:")
+
+
 def test_oak(monkeypatch: pytest.MonkeyPatch) -> None:
     """It proves, on a stand-in for depthai, that color and registered depth come with the color camera."""
     module, links = fake_depthai(frames=10**6)

@@ -35,10 +35,16 @@ class Oak:
             found = dai.Device(dai.DeviceInfo(self.device)) if self.device else dai.Device()
         except RuntimeError as error:
             raise OSError(f"{self.name}: can't be opened ({error}); is it plugged in?") from None
-        self._pipeline = dai.Pipeline(found)
+        try:
+            self._start(dai, found)
+        except RuntimeError as error:  # such as one without stereo cameras
+            raise OSError(f"{self.name}: can't give color and depth ({error})") from None
+
+    def _start(self, dai: Any, device: Any) -> None:
+        self._pipeline = dai.Pipeline(device)
         self._gone = dai.MessageQueue.QueueException
-        self._queue = _color_and_depth(dai, self._pipeline, found.getPlatform() == dai.Platform.RVC4)
-        matrix = np.asarray(found.readCalibration().getCameraIntrinsics(dai.CameraBoardSocket.CAM_A, *SIZE))
+        self._queue = _color_and_depth(dai, self._pipeline, device.getPlatform() == dai.Platform.RVC4)
+        matrix = np.asarray(device.readCalibration().getCameraIntrinsics(dai.CameraBoardSocket.CAM_A, *SIZE))
         self.camera = Intrinsics(matrix[0, 0], matrix[1, 1], matrix[0, 2], matrix[1, 2], *SIZE)
         self._pipeline.start()
 
