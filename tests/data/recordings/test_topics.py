@@ -59,6 +59,21 @@ def image(encoding: str) -> ImageMessage:
             id="zed",
         ),
         pytest.param(
+            {
+                "/zed/left/image_rect_color": "bgra8",
+                "/zed/right/image_rect_color": "bgra8",
+                "/zed/confidence/confidence_map": "32FC1",
+                "/zed/disparity/image": "32FC1",
+            },
+            {"color": "/zed/left/image_rect_color", "right": "/zed/right/image_rect_color"},
+            id="zed-without-depth",
+        ),
+        pytest.param(
+            {"/a/rgb": "bgr8", "/a/depth/confidence": "32FC1", "/a/depth/image": "32FC1"},
+            {"color": "/a/rgb", "depth": "/a/depth/image"},
+            id="confidence-of-depth",
+        ),
+        pytest.param(
             {"/cam1/image_raw": "mono8", "/cam0/image_raw": "mono8"},
             {"color": "/cam0/image_raw", "right": "/cam1/image_raw"},
             id="euroc",

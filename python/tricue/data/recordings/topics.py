@@ -32,6 +32,8 @@ def guess_topics(first: Mapping[str, ImageMessage]) -> dict[str, str]:
     depths = [name for name, image in first.items() if is_depth_topic(name, image)]
     colors = [name for name in first if name not in depths]
     chosen = {"color": min(colors, key=_color_rank)} if colors else {}
+    if colors:  # floats may be confidences or disparities
+        depths = [name for name in depths if _has("depth", name) or not _has(_NO_PICTURE, name)]
     if depths:
         chosen["depth"] = min(depths, key=lambda name: _depth_rank(name, chosen.get("color", "")))
     elif colors and (right := _partner(chosen["color"], colors)):
@@ -69,7 +71,14 @@ def _color_rank(name: str) -> tuple[object, ...]:
 
 def _depth_rank(name: str, color: str) -> tuple[object, ...]:
     shared = next((i for i, (a, b) in enumerate(zip(name, color, strict=False)) if a != b), len(color))
-    return not _has("depth", name), not _has(_REGISTERED, name), -shared, stem(name) != name, name
+    return (
+        _has(_NO_PICTURE, name),
+        not _has("depth", name),
+        not _has(_REGISTERED, name),
+        -shared,
+        stem(name) != name,
+        name,
+    )
 
 
 def _partner(left: str, names: Collection[str]) -> str | None:
