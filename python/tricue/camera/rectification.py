@@ -121,6 +121,11 @@ class Rectification:
         ]
 
 
+def is_rotation(matrix: Matrix) -> bool:
+    """Whether a matrix (3, 3) is orthonormal, up to a calibration file's rounding."""
+    return bool(np.allclose(matrix @ matrix.T, np.eye(3), atol=1e-2))
+
+
 def _rectify(raw: StereoCalibration, size: Size) -> RectifyingTransforms:
     """Bouguet's rotations by OpenCV, and one camera matrix for both cameras.
 
@@ -177,11 +182,20 @@ class _CalibrationFiles(NamedTuple):
                 raise ValueError(
                     f"{self.names}: expected 4, 5, 8, 12 or 14 distortion coefficients, got {distortion.size}"
                 )
+            if min(camera[0, 0], camera[1, 1]) <= 0 or not np.isfinite(distortion).all():
+                raise ValueError(
+                    f"{self.names}: expected focal lengths above 0 and finite distortion coefficients; "
+                    "did the calibration fail?"
+                )
         if rotation is None or translation is None:
             return StereoCalibration(cameras, distortions, np.eye(3), np.zeros(3))
         rotation = np.asarray(cv2.Rodrigues(rotation)[0]) if rotation.size == 3 else rotation
         self._check(rotation, (3, 3), "a rotation R")
         self._check(translation.ravel(), (3,), "a translation T")
+        if posed:
+            self._check_rotation(rotation, "R")
+        if posed and not translation.any():
+            raise ValueError(f"{self.names}: expected two cameras apart from each other, got a T of 0")
         return StereoCalibration(cameras, distortions, rotation, translation.ravel())
 
     def rectified(self) -> RectifyingTransforms | None:
@@ -190,7 +204,7 @@ class _CalibrationFiles(NamedTuple):
         if rotations is None or projections is None:
             return None
         for rotation in rotations:
-            self._check(rotation, (3, 3), "a rotation R1, R2")
+            self._check_rotation(rotation, "R1, R2")
         return RectifyingTransforms(rotations, projections)
 
     def pair(self, patterns: Sequence[str]) -> tuple[Matrix, Matrix] | None:
@@ -214,6 +228,11 @@ class _CalibrationFiles(NamedTuple):
     def _first(self, keys: Sequence[str]) -> Matrix | None:
         found = (file.matrix(key) for file in self.files for key in keys)
         return next((matrix for matrix in found if matrix is not None), None)
+
+    def _check_rotation(self, matrix: Matrix, name: str) -> None:
+        self._check(matrix, (3, 3), f"a rotation {name}")
+        if not is_rotation(matrix):
+            raise ValueError(f"{self.names}: expected a rotation {name}, got another matrix")
 
     def _check(self, matrix: Matrix, shape: tuple[int, ...], what: str) -> None:
         if matrix.shape != shape or not np.isfinite(matrix).all():

@@ -13,6 +13,7 @@ from tricue.camera.rectification import (
     Rectification,
     RectifyingTransforms,
     StereoCalibration,
+    is_rotation,
 )
 from tricue.camera.registration import Extrinsics, Registration, Reprojection
 from tricue.camera.rig import Intrinsics, StereoRig
@@ -184,7 +185,7 @@ def _rectification(left: CameraMessage, right: CameraMessage, size: tuple[int, i
             raise ValueError(f"the distortion model {info.model} isn't known")
         if len(info.d) not in (0, *DISTORTION_COUNTS) or not np.isfinite(info.d).all():
             raise ValueError(f"D isn't one of {info.model or 'plumb_bob'}")
-        if not _is_rotation(info.r):
+        if len(info.r) != 9 or not is_rotation(np.reshape(info.r, (3, 3))):
             raise ValueError("R isn't a rotation")
         if not _has_projection(info):
             raise ValueError("P isn't known")
@@ -196,13 +197,6 @@ def _rectification(left: CameraMessage, right: CameraMessage, size: tuple[int, i
     )
     projections = np.reshape(left.p, (3, 4)), np.reshape(right.p, (3, 4))
     return Rectification(raw, size, rectified=RectifyingTransforms((rotations[0], rotations[1]), projections))
-
-
-def _is_rotation(values: Sequence[float]) -> bool:
-    if len(values) != 9:
-        return False
-    matrix = np.reshape(values, (3, 3))
-    return bool(np.allclose(matrix @ matrix.T, np.eye(3), atol=1e-3))
 
 
 def _both(left: CameraMessage, right: CameraMessage, *names: str) -> list[list[tuple[float, ...]]]:
