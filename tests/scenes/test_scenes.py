@@ -132,7 +132,7 @@ def test_unknown_background_is_named():
 @pytest.mark.parametrize(
     ("make", "arguments", "words"),
     [
-        (scenes.face_over_clutter, {"frames": 0}, "frames: expected 1 or more, got 0"),
+        (scenes.face_over_clutter, {"frames": 0}, "frames: expected a count above 0, got 0"),
         (
             scenes.face_over_clutter,
             {"noise": np.nan},
@@ -140,17 +140,37 @@ def test_unknown_background_is_named():
         ),
         (scenes.light_change, {"noise": -1.0}, "noise: expected levels of 255, 0 or more, got -1.0"),
         (scenes.light_change, {"max_speed": 0.0}, "max_speed: expected pixels per frame above 0"),
-        (scenes.face_over_clutter, {"max_speed": np.nan}, "max_speed: expected pixels per frame above 0"),
+        (scenes.face_over_clutter, {"max_speed": np.nan}, "max_speed: expected a finite number"),
         (
             scenes.face_over_clutter,
             {"brightness": (1.0, 0.5)},
             "brightness: expected a low and a higher gain",
         ),
+        (scenes.face_over_clutter, {"brightness": (1.0,)}, "brightness: expected a low and a higher gain"),
+        (scenes.static_head, {"aside": (0.1,)}, "aside: expected two shares of half the view"),
     ],
 )
 def test_bad_arguments_are_named(make, arguments, words):
     """Arguments that no scene can be made of are refused by name."""
     with pytest.raises(ValueError, match=words):
+        make(**arguments)
+
+
+@pytest.mark.parametrize(
+    ("make", "arguments"),
+    [
+        (scenes.face_over_clutter, {"frames": "3"}),
+        (scenes.light_change, {"frames": 1.5}),
+        (scenes.light_change, {"max_speed": "fast"}),
+        (scenes.face_over_clutter, {"brightness": 1.0}),
+        (scenes.static_head, {"aside": 0.1}),
+        (scenes.stress_scene, {"size": 320}),
+        (scenes.room_scene, {"size": None}),
+    ],
+)
+def test_arguments_of_a_wrong_type_are_named(make, arguments):
+    """A number, text or None where something else is expected is refused by the argument's name."""
+    with pytest.raises(TypeError, match=f"^{next(iter(arguments))}: expected"):
         make(**arguments)
 
 

@@ -3,6 +3,7 @@
 
 import numpy as np
 
+from tricue.camera.numbers import positive, positive_whole
 from tricue.scenes.arrays import Array
 
 
@@ -12,10 +13,8 @@ def sample_path(frames: int, reach: tuple[float, float], max_speed: float, rng: 
     Each axis is a sum of two sines with random phases; the speed is uneven, lower in turns. A step is at most
     the curve's largest derivative times the step of its parameter, which bounds the speed.
     """
-    if frames < 1:
-        raise ValueError(f"frames: expected 1 or more, got {frames}")
-    if not (max_speed > 0 and np.isfinite(max_speed)):
-        raise ValueError(f"max_speed: expected pixels per frame above 0, got {max_speed}")
+    positive_whole(frames, "frames", "a count")
+    positive(max_speed, "max_speed", "pixels per frame")
     phases = rng.uniform(0, 2 * np.pi, (2, 2))
     size = np.array(reach)[:, None] * _SHARES
     longest = np.hypot(*_sines(np.linspace(0, 2 * np.pi, 4001), phases + np.pi / 2, size * _TURNS).T).max()

@@ -5,7 +5,9 @@ import numpy as np
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
+from tricue.camera.numbers import finite
 from tricue.scenes import motion
+from tricue.scenes.pairs import check_pair
 from tricue.scenes.rendering import photographs
 from tricue.scenes.rendering.paste import ellipse_mask, expose, paste
 from tricue.scenes.scene import Scene
@@ -30,9 +32,11 @@ def face_over_clutter(
     multiplies the face's levels; it starts at 1. noise: standard deviation in levels of 255.
 
     The seed decides the window of the background, the path, the times and sizes of the brightness steps, and
-    the noise. ValueError for an unknown background or an invalid range.
+    the noise. ValueError or TypeError names the argument that is wrong.
     """
-    if not 0 <= brightness[0] < brightness[1] < np.inf:
+    check_pair(brightness, "brightness", "a low and a higher gain")
+    low, high = (finite(gain, "brightness", "gains") for gain in brightness)
+    if not 0 <= low < high:
         raise ValueError(f"brightness: expected a low and a higher gain, got {brightness}")
     rng = make_generator(seed)
     clutter = photographs.crop_background(background, CLUTTER_HEIGHT, CLUTTER_WIDTH, rng).astype(np.float32)

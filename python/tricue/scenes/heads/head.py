@@ -14,6 +14,7 @@ from tricue.scenes.heads import moves as head_moves
 from tricue.scenes.heads.actor import Actor, PosedActor
 from tricue.scenes.heads.moves import HandMotion, HeadMotion, HeadRange
 from tricue.scenes.heads.room import StereoRoom, furnish_room, render_room
+from tricue.scenes.pairs import check_pair
 from tricue.scenes.rendering.depth_view import MountedCamera
 from tricue.scenes.rendering.ellipsoids import Ellipsoids
 from tricue.scenes.rendering.stereo_camera import (
@@ -53,7 +54,7 @@ def head(
         "ramp": the light falls linearly from 1 to 0.5 within 100 frames;
         "hidden": as "normal", and a hand in front of the head, which is then at 1 to 2.1 m, hides it
         completely from the left camera for 10 frames or more (in scenes of about 40 frames or longer).
-    light: the largest difference of the light's gain from 1, 0 to 1; not used by "ramp".
+    light: the largest difference of the light's gain from 1, 0 or more and below 1; not used by "ramp".
     noise: standard deviation in levels of 255, independent in both images.
 
     The seed decides the person's size, skin, hair and clothes, the path and the gestures, the room and the
@@ -93,6 +94,7 @@ def static_head(
     _check(frames, camera, "normal", light, noise)
     if not 0.5 <= finite(distance, "distance", "meters") <= 10:
         raise ValueError(f"distance: expected 0.5 to 10 m, got {distance!r}")
+    check_pair(aside, "aside", "two shares of half the view")
     rng = make_generator(seed)
     rig = _rig(camera, rng)
     gain = head_moves.sample_smooth_light(frames, light, rng) if light else np.ones(frames)

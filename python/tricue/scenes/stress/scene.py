@@ -17,6 +17,7 @@ from tricue.camera.numbers import finite, positive_whole
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.data.depth_images import METERS_PER_MILLIMETER
 from tricue.scenes.arrays import Array, Mask, Picture
+from tricue.scenes.pairs import check_pair
 from tricue.scenes.rendering.depth_sensor import DEPTH_SENSORS, DepthSensor
 from tricue.scenes.rendering.stereo_camera import BLUR_DEVIATION, expose_lit
 from tricue.scenes.seeds import check_seed
@@ -189,8 +190,10 @@ def _check(kind: str, seed: int, size: tuple[int, int], channels: str, noise: fl
         if value not in known:
             raise ValueError(f"{name}: expected one of {', '.join(known)}, got {value!r}")
     check_seed(seed)
-    if len(size) != 2 or min(positive_whole(side, "size", "pixels") for side in size) < MIN_IMAGE_SIDE:
-        raise ValueError(f"size: expected width and height of {MIN_IMAGE_SIDE} pixels or more, got {size!r}")
+    expected = f"width and height of {MIN_IMAGE_SIDE} pixels or more"
+    check_pair(size, "size", expected)
+    if min(positive_whole(side, "size", "pixels") for side in size) < MIN_IMAGE_SIDE:
+        raise ValueError(f"size: expected {expected}, got {size!r}")
     if finite(noise, "noise", "levels of 255") < 0:
         raise ValueError(f"noise: expected levels of 255, 0 or more, got {noise!r}")
     if not 0 <= finite(shutter, "shutter", "a share") <= 1:
