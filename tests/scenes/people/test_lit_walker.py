@@ -103,3 +103,9 @@ def test_wrong_arguments_are_named(arguments, name):
     """ValueError that begins with the argument's name."""
     with pytest.raises(ValueError, match=f"^{name}: expected"):
         lit_walker(0, **arguments)
+
+
+def test_the_least_wall_is_said_as_it_is_checked():
+    """A wall at 5.5 m is refused, because it has to be farther away."""
+    with pytest.raises(ValueError, match=r"wall: expected more than 5\.5 m, got 5\.5"):
+        lit_walker(0, 1, wall=5.5)

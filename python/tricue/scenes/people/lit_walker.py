@@ -232,8 +232,8 @@ def _check(frames: int, light: str, wall: float, unambiguous_range: float, min_r
     if light not in LIGHT_COURSES:
         raise ValueError(f"light: expected one of {', '.join(LIGHT_COURSES)}, got {light!r}")
     least = FARTHEST + MIN_BEHIND + 0.4
-    if finite(wall, "wall", "meters") < least:
-        raise ValueError(f"wall: expected at least {least:.1f} m, got {wall!r}")
+    if finite(wall, "wall", "meters") <= least:
+        raise ValueError(f"wall: expected more than {least:.1f} m, got {wall!r}")
     if finite(unambiguous_range, "unambiguous_range", "meters") <= 0:
         raise ValueError(f"unambiguous_range: expected meters above 0, got {unambiguous_range!r}")
     if not 0 <= finite(min_reflectance, "min_reflectance", "a share") <= 1:
