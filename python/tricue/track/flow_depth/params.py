@@ -13,6 +13,7 @@ if typing.TYPE_CHECKING:
 OURS = "our experiment: benchmarks/README.md"
 NEVER = 1e9  # seconds
 ANY_CHANGE = 1e12  # cells, so that no peak is preferred to a higher one
+MAX_VOTES = 1_000_000_000  # frames, over a year of video
 PAPER_COLUMNS = 160  # of the paper's images, to which lengths in the parameters refer
 
 
@@ -261,6 +262,7 @@ class FlowDepthParams(Params):
         unit="frames",
         source="section 4.4; " + OURS,
         low=1,
+        high=MAX_VOTES,
         doc="until a block is the target's",
         was="votes",
     )
@@ -269,6 +271,7 @@ class FlowDepthParams(Params):
         unit="frames",
         source="section 4.4; " + OURS,
         low=1,
+        high=MAX_VOTES,
         doc="until a block isn't the target's any more",
         was="against",
     )
@@ -277,6 +280,7 @@ class FlowDepthParams(Params):
         unit="frames",
         source=OURS,
         low=1,
+        high=MAX_VOTES,
         doc="in which an occluded block shows what is behind the target, until it isn't the target's",
     )
     max_frames_without_pixels: int = parameter(
@@ -284,6 +288,7 @@ class FlowDepthParams(Params):
         unit="frames",
         source=OURS,
         low=1,
+        high=MAX_VOTES,
         doc="by disparity alone, until a block isn't the target's any more",
         was="idle",
     )

@@ -65,6 +65,7 @@ class StereoHeadParams(Params):
         unit="cells",
         source=OURS,
         above=0,
+        high=1e9,
         doc="difference of disparity up to which a cell is at the head's depth",
         was="coherent",
     )
@@ -273,7 +274,7 @@ class StereoHeadParams(Params):
     )
     lost_after: float = parameter(0.5, unit="s", source=OURS, low=0, doc="time without the head until LOST")
     near: float = parameter(0.4, unit="m", source=OURS, low=0.001, doc="smallest distance of a head")
-    far: float = parameter(6.0, unit="m", source=OURS, above=0, doc="greatest distance of a head")
+    far: float = parameter(6.0, unit="m", source=OURS, above=0, high=1e9, doc="greatest distance of a head")
 
     def __post_init__(self) -> None:
         for name in ("color_noise", "color_drift"):
