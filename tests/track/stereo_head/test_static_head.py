@@ -133,3 +133,20 @@ def test_samples_without_a_marked_pixel_are_refused():
         count_colors([(image, np.zeros((5, 4), np.bool_))], Params())
     with pytest.raises(ValueError, match="hair_weight: expected a share"):
         head_colors([], [], 1.5)
+
+
+@pytest.mark.parametrize("level", [1, 255])
+def test_a_mask_of_numbers_is_refused(level):
+    """A mask of 0 and 255, as image files hold it, would index pixels instead of marking them."""
+    image, mask = np.zeros((4, 5, 3), np.uint8), np.full((4, 5), level, np.uint8)
+    with pytest.raises(TypeError, match="samples: expected a mask of True and False, got uint8"):
+        count_colors([(image, mask)], Params())
+
+
+@pytest.mark.parametrize("meters", [0.0, -1.5, float("nan")])
+def test_a_distance_that_no_head_has_is_refused(meters):
+    """A disparity's error is measured against a distance above 0."""
+    scene = static_head(0, 12)
+    found = measure_static_head(scene.frames, scene.boxes[0], scene.rig)
+    with pytest.raises(ValueError, match="distance: expected"):
+        found.disparity_noise(scene.rig, meters)

@@ -21,11 +21,14 @@ def count_colors(samples: Samples, p: StereoHeadParams, kernel_set: kernels.Name
     """(L,) histogram of sum 1 of the marked pixels of all samples, in the order of ``color_bins``.
 
     samples: BGR images (H, W, 3) with masks (H, W) that are True where they count. Each pixel has the same
-    weight. ValueError where no pixel is marked, or for a mask of another size.
+    weight. ValueError where no pixel is marked, or for a mask of another size; TypeError for one of numbers.
     """
     k = kernels.load(kernel_set)
     counts = np.zeros(math.prod(p.bins))
     for image, mask in samples:
+        if not (isinstance(mask, np.ndarray) and mask.dtype == np.bool_):
+            got = getattr(mask, "dtype", type(mask).__name__)
+            raise TypeError(f"samples: expected a mask of True and False, got {got}; mask > 0 makes one")
         height, width = image.shape[:2]
         if mask.shape != (height, width):
             raise ValueError(f"samples: expected a mask of shape {(height, width)}, got {mask.shape}")
@@ -42,7 +45,7 @@ def head_colors(
     """The parameter ``head_colors`` of samples: a histogram with a mode of skin and one of hair.
 
     hair_weight: the hair's share of the model, in [0, 1]. params: the color space; default the defaults.
-    ValueError as :func:`count_colors`.
+    Errors as those of :func:`count_colors`.
     """
     if not 0 <= hair_weight <= 1:
         raise ValueError(f"hair_weight: expected a share in [0, 1], got {hair_weight}")

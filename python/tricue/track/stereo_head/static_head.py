@@ -11,6 +11,7 @@ from tricue import kernels as kernel_sets
 from tricue.arrays import Floats
 from tricue.camera.box import BoxLike
 from tricue.camera.frame import Frame
+from tricue.camera.numbers import positive
 from tricue.camera.rig import StereoRig
 from tricue.track.base import validation
 from tricue.track.stereo_head.measure import measure
@@ -61,7 +62,7 @@ class StaticHead:
 
     def disparity_noise(self, rig: StereoRig, distance: float) -> float:
         """The root mean square error, pixels, of the disparities of a head at a known distance, meters."""
-        true = rig.intrinsics.fx * rig.baseline / distance
+        true = rig.intrinsics.fx * rig.baseline / positive(distance, "distance", "meters")
         return max(float(np.sqrt(np.mean((self.disparities - true) ** 2))), MIN_DISPARITY_DEVIATION)
 
 
