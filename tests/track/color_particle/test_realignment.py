@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The first frame's appearance is looked for near the estimate, so that errors of learning don't add up."""
 
+import cv2
 import numpy as np
 import pytest
 from tricue import Box, ColorParticleTracker, kernels
@@ -54,6 +55,21 @@ def test_the_estimate_stays_where_the_face_is_not(stage, first):
         found = realign(K, clutter, first, ELLIPSE, block)
         assert found.gain == 0
         np.testing.assert_array_equal(found.ellipse, ELLIPSE)
+
+
+@pytest.mark.parametrize("grows", [False, True])
+def test_the_size_stays_in_its_range(grows, stage, follow):
+    """The box of a target that shrinks or grows keeps the only size that is allowed."""
+    frames = []
+    for image, share in zip(stage([(100, 90)] * 30), np.linspace(1, 0.7, 30), strict=True):
+        frames.append(np.zeros_like(image))
+        small = cv2.resize(image, None, fx=share, fy=share)
+        frames[-1][: len(small), : small.shape[1]] = small
+    start = START
+    if grows:
+        frames, start = frames[::-1], Box(*(0.7 * each for each in START))
+    for track in follow(ColorParticleTracker(size_range=(1.0, 1.0)), frames, start):
+        assert track.box[2:] == pytest.approx(start[2:])
 
 
 def test_all_particles_move_with_their_estimate(frame, follow):

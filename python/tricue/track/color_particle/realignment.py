@@ -6,6 +6,7 @@ appearance doesn't drift. Where it is recognized with certainty, and better than
 target.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -21,6 +22,9 @@ SCALE = 0.05  # standard deviation of the logarithm of their size
 CLOSER = 0.3  # the second search, around the best window, has these deviations times this
 MIN_LOG_LIKELIHOOD = 0.0  # nats; colors and ranks together say that it is the target
 GAIN_TO_FORGET = 10.0  # nats; if another window is this much better, what was learned wasn't the target
+
+Sizes = tuple[tuple[float, float], tuple[float, float]]  # smallest and largest semi-axes, pixels
+ANY_SIZE: Sizes = (0.0, 0.0), (math.inf, math.inf)
 
 
 def _patterns(closer: float) -> list[Floats]:
@@ -47,12 +51,25 @@ class Realignment(NamedTuple):
     gain: float
 
 
-def realign(k: Kernels, image: Image, first: Appearance, ellipse: Floats, block: int) -> Realignment:
-    """Search around an ellipse (4,); without a certain, better one the gain is 0 and the ellipse the same."""
+def realign(
+    k: Kernels, image: Image, first: Appearance, ellipse: Floats, block: int, sizes: Sizes = ANY_SIZE
+) -> Realignment:
+    """Search around an ellipse (4,); without a certain, better one the gain is 0 and the ellipse the same.
+
+    sizes: bounds of the semi-axes.
+    """
     best, most, here = _look(k, image, first, ellipse, FIRST_LOOK[block % BLOCKS])
     if most <= max(here, MIN_LOG_LIKELIHOOD):
         return Realignment(ellipse, here, 0.0)
     best, most, _ = _look(k, image, first, best, CLOSER_LOOK[block % BLOCKS])
+    (least_minor, least_major), (most_minor, most_major) = sizes
+    x, y, minor, major = best.tolist()
+    allowed = min(max(minor, least_minor), most_minor), min(max(major, least_major), most_major)
+    if allowed != (minor, major):
+        best = np.array([x, y, *allowed])
+        most = float(first.log_likelihood(k, image, best[None])[0])
+        if most <= here:
+            return Realignment(ellipse, here, 0.0)
     return Realignment(best, most, most - here)
 
 

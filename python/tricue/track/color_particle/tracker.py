@@ -157,7 +157,8 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             particles = self._search_wide(state, image, particles, prediction)
         first_log_likelihood = None
         if self._comparable:
-            seen = realign(k, image, state.first, particles.ellipse, state.frames)
+            sizes = prediction.lower[2:], prediction.upper[2:]
+            seen = realign(k, image, state.first, particles.ellipse, state.frames, sizes)
             first_log_likelihood = seen.log_likelihood
             if seen.gain > 0:
                 if seen.gain > GAIN_TO_FORGET:
