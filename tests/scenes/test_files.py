@@ -8,6 +8,7 @@ from tricue.cli.program import main
 from tricue.data.open_source import open_source
 from tricue.evaluation.dataset import find_entries
 from tricue.scenes.files import write_sequence
+from tricue.scenes.heads.head import head
 from tricue.scenes.rooms.scene import room_scene
 from tricue.scenes.stress.scene import stress_scene
 
@@ -89,3 +90,17 @@ def test_a_room_is_read_back_at_its_rate(tmp_path):
     assert [frame.timestamp for frame in frames] == pytest.approx([0, 1 / made.rate, 2 / made.rate])
     assert np.array_equal(frames[2].depth, made.frames[2].depth, equal_nan=True)
     assert opened.truth(3) == pytest.approx(np.array([clipped(box, 96, 80) for box in made.boxes]), abs=1e-4)
+
+
+def test_a_room_of_one_frame_keeps_its_rate(tmp_path):
+    """The frame rate isn't lost where there is no interval to tell it."""
+    made = room_scene("walker", 1, (96, 80), frames=1)
+    write_sequence(made, tmp_path / "room")
+    assert f"fps={made.rate:g}" in (tmp_path / "room" / "sequence").read_text().splitlines()
+
+
+def test_a_scene_of_another_kind_is_refused(tmp_path):
+    """Nothing is written of a scene without the truth of a stress scene or a room."""
+    with pytest.raises(TypeError, match="scene: expected a StressScene or a RoomScene, got StereoScene"):
+        write_sequence(head(0, 2), tmp_path / "head")
+    assert not (tmp_path / "head").exists()

@@ -14,6 +14,7 @@ from tricue.data.box_table import BOX_TABLE
 from tricue.data.open_source import CALIBRATION_FILE
 from tricue.data.vot import SEQUENCE_FILE
 from tricue.scenes.rooms.scene import RoomScene
+from tricue.scenes.stress.events import STRESS_FRAME_RATE
 from tricue.scenes.stress.scene import StressScene
 
 TABLE_HEADER = "frame,x,y,width,height,X_m,Y_m,Z_m"
@@ -28,8 +29,10 @@ def write_sequence(scene: StressScene | RoomScene, folder: str | Path) -> None:
     a stereo pair with its baseline. The truth goes to boxes.csv, with empty cells, which readers take as
     absent, if no part of the target is visible. Timestamps aren't written, only the frame rate, and for a
     stereo pair not even that.
-    FileExistsError if the folder isn't empty.
+    FileExistsError if the folder isn't empty, TypeError for another kind of scene.
     """
+    if not isinstance(scene, (StressScene, RoomScene)):
+        raise TypeError(f"scene: expected a StressScene or a RoomScene, got {type(scene).__name__}")
     folder = Path(folder)
     if folder.exists() and any(folder.iterdir()):
         raise FileExistsError(f"{folder}: expected a new or an empty folder")
@@ -59,9 +62,8 @@ def _write(path: Path, image: NDArray[np.uint8] | NDArray[np.float32]) -> None:
 
 
 def _rate(scene: StressScene | RoomScene) -> float:
-    """Frames per second, by the last frame's time."""
-    last = scene.frames[-1].timestamp
-    return (len(scene.frames) - 1) / last if last else 1.0
+    """Frames per second."""
+    return scene.rate if isinstance(scene, RoomScene) else STRESS_FRAME_RATE
 
 
 def _table(scene: StressScene | RoomScene, clipped: bool) -> str:
