@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from bad_input_cases import RIG
 from tricue import Box, FlowDepthTracker, Frame, Intrinsics, Status
+from tricue.errors import NoDepthInBoxError
 
 from tests.track.flow_depth.drawn_target import (
     BOX,
@@ -123,6 +124,13 @@ def test_a_start_on_nothing_is_named(name, cues):
     with pytest.raises(ValueError, match=r"^box: expected a target with a disparity, got hardly any in \(48"):
         tracker.init(odd(name), BOX)
     assert tracker.update(NEXT) == expected
+
+
+def test_a_box_of_too_few_cells_is_named():
+    """A depth image without gaps isn't blamed for a box that is too small to share a disparity in."""
+    frame = Frame(np.zeros((480, 640, 3), np.uint8), depth=np.full((480, 640), 2.0, np.float32))
+    with pytest.raises(NoDepthInBoxError, match="in 12 cells of 2x2 pixels or more, got 9 in the"):
+        FlowDepthTracker().init(frame, (100, 100, 6, 6))
 
 
 @pytest.mark.parametrize("shape", cases.OTHER_SHAPES, ids=str)

@@ -9,7 +9,7 @@ from tricue.kernels import Kernels
 from tricue.track.flow_depth.blocks import Blocks
 from tricue.track.flow_depth.cue_input import CueInput
 from tricue.track.flow_depth.disparity_geometry import DisparityGeometry
-from tricue.track.flow_depth.initial_disparity import find_initial_disparity
+from tricue.track.flow_depth.initial_disparity import MIN_DISPARITY_CELLS, find_initial_disparity
 from tricue.track.flow_depth.outline import PixelOutline
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Rectangle, cells_of, grown
@@ -59,7 +59,15 @@ def _initialize_disparity(k: Kernels, reduced: ReducedFrame, window: Rectangle, 
     x0, y0, x1, y1 = cells_of(window, reduced.gray.shape)
     across, along = BOX_MARGIN
     inner = grown((x0, y0, x1, y1), -across * (x1 - x0), -along * (y1 - y0))
-    disparity = find_initial_disparity(k, reduced, cells_of(inner, reduced.gray.shape))
+    middle = cells_of(inner, reduced.gray.shape)
+    count = max(middle[2] - middle[0], 0) * max(middle[3] - middle[1], 0)
+    if count < MIN_DISPARITY_CELLS:
+        side = reduced.step
+        raise NoDepthInBoxError(
+            f"box: expected a target with a disparity in {MIN_DISPARITY_CELLS} cells of {side}x{side} pixels "
+            f"or more, got {count} in the middle of {tuple(target)}"
+        )
+    disparity = find_initial_disparity(k, reduced, middle)
     if disparity is None:
         raise NoDepthInBoxError(f"box: expected a target with a disparity, got hardly any in {tuple(target)}")
     return disparity
