@@ -10,12 +10,13 @@ them frontal, a box is right if at least half of its inner part is skin by a han
 (--every 1) take half an hour. Baselines are the cascades of cv2 4 and of scikit-image.
 
 With --left-out, tricue's least scores, the only numbers that real images decide, are chosen for each sequence
-on all others: as the lowest with which at most 0.5 % of the frames without faces have a false start, in color
-and in gray, to which all frames without faces are also converted. It also prints the scores that are chosen
-if nothing is left out.
+on all others: as the lowest with which no frame without a face has a false start, in color and in gray, to
+which all frames without faces are also converted. It also prints the scores that are chosen if nothing is
+left out.
 """
 
 import argparse
+import math
 import sys
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -56,7 +57,6 @@ DETECTORS = {
 Image = NDArray[np.uint8]
 Judge = Callable[[Box], float]  # the overlap of a box with the true one
 WITHOUT, WITHOUT_GRAY = "without faces", "without faces, in gray"
-MAX_FALSE = 0.005  # share of frames without faces in which one is found
 LOWEST_SCORE = -1.0  # of faces that a least score is chosen from
 
 
@@ -166,15 +166,16 @@ def _left_out(scored: list[Scored]) -> list[Answer]:
 
 
 def _least_score(scored: list[Scored], gray: bool, left_out: str) -> float:
-    """The lowest that at most a share of MAX_FALSE of the frames without faces exceed."""
-    best = [
-        max((face.score for face in each.faces), default=LOWEST_SCORE)
+    """The lowest that no face exceeds in frames without faces, rounded up to two digits."""
+    best = (
+        face.score
         for each in scored
         if each.case.source in {WITHOUT, WITHOUT_GRAY}
         and each.gray == gray
         and each.case.sequence != left_out
-    ]
-    return sorted(best, reverse=True)[int(MAX_FALSE * len(best))] if best else LOWEST_SCORE
+        for face in each.faces
+    )
+    return math.ceil(100 * max(best, default=LOWEST_SCORE)) / 100
 
 
 def _recorded(data: Path, every: int) -> Iterator[Case]:
