@@ -46,6 +46,14 @@ def test_a_real_face_is_found(data: Path, name: str) -> None:
     assert found.iou(true) > 0.5
 
 
+@pytest.mark.parametrize("name", ["Cyclist", "HandBook", "MotorRolling"])
+def test_no_face_in_a_real_scene(data: Path, name: str) -> None:
+    """Doors and towers that resemble faces the most in recorded sequences aren't taken for one."""
+    image = next(iter(open_source(data / "color" / name))).color
+    assert image is not None
+    assert find_face(image) is None
+
+
 def test_a_face_in_color_and_in_gray() -> None:
     """A photograph's face is found in either, as (H, W, 3) and (H, W)."""
     image, true = portrait()
