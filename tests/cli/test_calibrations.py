@@ -3,7 +3,9 @@
 
 import json
 import shutil
+from argparse import Namespace
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,9 +13,11 @@ import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tricue import Frame, Intrinsics
+from tricue import Frame, Intrinsics, StereoRig
 from tricue.camera.box import Box
 from tricue.cli import main
+from tricue.cli.calibrations import find_calibration
+from tricue.data.open_source import open_source
 from tricue.track.base.registry import names
 
 FRAMES = 4
@@ -165,6 +169,23 @@ def test_color_alone_needs_no_camera(rgbd: Path, tracker: str, capsys: pytest.Ca
     assert not has_positions(tracked(rgbd / "color", "--tracker", tracker, f"--box={box}", *more))
     printed = capsys.readouterr()
     assert "position" not in printed.out + printed.err
+
+
+def test_a_file_is_for_the_images_that_a_recording_rectifies(pair: Path, tmp_path: Path) -> None:
+    """Another focal length than theirs is refused, as meters would be wrong; another baseline is taken."""
+    own = StereoRig(Intrinsics(150.0, 150.0, 80.0, 60.0, 160, 120), 0.1)
+    source = replace(open_source(pair), camera=own, rectify=lambda left, right: (left, right))
+    file = tmp_path / "rig.toml"
+    options = Namespace(
+        tracker="stereo-head", calibration=file, fov=None, rectify=False, unit=None, assume_fov=None
+    )
+    file.write_text("fx = 150\nfy = 150\ncx = 80\ncy = 60\nbaseline = 0.2\n")
+    found = find_calibration(options, source).rig
+    assert found is not None
+    assert found.baseline == 0.2
+    file.write_text("fx = 200\nfy = 200\ncx = 80\ncy = 60\nbaseline = 0.1\n")
+    with pytest.raises(ValueError, match=r"expected a focal length of 150 px, .* got 200; give"):
+        find_calibration(options, source)
 
 
 def raw_cameras(path: Path, size: tuple[int, int] = (160, 120)) -> Path:

@@ -18,6 +18,7 @@ from tricue.track.base.validation import DEFAULT_BASELINE
 
 STEREO_FILE = "--calibration FILE, by OpenCV, KITTI or in TOML"
 ASSUME = "--assume-fov H,V for assumed ones"
+MAX_FOCAL_DIFFERENCE = 0.01  # share
 OWN_CALIBRATION = "calibration: the recording's or the camera's own"
 
 
@@ -118,8 +119,22 @@ def _find_stereo(options: Namespace, source: Source) -> Calibration:
         return Calibration(rig=rectification.rig, rectify=rectification)
     if options.calibration:
         rig = read_rig(options.calibration, source.size, options.unit, source.kitti_cameras)
+        _check_focal_length(rig, source)
         return Calibration(rig=rig)
     return _find_rig(source, _advice(STEREO_FILE, options))
+
+
+def _check_focal_length(rig: StereoRig, source: Source) -> None:
+    """ValueError for a rig of other images than those that a recording's own cameras rectify."""
+    if source.rectify is None or not isinstance(source.camera, StereoRig):
+        return
+    given, own = rig.intrinsics.fx, source.camera.intrinsics.fx
+    if abs(given - own) > MAX_FOCAL_DIFFERENCE * own:
+        raise ValueError(
+            f"--calibration: expected a focal length of {own:.4g} px, that of the pair as the recording's "
+            f"own cameras rectify it, got {given:.4g}; "
+            "give the raw cameras' file with --rectify, or leave it out"
+        )
 
 
 def _find_rig(source: Source, give: str) -> Calibration:
