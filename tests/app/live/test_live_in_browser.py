@@ -113,7 +113,7 @@ def test_draw_record_and_save(chromium: Any, opened: Callable[..., Any], tmp_pat
     """From the picture to a CSV of what was followed: the square's box goes to and fro with it."""
     tab = Tab(chromium, opened().url).ready()
     page = tab.page
-    assert page.locator("#hint").inner_text() == "Drag a box around the target"
+    page.get_by_text("Drag a box around the target", exact=True).wait_for()
     tab.follow()
     page.keyboard.press("p")
     assert page.locator("#trail").is_checked()
