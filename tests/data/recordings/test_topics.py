@@ -79,6 +79,64 @@ def image(encoding: str) -> ImageMessage:
             id="euroc",
         ),
         pytest.param(
+            {"/cam2/image_raw": "mono8", "/cam1/image_raw": "mono8"},
+            {"color": "/cam1/image_raw", "right": "/cam2/image_raw"},
+            id="counted-from-1",
+        ),
+        pytest.param(
+            {f"/camera_{number:02}/image_raw": "bgr8" for number in (1, 2)},
+            {"color": "/camera_01/image_raw", "right": "/camera_02/image_raw"},
+            id="two-digits",
+        ),
+        pytest.param(
+            {f"/camera{number}/image_raw": "bgr8" for number in (1, 2, 3, 10)},
+            {"color": "/camera1/image_raw"},
+            id="three-cameras",
+        ),
+        pytest.param(
+            {f"/alphasense/cam{number}/image_raw": "mono8" for number in range(5)},
+            {"color": "/alphasense/cam0/image_raw", "right": "/alphasense/cam1/image_raw"},
+            id="stereo-pair-and-three",
+        ),
+        pytest.param(
+            {f"/camera{a}/infra{b}/image_rect_raw": "mono8" for a in (1, 2) for b in (1, 2)},
+            {"color": "/camera1/infra1/image_rect_raw", "right": "/camera1/infra2/image_rect_raw"},
+            id="two-stereo-cameras",
+        ),
+        pytest.param(
+            {f"/device_0/sensor_0/Infrared_{number}/image/data": "8UC1" for number in (1, 2)},
+            {
+                "color": "/device_0/sensor_0/Infrared_1/image/data",
+                "right": "/device_0/sensor_0/Infrared_2/image/data",
+            },
+            id="infrared-pair",
+        ),
+        pytest.param(
+            {f"/t265/fisheye{number}/image_raw": "mono8" for number in (1, 2)},
+            {"color": "/t265/fisheye1/image_raw", "right": "/t265/fisheye2/image_raw"},
+            id="fisheye-pair",
+        ),
+        pytest.param(
+            {f"/camera/image_{number:02}": "mono8" for number in range(4)},
+            {"color": "/camera/image_00", "right": "/camera/image_01"},
+            id="kitti",
+        ),
+        pytest.param(
+            {"/Cameras/Right": "bgr8", "/Cameras/Left": "bgr8"},
+            {"color": "/Cameras/Left", "right": "/Cameras/Right"},
+            id="capital-letters",
+        ),
+        pytest.param(
+            {"/snappy_cam/stereo_r": "mono8", "/snappy_cam/stereo_l": "mono8"},
+            {"color": "/snappy_cam/stereo_l", "right": "/snappy_cam/stereo_r"},
+            id="uzh-fpv",
+        ),
+        pytest.param(
+            {"/cam0/image_raw": "mono8", "/cam1/image_raw": "mono8", "/cam1/image_rect": "mono8"},
+            {"color": "/cam0/image_raw", "right": "/cam1/image_raw"},
+            id="only-the-right-one-rectified",
+        ),
+        pytest.param(
             {"/stereo/right/image_raw": "bayer_rggb8", "/stereo/left/image_raw": "bayer_rggb8"},
             {"color": "/stereo/left/image_raw", "right": "/stereo/right/image_raw"},
             id="stereo",
