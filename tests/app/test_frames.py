@@ -12,6 +12,8 @@ from tricue.app.frames import Recording
 from tricue.app.seekable_video import SeekableVideo, read_index
 from tricue.data.open_source import open_source
 from tricue.data.streams import Video
+from tricue.data.summary import compute_rate
+from tricue.draw.video import OverlayWriter
 from tricue.errors import one_line
 
 from tests.app.conftest import FRAMES, HEIGHT, WIDTH, moving, write_video
@@ -58,6 +60,20 @@ def test_times_are_those_of_the_file(tmp_path: Path) -> None:
     video = SeekableVideo(write_video(tmp_path / "video.mp4", moving(10), fps=25))
     assert [time for time, _ in video.at(range(10))] == pytest.approx([at / 25 for at in range(10)])
     assert (video.fps, video.timed, video.size) == (25, True, (WIDTH, HEIGHT))
+
+
+@pytest.mark.parametrize("name", ["video.mp4", "video.mkv"])
+@pytest.mark.parametrize("times", [[0, 0.04, 1.04, 1.08, 3.0], [at / 30 for at in range(5)]])
+def test_times_are_those_that_a_reader_gives(name: str, times: list[float], tmp_path: Path) -> None:
+    """Frames have the same times and rate in the page as in tricue track and tricue info."""
+    with OverlayWriter(tmp_path / name, 30.0) as writer:
+        for image, time in zip(moving(5), times, strict=True):
+            writer.write(image, time)
+    source = open_source(tmp_path / name)
+    recording = Recording(source)
+    shown = [recording.seconds(at) for at in range(5)]
+    assert shown == pytest.approx([frame.timestamp for frame in source], abs=1e-9)
+    assert recording.fps == pytest.approx(compute_rate(source, 5)) == pytest.approx(4 / times[-1])
 
 
 def test_index_knows_the_key_frames(video: Path) -> None:

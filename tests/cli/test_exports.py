@@ -37,7 +37,7 @@ def test_mot(tmp_path: Path) -> None:
 
 def test_one_target_has_the_id_1(tmp_path: Path) -> None:
     """Both formats can hold a run on a single box."""
-    with MotOutput(tmp_path / "m") as mot, CocoOutput(tmp_path / "c", "v", 25.0) as coco:
+    with MotOutput(tmp_path / "m") as mot, CocoOutput(tmp_path / "c", "v", lambda: 25.0) as coco:
         for output in (mot, coco):
             output.write(Step(4, FRAME, HERE, 0.1))
     assert (tmp_path / "m").read_text() == "5,1,2,3,30,40.5,0.5,-1,-1,-1\n"
@@ -46,7 +46,7 @@ def test_one_target_has_the_id_1(tmp_path: Path) -> None:
 
 def test_coco(tmp_path: Path) -> None:
     """Ids lead to their entries; boxes count from 0; a lost target has no annotation, its frame an image."""
-    with CocoOutput(tmp_path / "coco.json", "walk", 25.0) as output:
+    with CocoOutput(tmp_path / "coco.json", "walk", lambda: 25.0) as output:
         for step in STEPS:
             output.write(step)
     content = json.loads((tmp_path / "coco.json").read_text())
@@ -73,7 +73,7 @@ def test_coco(tmp_path: Path) -> None:
 
 def test_the_size_is_the_depths_without_color(tmp_path: Path) -> None:
     """Boxes are then in pixels of depth."""
-    with CocoOutput(tmp_path / "c", "v", 25.0) as output:
+    with CocoOutput(tmp_path / "c", "v", lambda: 25.0) as output:
         output.write(Step(0, Frame(depth=np.ones((12, 16))), HERE, 0.1))
     assert json.loads((tmp_path / "c").read_text())["images"][0]["width"] == 16
 
@@ -87,7 +87,7 @@ def test_both_are_whole_after_an_error(tmp_path: Path) -> None:
 
 
 def _interrupted(folder: Path) -> None:
-    with MotOutput(folder / "m") as mot, CocoOutput(folder / "c", "v", 25.0) as coco:
+    with MotOutput(folder / "m") as mot, CocoOutput(folder / "c", "v", lambda: 25.0) as coco:
         mot.write(STEPS[0])
         coco.write(STEPS[0])
         raise KeyboardInterrupt

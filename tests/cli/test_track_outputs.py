@@ -115,6 +115,26 @@ def test_times_of_a_variable_rate(tmp_path: Path, drift_tracker: str) -> None:
         assert [frame.time for frame in file.decode(video=0)] == pytest.approx(times, abs=0.001)
 
 
+@pytest.mark.parametrize("suffix", [".mp4", ".mkv"])
+def test_a_variable_rate_is_the_mean(
+    tmp_path: Path, drift_tracker: str, suffix: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that JSON, COCO and tricue info have one rate, by which the last frame has its time."""
+    pytest.importorskip("av")
+    video = tmp_path / f"v{suffix}"
+    with OverlayWriter(video, 25.0) as writer:
+        for time in (0, 0.04, 1.04, 1.08, 3.0):
+            writer.write(np.full((48, 64, 3), 99, np.uint8), time)
+    files = ["--json", str(tmp_path / "o.json"), "--coco", str(tmp_path / "c.json")]
+    assert main(["track", str(video), "--tracker", drift_tracker, "--box", BOX, *files]) == 0
+    capsys.readouterr()
+    assert main(["info", str(video), "--json"]) == 0
+    rate = json.loads(capsys.readouterr().out)["fps"]
+    assert rate == pytest.approx(4 / 3.0)
+    assert json.loads((tmp_path / "o.json").read_text())["fps"] == pytest.approx(rate)
+    assert json.loads((tmp_path / "c.json").read_text())["videos"][0]["fps"] == pytest.approx(rate)
+
+
 @pytest.mark.parametrize("name", ["v.avi", "hard.avi", "soft.avi"])
 def test_no_name_of_the_input_is_written(
     video: Path, tmp_path: Path, name: str, capsys: pytest.CaptureFixture[str]

@@ -92,12 +92,12 @@ def as_coco(tracked: Tracked) -> str:
     """COCO's JSON, see :class:`tricue.export.coco.CocoTracks`: a category is a target's name."""
     source, size = tracked.recording.source, tracked.recording.size
     targets = tracked.project.targets
-    found = CocoTracks(source.name, source.fps, {target.id: target.name for target in targets})
+    found = CocoTracks(source.name, {target.id: target.name for target in targets})
     names = image_names(source.channels)
     for at in range(tracked.recording.length):
         tracks = {each.id: each.tracks[at] for each in targets if at in each.tracks}
         found.add(at, size, tracks, names[at] if names else "")
-    return json.dumps(found.content(), allow_nan=False, ensure_ascii=False)
+    return json.dumps(found.content(tracked.recording.fps), allow_nan=False, ensure_ascii=False)
 
 
 EXPORTS = {
@@ -117,7 +117,7 @@ def write_video(path: Path, tracked: Tracked, progress: Callable[[int], bool], t
     from tricue.draw.video import OverlayWriter
 
     recording, trails = tracked.recording, {each.id: Trail() for each in tracked.project.targets if trail}
-    with OverlayWriter(path, recording.source.fps) as writer:
+    with OverlayWriter(path, recording.fps) as writer:
         for number, frame in recording.frames(0, recording.length):
             here = [(each, each.tracks[number]) for each in tracked.project.targets if number in each.tracks]
             for target in tracked.project.targets if trail else ():

@@ -113,7 +113,7 @@ def state(serving: Serving) -> dict[str, Any]:
     return {
         "name": session.place.name,
         "frames": recording.length,
-        "fps": source.fps,
+        "fps": recording.fps,
         "size": recording.size,
         "channels": list(source.channels),
         "trackers": session.trackers,

@@ -14,13 +14,15 @@ from tricue.data.live import LiveStream
 from tricue.data.recordings.recording import Recording as Topics
 from tricue.data.recordings.seekable import SeekableChannel, SeekableRecording
 from tricue.data.source import Source
-from tricue.data.streams import Stream, Video
+from tricue.data.streams import Stream, Video, mean_rate
 
 MAX_UNREADABLE = 30  # consecutive frames, after which a recording counts as broken
 
 
 class Recording:
     """A source's frames in any order, with a known number of frames. For one thread at a time.
+
+    fps: frames per second; the mean rate of a video whose rate isn't constant.
 
     ValueError for a live camera, for a source without frames, and if the channels differ in length.
     """
@@ -36,12 +38,15 @@ class Recording:
         if not self.length:
             raise ValueError(f"{source.name}: expected a recording with frames, this one has none")
         self.size = _size_of(self._read(0))
+        self.fps = self.source.fps
+        if isinstance(self.source.clock, SeekableVideo):
+            self.fps = mean_rate(self.fps, self.length, self.seconds(self.length - 1))
 
     def again(self) -> "Recording":
         """The same recording for another thread."""
         other = object.__new__(Recording)
         other.source = replace(self.source, channels=_again(self.source))
-        other.length, other.size = self.length, self.size
+        other.length, other.size, other.fps = self.length, self.size, self.fps
         return other
 
     def frame(self, number: int) -> Frame:
@@ -61,7 +66,7 @@ class Recording:
         """The frame's time."""
         clock = self.source.clock
         if self.source.rate is None and isinstance(clock, SeekableVideo):
-            return clock.index.seconds(number)
+            return clock.index.seconds[number]
         times = getattr(clock, "times", None)
         if self.source.rate is None and times is not None:
             return float(times[number])

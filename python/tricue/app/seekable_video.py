@@ -6,6 +6,7 @@ from collections import OrderedDict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,14 @@ import numpy as np
 from av.video.reformatter import VideoReformatter
 from numpy.typing import NDArray
 
-from tricue.data.streams import FIRST_FRAMES, AnyImage, checked_fps, plausible_fps
+from tricue.data.streams import (
+    DEFAULT_FPS,
+    FIRST_FRAMES,
+    AnyImage,
+    FrameTimes,
+    checked_fps,
+    plausible_fps,
+)
 
 KEPT_BYTES = 128 << 20  # of decoded frames, in YUV, kept for stepping and tracking backward
 MIN_KEPT = 4  # frames to keep, however large
@@ -28,22 +36,25 @@ class VideoIndex:
     """The display times of a video's frames, from its packets.
 
     times: (N,) int64, ascending, in units of ``unit`` seconds. keys: the numbers of the key frames, the first
-    of which is 0. Without unique times, frames are counted from the video's start.
+    of which is 0. fps: frames per second, as the container states. Without unique times, frames are counted
+    from the video's start.
     """
 
     times: NDArray[np.int64]
     keys: NDArray[np.int64]
     unit: Fraction
-    fps: float | None
+    fps: float
     timed: bool
 
     def key_before(self, number: int) -> int:
         """The number of the last key frame at or before this frame."""
         return int(self.keys[np.searchsorted(self.keys, number, side="right") - 1])
 
-    def seconds(self, number: int) -> float:
-        """The time since the first frame."""
-        return float((int(self.times[number]) - int(self.times[0])) * self.unit)
+    @cached_property
+    def seconds(self) -> list[float]:
+        """The times since the first frame, as :class:`tricue.data.streams.Video` gives them."""
+        times = FrameTimes(self.fps)
+        return [times.add(float(time * self.unit)) for time in self.times.tolist()]
 
 
 def read_index(path: Path) -> VideoIndex:
@@ -64,13 +75,14 @@ def read_index(path: Path) -> VideoIndex:
         raise ValueError(f"{path}: expected a video, this file has no frame that can be decoded")
     shown = [pts for pts, _ in packets if pts is not None]
     if guessed or len(set(shown)) < len(packets):
-        step = Fraction(1) / Fraction(fps or 30.0).limit_denominator(1001)
+        fps = fps or DEFAULT_FPS
+        step = 1 / Fraction(fps).limit_denominator(1001)
         return VideoIndex(np.arange(len(packets)), np.zeros(1, np.int64), step, fps, False)
     start = packets[0][0] or 0  # frames shown before the first key frame depend on a missing one
     times = np.array(sorted(pts for pts in shown if pts >= start), np.int64)
     keys = np.array(sorted(pts for pts, is_key in packets if is_key and pts is not None), np.int64)
     fps = checked_fps(fps, [float(time * unit) for time in times[:FIRST_FRAMES].tolist()])
-    return VideoIndex(times, np.searchsorted(times, keys), unit, fps, True)
+    return VideoIndex(times, np.searchsorted(times, keys), unit, fps or DEFAULT_FPS, True)
 
 
 class SeekableVideo:
@@ -84,7 +96,7 @@ class SeekableVideo:
     def __init__(self, path: Path, index: VideoIndex | None = None) -> None:
         self.path = path
         self.index = read_index(path) if index is None else index
-        self.fps, self.timed = self.index.fps or 30.0, self.index.timed
+        self.fps, self.timed = self.index.fps, self.index.timed
         self._numbers = {int(time): number for number, time in enumerate(self.index.times)}
         self._container: Any = None
         self._reformatter = VideoReformatter()  # one for all, as creating it takes longer than its use
@@ -112,7 +124,7 @@ class SeekableVideo:
         for number in indices:
             if not 0 <= number < self.length:
                 raise ValueError(f"{self.path}: expected frame 0 to {self.length - 1}, got {number}")
-            yield self.index.seconds(number), self._bgr(self._find(number))
+            yield self.index.seconds[number], self._bgr(self._find(number))
 
     def _bgr(self, frame: Any) -> AnyImage:
         """The frame as BGR, (H, W, 3), upright as a phone held it."""

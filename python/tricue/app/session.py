@@ -95,7 +95,7 @@ class Session:
         about = {
             "tricue": tricue.__version__,
             "source": source.name,
-            "fps": source.fps,
+            "fps": self.recording.fps,
             "seed": self.seed,
             "intrinsics": None if self.camera is None else _numbers(self.camera),
             "baseline": None if rig is None else rig.baseline,

@@ -2,7 +2,7 @@
 """Files of tracks in common formats: MOTChallenge's text and COCO's JSON."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from tricue.cli.outputs import Step
@@ -26,12 +26,14 @@ class MotOutput(TextFile):
 class CocoOutput(TextFile):
     """COCO's JSON, see :class:`tricue.export.coco.CocoTracks`.
 
-    video: its name. fps: frames per second. names: of the image files, by frame number; empty for a video.
+    video: its name. rate: gives the frames per second. names: of the image files, by frame number; empty for
+    a video.
     """
 
-    def __init__(self, path: Path, video: str, fps: float, names: Sequence[str] = ()) -> None:
+    def __init__(self, path: Path, video: str, rate: Callable[[], float], names: Sequence[str] = ()) -> None:
         super().__init__(path)
-        self._tracks, self._names = CocoTracks(video, fps), names
+        self._tracks, self._names = CocoTracks(video), names
+        self._rate = rate
 
     def write(self, step: Step) -> None:
         image = step.frame.depth if step.frame.color is None else step.frame.color
@@ -40,4 +42,4 @@ class CocoOutput(TextFile):
         self._tracks.add(step.number, (image.shape[1], image.shape[0]), step.targets, name)
 
     def finish(self) -> None:
-        self.put(json.dumps(self._tracks.content(), allow_nan=False) + "\n")
+        self.put(json.dumps(self._tracks.content(self._rate()), allow_nan=False) + "\n")

@@ -8,7 +8,7 @@ import csv
 import io
 import json
 import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
@@ -20,6 +20,7 @@ from tricue.arrays import Image
 from tricue.camera.frame import Frame
 from tricue.camera.rig import StereoRig
 from tricue.cli.lost_ranges import LostRanges, as_json
+from tricue.data.streams import DEFAULT_FPS
 from tricue.draw.canvas import choose_scale
 from tricue.draw.depth_pictures import depth_picture, depth_range
 from tricue.draw.masks import flow_depth_overlay
@@ -101,20 +102,18 @@ class CsvOutput(TextFile):
 
 class JsonOutput(TextFile):
     """One object: the entries of ``about``; "tracks", a list of objects with the columns as keys; "lost", the
-    ranges of frames in which a target is lost.
-
-    fps: frames per second, for frames without times.
+    ranges of frames in which a target is lost; "fps", the frames per second that ``rate`` gives.
     """
 
     def __init__(
         self,
         path: Path,
         about: dict[str, Any],
-        fps: float = 30.0,
+        rate: Callable[[], float] = lambda: DEFAULT_FPS,
         form: TableForm = PLAIN,
     ) -> None:
         super().__init__(path)
-        self._fps, self._lost = fps, dict[int, LostRanges]()
+        self._rate, self._lost = rate, dict[int, LostRanges]()
         self._form = form
         head = json.dumps(about, indent=1, allow_nan=False)
         self.put(head.removesuffix("\n}") + ',\n "tracks": [')
@@ -127,7 +126,8 @@ class JsonOutput(TextFile):
             self.put(f"{self._separator}  {json.dumps(named, allow_nan=False)}")
             self._separator = ",\n"
         for target, track in step.targets.items():
-            self._lost.setdefault(target, LostRanges()).add(step.number, step.time(self._fps), track.status)
+            seconds = step.time(self._rate())
+            self._lost.setdefault(target, LostRanges()).add(step.number, seconds, track.status)
 
     def finish(self) -> None:
         lost = [
@@ -135,7 +135,7 @@ class JsonOutput(TextFile):
             for target, found in self._lost.items()
             for each in as_json(found.ranges, target if self._form.several else None)
         ]
-        self.put(f'\n ],\n "lost": {json.dumps(lost)}\n}}\n')
+        self.put(f'\n ],\n "lost": {json.dumps(lost)},\n "fps": {json.dumps(self._rate())}\n}}\n')
 
 
 class JsonLines:

@@ -9,6 +9,8 @@ from time import perf_counter
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.cli.outputs import Step
+from tricue.data.source import Source
+from tricue.data.streams import Video, mean_rate
 from tricue.errors import TargetNotFoundError
 from tricue.track.base import adapter
 from tricue.track.base.track import Status, Track, Tracker
@@ -22,13 +24,16 @@ Start = Callable[[Frame], Box | None]
 class RunClock:
     """Seconds spent on decoding and on tracking, and counts of the tracker's statuses.
 
-    not_found_reason: why a tracker that detects its target found none in the last frame so far.
+    begin, end: the times of the first and of the last decoded frame. not_found_reason: why a tracker that
+    detects its target found none in the last frame so far.
     """
 
     decoding: float = 0.0
     tracking: float = 0.0
     decoded: int = 0
     updates: int = 0
+    begin: float = 0.0
+    end: float = 0.0
     not_found_reason: str = ""
     statuses: dict[Status, int] = field(default_factory=lambda: dict.fromkeys(Status, 0))
 
@@ -37,6 +42,12 @@ class RunClock:
         """Both speeds in frames/s; tracking excludes the first frame, in which the tracker starts."""
         tracking = f"tracking {self.updates / self.tracking:,.0f} frames/s, " if self.tracking else ""
         return f"{tracking}decoding {self.decoded / max(self.decoding, 1e-9):,.0f} frames/s"
+
+    def rate(self, source: Source) -> float:
+        """Frames per second of the recording; the mean rate of a video, of the frames decoded so far."""
+        if not isinstance(source.clock, Video):
+            return source.fps
+        return mean_rate(source.fps, self.decoded, self.end - self.begin)
 
 
 def steps(
@@ -139,5 +150,7 @@ def _decoded(frames: Iterable[Frame], clock: RunClock) -> Iterator[Frame]:
         clock.decoding += perf_counter() - before
         if frame is None:
             return
+        clock.end = clock.end if frame.timestamp is None else frame.timestamp
+        clock.begin = clock.begin if clock.decoded else clock.end
         clock.decoded += 1
         yield frame

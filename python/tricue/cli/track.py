@@ -7,6 +7,7 @@ import math
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, redirect_stdout
+from functools import partial
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -60,7 +61,7 @@ def _track(
         targets = None if run.targets is None else files.enter_context(run.targets)
         for step in _steps(run, targets, frames, clock):
             if not record.tracks:  # only now, so that a run that never starts keeps an earlier one's files
-                outputs.extend(map(files.enter_context, _outputs(options, run)))
+                outputs.extend(map(files.enter_context, _outputs(options, run, clock)))
             for output in outputs:
                 output.write(step)
             record.add(step)
@@ -91,7 +92,7 @@ def _with_start_hint(found: Iterator[Step], run: TrackRun, clock: RunClock) -> I
         raise
 
 
-def _outputs(options: argparse.Namespace, run: TrackRun) -> Iterator[Output]:
+def _outputs(options: argparse.Namespace, run: TrackRun, clock: RunClock) -> Iterator[Output]:
     """Open the outputs one at a time, so that the first is closed if the second can't be opened."""
     if options.output:
         yield VideoOutput(
@@ -99,17 +100,18 @@ def _outputs(options: argparse.Namespace, run: TrackRun) -> Iterator[Output]:
         )
     world = run.intrinsics is not None and run.intrinsics.pose is not None
     form = TableForm(world, run.targets is not None, run.assumed)
+    rate = partial(clock.rate, run.source)
     if options.csv:
         yield CsvOutput(options.csv, form)
     if options.json == STANDARD_OUTPUT:
         yield JsonLines(form)
     elif options.json:
-        yield JsonOutput(options.json, _about(options, run), run.source.fps, form)
+        yield JsonOutput(options.json, _about(options, run), rate, form)
     if options.mot:
         yield MotOutput(options.mot, positions=not run.assumed)
     if options.coco:
         names = image_names(run.source.channels)
-        yield CocoOutput(options.coco, Path(run.source.name).name, run.source.fps, names)
+        yield CocoOutput(options.coco, Path(run.source.name).name, rate, names)
 
 
 def _results(
@@ -125,7 +127,6 @@ def _about(options: argparse.Namespace, run: TrackRun) -> dict[str, Any]:
     return {
         "tricue": tricue.__version__,
         "source": run.source.name,
-        "fps": run.source.fps,
         "tracker": options.tracker,
         "seed": options.seed,
         "kernels": options.kernels,

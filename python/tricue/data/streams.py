@@ -352,6 +352,12 @@ def plausible_fps(fps: float) -> float | None:
     return fps if 0 < fps <= MAX_FPS else None
 
 
+def mean_rate(stated: float, frames: int, seconds: float) -> float:
+    """The mean rate of so many frames, from the first to the last; the stated rate if that agrees with it."""
+    mean = (frames - 1) / seconds if frames > 1 and seconds > 0 else stated
+    return stated if math.isclose(mean, stated, rel_tol=1e-6) else mean
+
+
 def checked_fps(fps: float | None, times: Sequence[float]) -> float | None:
     """The stated rate; if there is none, or it is far too high, the rate given by the first frames' times."""
     step = float(np.median(np.diff(times))) if len(times) > 1 else 0.0

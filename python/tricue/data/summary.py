@@ -16,7 +16,7 @@ from tricue.data.depth_images import METERS_PER_MILLIMETER, DepthReader
 from tricue.data.joint import JointStream, joints_of
 from tricue.data.open_source import Source
 from tricue.data.recordings.recording import Recording
-from tricue.data.streams import Images, Stream, Video, steps_back
+from tricue.data.streams import Images, Stream, Video, mean_rate, steps_back
 
 MAX_SAMPLED_FRAMES = 100  # of which the depth is summarized
 DEPTH_LEVELS = 1 << 20  # more values than 16 bits have; in millimeters, up to a kilometer
@@ -39,11 +39,9 @@ def compute_duration(source: Source, frames: int) -> float:
 
 def compute_rate(source: Source, frames: int) -> float:
     """Frames per second; the mean rate for a video whose rate isn't constant."""
-    seconds = compute_duration(source, frames)
-    if not isinstance(source.clock, Video) or not seconds:
+    if not isinstance(source.clock, Video):
         return source.fps
-    mean = (frames - 1) / seconds
-    return source.fps if math.isclose(mean, source.fps, rel_tol=1e-6) else mean
+    return mean_rate(source.fps, frames, compute_duration(source, frames))
 
 
 def _times(clock: Stream) -> Sequence[float] | None:

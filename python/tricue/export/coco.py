@@ -13,12 +13,12 @@ class CocoTracks:
     """Collects the frames and tracks of one video.
 
     Images have ids from 1, and frame_index and frame_id from 0; boxes are in pixels from 0. A target that is
-    LOST in a frame has no annotation there. video: its name. fps: frames per second. names: of the targets,
-    by their ids; targets with the same name form a category, those without a name the category "target".
+    LOST in a frame has no annotation there. video: its name. names: of the targets, by their ids; targets
+    with the same name form a category, those without a name the category "target".
     """
 
-    def __init__(self, video: str, fps: float, names: Mapping[int, str] | None = None) -> None:
-        self._video: dict[str, Any] = {"id": 1, "name": video, "fps": fps}
+    def __init__(self, video: str, names: Mapping[int, str] | None = None) -> None:
+        self._video: dict[str, Any] = {"id": 1, "name": video}
         self._names = dict(names or {})
         self._categories = {
             name: number for number, name in enumerate(dict.fromkeys(self._names.values()), 1)
@@ -44,14 +44,14 @@ class CocoTracks:
             if track.status is not Status.LOST:
                 self._annotations.append(self._annotation(number + 1, target, track))
 
-    def content(self) -> dict[str, Any]:
-        """The whole content, for ``json.dumps``."""
+    def content(self, fps: float) -> dict[str, Any]:
+        """The whole content, for ``json.dumps``. fps: frames per second."""
         targets = sorted({each["track_id"] for each in self._annotations})
         categories = self._categories or {UNNAMED: 1}
         return {
             "info": {"description": "tracks by tricue"},
             "licenses": [],
-            "videos": [self._video],
+            "videos": [{**self._video, "fps": fps}],
             "images": self._images,
             "tracks": [{"id": each, "category_id": self._category(each), "video_id": 1} for each in targets],
             "annotations": self._annotations,
