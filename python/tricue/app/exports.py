@@ -118,7 +118,7 @@ def write_video(path: Path, tracked: Tracked, progress: Callable[[int], bool], t
 
     recording, trails = tracked.recording, {each.id: Trail() for each in tracked.project.targets if trail}
     with OverlayWriter(path, recording.fps) as writer:
-        for number, frame in recording.frames(0, recording.length):
+        for number, frame in recording.frames(recording.first, recording.length):
             here = [(each, each.tracks[number]) for each in tracked.project.targets if number in each.tracks]
             for target in tracked.project.targets if trail else ():
                 trails[target.id].add(recording.seconds(number), target.tracks.get(number))

@@ -2,6 +2,7 @@
 """Random access to the frames of any recording: a video, a folder of images, a robot recording."""
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -22,7 +23,8 @@ MAX_UNREADABLE = 30  # consecutive frames, after which a recording counts as bro
 class Recording:
     """A source's frames in any order, with a known number of frames. For one thread at a time.
 
-    fps: frames per second; the mean rate of a video whose rate isn't constant.
+    fps: frames per second; the mean rate of a video whose rate isn't constant. first: the number of the first
+    readable frame.
 
     ValueError for a live camera, for a source without frames, and if the channels differ in length.
     """
@@ -37,7 +39,8 @@ class Recording:
         self.length: int = self.source.length
         if not self.length:
             raise ValueError(f"{source.name}: expected a recording with frames, this one has none")
-        self.size = _size_of(self._read(0))
+        self.first, frame = self._first_readable()
+        self.size = _size_of(frame)
         self.fps = self.source.fps
         if isinstance(self.source.clock, SeekableVideo):
             self.fps = mean_rate(self.fps, self.length, self.seconds(self.length - 1))
@@ -46,18 +49,26 @@ class Recording:
         """The same recording for another thread."""
         other = object.__new__(Recording)
         other.source = replace(self.source, channels=_again(self.source))
-        other.length, other.size, other.fps = self.length, self.size, self.fps
+        other.length, other.fps = self.length, self.fps
+        other.first, other.size = self.first, self.size
         return other
 
     def frame(self, number: int) -> Frame:
-        """One frame by its number from 0; ValueError if its size differs from the first one's, in whose
-        pixels boxes are.
+        """One frame by its number from 0; ValueError if its size differs from that of the first readable one,
+        in whose pixels boxes are.
         """
         frame = self._read(number)
         if (size := _size_of(frame)) != self.size:
             first, here = ("x".join(map(str, each)) for each in (self.size, size))
             raise ValueError(f"frame {number}: expected the first frame's size {first}, got {here} px")
         return frame
+
+    def _first_readable(self) -> tuple[int, Frame]:
+        """The first readable frame with its number; ValueError if there is none among MAX_UNREADABLE."""
+        for number in range(min(self.length, MAX_UNREADABLE)):
+            with suppress(ValueError):
+                return number, self._read(number)
+        return 0, self._read(0)  # raises the reason
 
     def _read(self, number: int) -> Frame:
         return next(iter(self.source.frames([number])))

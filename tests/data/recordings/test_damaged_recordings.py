@@ -51,6 +51,35 @@ def test_the_frame_before_stands_in_for_a_damaged_one(tmp_path: Path) -> None:
         assert blues(source.frames(numbers)) == pytest.approx(shown, abs=2)
 
 
+@pytest.mark.parametrize(("damaged", "of_frames"), [({0}, 1), ({0, 1, 2, 4}, 3), (set(range(20)), 20)])
+def test_a_damaged_first_image(tmp_path: Path, damaged: set[int], of_frames: int) -> None:
+    """It proves that damaged images at the beginning don't refuse the recording either: the first whole one
+    stands in for them, in all ways of reading, and this is told.
+    """
+    images = [b"no" if at in damaged else jpeg(color(5 * at + 5)) for at in range(24)]
+    sent = [
+        compressed("/a/compressed", START + at * SECOND // 30, data, "jpeg") for at, data in enumerate(images)
+    ]
+    path = mcap(tmp_path, sent)
+    source = open_source(path)
+    shown = [5 * max({of_frames} | set(range(at + 1)) - damaged) + 5 for at in range(24)]
+    assert blues(source) == pytest.approx(shown, abs=2)
+    before = f"took the first whole image in place of {of_frames} damaged before it"
+    assert source.remarks[0] == before
+    assert blues(source.frames([0, 1, 21])) == pytest.approx([shown[at] for at in (0, 1, 21)], abs=2)
+    page = Recording(open_source(path))
+    assert (page.size, page.first) == ((32, 24), of_frames)
+    with pytest.raises(ValueError, match="can't be decoded"):
+        page.frame(0)
+
+
+def test_images_that_are_all_damaged(tmp_path: Path) -> None:
+    """It proves that a topic without any image that can be decoded is an error that names it."""
+    sent = [compressed("/a/compressed", START + at * SECOND // 30, b"no", "jpeg") for at in range(5)]
+    with pytest.raises(ValueError, match=r"can't be decoded; got color=/a/compressed, choose others"):
+        open_source(mcap(tmp_path, sent))
+
+
 @pytest.mark.parametrize("damaged", [{2}, {3, 5, 6}, set(range(4, 31)), set(range(9, 24)) | {25}])
 def test_a_damaged_frame_is_the_same_however_it_is_read(tmp_path: Path, damaged: set[int]) -> None:
     """It proves that a damaged frame alone has the images of the last whole one before it, as in reading all,
@@ -82,6 +111,16 @@ def test_a_message_that_is_not_decompressed(tmp_path: Path) -> None:
     assert blues(source) == [10, 20, 40, 50, 60]
     assert source.remarks == ("left out 1 unreadable message",)
     Recording(source).frame(4)  # lists the frames first
+    assert source.remarks == ("left out 1 unreadable message",)
+
+
+@pytest.mark.parametrize("topics", [None, {"color": COLOR}])
+def test_a_first_message_that_is_not_decompressed(tmp_path: Path, topics: dict[str, str] | None) -> None:
+    """It proves that a topic's first message may be damaged, too, whether or not the topic is named."""
+    folder = sqlite(tmp_path, [each for each in walk(6) if each.topic == COLOR])
+    rewrite(next(folder.glob("*.db3")), lambda data: zstandard.compress(data)[:-5], 1)
+    source = open_source(folder, topics=topics)
+    assert blues(source) == [20, 30, 40, 50, 60]
     assert source.remarks == ("left out 1 unreadable message",)
 
 

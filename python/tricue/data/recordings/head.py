@@ -2,6 +2,7 @@
 """The beginning of a recording, which shows what its topics hold: the first images, cameras, transforms."""
 
 import re
+from collections import Counter
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 
@@ -66,29 +67,38 @@ def read_head(container: Container, images: Collection[str] | None = None) -> He
     head = Head()
     decoders: dict[str, Decoder] = {}
     for topic in container.topics.values():
-        if _matters(topic, images):
-            try:
-                decoders[topic.name] = decoder(topic)
-            except ValueError as error:
-                head.unread[topic.name] = str(error)
+        if _matters(topic, images) and (found := _decoder_of(topic, head)):
+            decoders[topic.name] = found
     pending = {name for name in decoders if container.topics[name].kind in IMAGES}
     late = {name for name in decoders if container.topics[name].kind in CAMERAS or name == STATIC_TRANSFORMS}
-    missing = set[str]()
+    missing, damaged = set[str](), Counter[str]()
     if images is not None:
         counts = container.counts()
         missing = {name for name in pending if counts[name]}
     for message in _until_known(container, decoders, pending, late, missing):
-        late.discard(message.topic)
-        missing.discard(message.topic)
         if container.topics[message.topic].kind in IMAGES and message.topic not in pending:
             continue
         try:
             _add(head, container.topics[message.topic], message, decoders[message.topic])
         except ValueError as error:
             head.unread[message.topic] = str(error)
-        if len(head.times.get(message.topic, ())) >= HEAD_IMAGES or message.topic in head.unread:
+            damaged[message.topic] += 1
+        else:
+            late.discard(message.topic)
+        if message.topic in head.images or damaged[message.topic] == HEAD_IMAGES:
+            missing.discard(message.topic)
+        if len(head.times.get(message.topic, ())) + damaged[message.topic] == HEAD_IMAGES:
             pending.discard(message.topic)
     return head
+
+
+def _decoder_of(topic: Topic, head: Head) -> Decoder | None:
+    """The topic's decoder; None if it can't be read, and the head gets the reason."""
+    try:
+        return decoder(topic)
+    except ValueError as error:
+        head.unread[topic.name] = str(error)
+        return None
 
 
 def _matters(topic: Topic, images: Collection[str] | None) -> bool:

@@ -3,7 +3,9 @@
 
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property
+from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
@@ -24,7 +26,7 @@ from tricue.data.recordings.pairing import Pairing, Timed
 from tricue.data.recordings.sqlite_file import SqliteFile
 from tricue.data.recordings.topics import CHANNELS, guess_topics, is_depth_topic, stem
 from tricue.data.source import Source
-from tricue.data.streams import DEFAULT_FPS, remark_on_steps_back
+from tricue.data.streams import DEFAULT_FPS, MAX_DAMAGED, remark_on_steps_back
 
 READERS: dict[str, tuple[str, Callable[[Path], Container]]] = {
     ".bag": ("ROS 1 bag", Bag1),
@@ -63,14 +65,14 @@ class Recording:
         self.units = units
         self._channels = {topic: channel for channel, topic in chosen.items()}
         self._decoders = {topic: decoder(container.topics[topic]) for topic in self._channels}
-        self._first = {channel: self.decode(channel, head.images[topic]) for channel, topic in chosen.items()}
+        self._moments = self._early = self._damaged = 0
+        self._unreadable: set[tuple[str, int, int]] = set()  # topic, time and place of each message
+        self._steps_back: list[int] = []
+        self._first = self._first_whole()
         self.clock = next(iter(chosen))
         rate = head.fps(chosen[self.clock])
         self.fps = rate or DEFAULT_FPS
         self._left_out: Counter[str] = Counter()
-        self._moments = self._damaged = 0
-        self._unreadable: set[tuple[str, int, int]] = set()  # topic, time and place of each message
-        self._steps_back: list[int] = []
 
     @property
     def paths(self) -> list[Path]:
@@ -101,6 +103,8 @@ class Recording:
         if self._unreadable:
             count = len(self._unreadable)
             found.append(f"left out {count} unreadable message{'s' * (count > 1)}")
+        if self._early:
+            found.append(f"took the first whole image in place of {self._early} damaged before it")
         if self._damaged:
             found.append(f"took the frame before in place of {self._damaged} with a damaged image")
         if self._steps_back:
@@ -116,11 +120,11 @@ class Recording:
         the same.
 
         The earlier images are those of the last undamaged moment, even if it wasn't requested; without one,
-        each topic's first image.
+        each topic's first undamaged image.
         """
         remaining = None if indices is None else deque(indices)
-        number = self._damaged = 0
-        images = {channel: self._first[channel] for channel in channels}
+        number = self._early = self._damaged = 0
+        images = first = {channel: self._first[channel] for channel in channels}
         undecoded: list[dict[str, Timed[Stored]]] = []
         for paired in self._paired():
             undecoded.append(paired)
@@ -129,7 +133,8 @@ class Recording:
                 images, is_last = self._last_whole(undecoded, images)
                 undecoded.clear()
             if wanted:
-                self._damaged += not is_last
+                self._early += images is first
+                self._damaged += not is_last and images is not first
                 yield {channel: (1e-9 * paired[channel].time, image) for channel, image in images.items()}
                 if remaining:
                     remaining.popleft()
@@ -169,6 +174,24 @@ class Recording:
                 continue
             return images, paired is moments[-1]
         return before, False
+
+    def _first_whole(self) -> dict[str, NDArray[Any]]:
+        """Each channel's first undamaged image; ValueError if there is none among the first MAX_DAMAGED."""
+        found: dict[str, NDArray[Any]] = {}
+        known = ((channel, self.head.images[topic]) for channel, topic in self.chosen.items())
+        others = ((each.channel, each.item.image) for each in self.images())
+        tried: Counter[str] = Counter()
+        for channel, image in chain(known, others):
+            if channel not in found:
+                tried[channel] += 1
+                with suppress(ValueError):
+                    found[channel] = self.decode(channel, image)
+            if found.keys() == self.chosen.keys() or tried[channel] > MAX_DAMAGED:
+                break
+        return {
+            channel: found[channel] if channel in found else self.decode(channel, self.head.images[topic])
+            for channel, topic in self.chosen.items()
+        }
 
     def _paired(self) -> Iterator[dict[str, Timed[Stored]]]:
         yield from self.paired(self.images())
