@@ -343,6 +343,9 @@ def test_a_rig_is_read_from_ros_right_camera(tmp_path: Path) -> None:
     rig = StereoRig.from_opencv(path)
     assert rig.intrinsics == Intrinsics(480, 481, 318.75, 239, 640, 480)
     assert rig.baseline == pytest.approx(0.12)
+    assert StereoRig.from_opencv(path, unit=1).baseline == rig.baseline
+    with pytest.raises(ValueError, match=r"right\.yaml: ROS's camera_info is in meters, got the unit 0\.025"):
+        StereoRig.from_opencv(path, unit=0.025)
     path.write_text(CAMERA_INFO)
     with pytest.raises(ValueError, match=r"right\.yaml: a left camera's camera_info has no baseline"):
         StereoRig.from_opencv(path)

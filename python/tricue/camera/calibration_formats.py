@@ -88,12 +88,15 @@ def read_opencv_rig(path: PathLike, *, unit: float = 1.0, size: Size | None = No
     """The rectified rig in a file of ``cv2.FileStorage`` or in the camera_info (ROS, YAML) of a right camera.
 
     The file has P1 and P2 of ``cv2.stereoRectify``; a camera_info has the baseline in its projection_matrix.
-    unit: meters per unit of the calibration board, 0.001 if its squares were given in millimeters.
+    unit: meters per unit of the calibration board, 0.001 if its squares were given in millimeters. ValueError
+        for another unit than 1 with a camera_info, which is in meters by definition.
     """
     with OpenCVFile(path) as file:
         left, right = file.matrix("P1"), file.matrix("P2")
         if left is None and right is None:
             left, right = _ros_projections(file.matrix("projection_matrix"), path)
+            if left is not None and unit != 1:
+                raise ValueError(f"{path}: ROS's camera_info is in meters, got the unit {unit}; leave it out")
         if left is None or right is None:
             raise ValueError(
                 f"{path}: expected P1 and P2 of a rectified rig, as cv2.stereoRectify gives them, or ROS's "

@@ -60,8 +60,8 @@ def read_rig(
     The formats are OpenCV's (YAML, XML, JSON; P1, P2), ROS's (YAML) of the right camera, KITTI's (.txt) and
     TOML. size: width and height of the images, pixels. unit: meters per unit of the board of OpenCV's
     calibration, 1 by default. kitti_cameras: the left and right camera to read in KITTI's file. ValueError
-    or OSError names the file, as from :func:`read_intrinsics`; ValueError, too, for a unit with the other
-    formats, which are in meters.
+    or OSError names the file, as from :func:`read_intrinsics`; ValueError, too, for a unit other than 1 with
+    ROS's, and for any unit with KITTI's and TOML, which are in meters.
     """
     kind = _format(path)
     if unit is not None and kind != OPENCV:

@@ -158,7 +158,8 @@ class StereoRig:
     def from_opencv(cls, path: PathLike, *, unit: float = 1.0, size: Size | None = None) -> "StereoRig":
         """From P1 and P2 of ``cv2.stereoRectify`` in a file of ``cv2.FileStorage``.
 
-        Or from ROS's camera_info of the right camera. unit: meters per unit of the calibration board.
+        Or from ROS's camera_info of the right camera, which is in meters. unit: meters per unit of the
+        calibration board of OpenCV.
         """
         from tricue.camera.calibration_formats import read_opencv_rig
 
