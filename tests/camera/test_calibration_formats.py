@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 import pickle
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -156,6 +157,7 @@ def text(content: str, read: Callable[..., Any], **options: Any) -> Callable[[Pa
         (opencv(P1=LEFT, P2=right(cx=330.0)), "CALIB_ZERO_DISPARITY"),
         (opencv(P1=LEFT[:, :3], P2=LEFT[:, :3]), r"expected projection matrices \(3, 4\)"),
         (opencv(P1=LEFT[:2], P2=LEFT), r"expected a camera matrix \(3, 3\) or \(3, 4\), got \(2, 4\)"),
+        (opencv(P1=LEFT[:, :3].T, P2=LEFT), "expected a camera matrix fx 0 cx, .* is it transposed"),
         (opencv(P1=0 * LEFT, P2=right()), "fx: expected pixels above 0"),
         (lambda p: Intrinsics.from_opencv(opencv_file(p / "c.yml", P1=LEFT)), r"pass size=\(width, height\)"),
         (
@@ -308,6 +310,19 @@ def test_where_no_lens_bends_nothing_is_told(tmp_path: Path, values: dict[str, A
     assert Intrinsics.from_opencv(path, size=SIZE).fx == 500
     if "P2" in values:
         assert StereoRig.from_opencv(path, size=SIZE).intrinsics.fx == 500
+
+
+@pytest.mark.parametrize(("skew", "told"), [(20.0, True), (-3.0, True), (0.9, False)])
+def test_skew_is_told(tmp_path: Path, skew: float, told: bool) -> None:
+    """It proves that skew that moves the image's border over half a pixel is warned of, and by how much."""
+    matrix = LEFT.copy()
+    matrix[0, 1] = skew
+    path = opencv_file(tmp_path / "c.yml", camera_matrix=matrix[:, :3])
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always")
+        assert Intrinsics.from_opencv(path, size=SIZE).fx == 500
+    expected = f"{path}: its skew of {skew:.3g} px, up to {abs(skew) * 240 / 500:.2g} px, isn't taken out"
+    assert [(str(each.message), each.filename) for each in found] == [(expected, __file__)] * told
 
 
 @pytest.mark.parametrize(

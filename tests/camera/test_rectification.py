@@ -215,6 +215,14 @@ def test_bad_files_are_refused(tmp_path: Path, changes: dict[str, Any], message:
         Rectification.from_opencv(stereo_file(tmp_path / "c.yml", **changes))
 
 
+def test_skew_is_told(tmp_path: Path) -> None:
+    """It proves that the skew of a raw camera, which OpenCV leaves out, is warned of."""
+    skewed = RAW.cameras[1].copy()
+    skewed[0, 1] = 30.0
+    with pytest.warns(UserWarning, match=r"c\.yml: its skew of 30 px, up to .* px, isn't taken out"):
+        Rectification.from_opencv(stereo_file(tmp_path / "c.yml", M2=skewed))
+
+
 def test_bad_images_are_refused() -> None:
     """It proves that images of another size, of two sizes, or none are refused by name."""
     made = Rectification(RAW, SIZE)

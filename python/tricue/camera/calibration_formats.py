@@ -31,6 +31,9 @@ POSE_KEYS = ("pose", "rotation", "translation")
 LIKELY_MISSPELLED = 0.85
 """The similarity (difflib's ratio) above which an unknown key is taken for a misspelled one."""
 
+MAX_SKEWED = 0.5
+"""Pixels by which a camera matrix's skew may move a point of the image before a note says so."""
+
 
 class ImageSizeError(ValueError):
     """A calibration is for another image size than expected.
@@ -215,13 +218,30 @@ def rig_of_projections(
     return RigParameters(camera, float(baseline) * unit)
 
 
+def skew_note(matrix: Matrix, height: int) -> str:
+    """A note on a camera matrix's skew if leaving it out moves a point of the image by more than MAX_SKEWED;
+    "" else.
+
+    height: of the image, pixels.
+    """
+    skew, fy, cy = float(matrix[0, 1]), float(matrix[1, 1]), float(matrix[1, 2])
+    farthest = abs(skew / fy) * max(cy, height - cy)
+    return f"its skew of {skew:.3g} px, up to {farthest:.2g} px, isn't taken out" * (farthest > MAX_SKEWED)
+
+
 def _camera_of_matrix(matrix: Matrix, size: Size | None, path: PathLike) -> PinholeParameters:
     if matrix.shape not in ((3, 3), (3, 4)):
         raise ValueError(f"{path}: expected a camera matrix (3, 3) or (3, 4), got {matrix.shape}")
     if size is None:
         raise ValueError(f"{path}: the file doesn't hold the image's size; pass size=(width, height)")
+    if matrix[1, 0] or matrix[2, 0] or matrix[2, 1]:
+        hint = "; is it transposed, as by MATLAB?" if matrix[2, 0] and not matrix[0, 2] else ""
+        raise ValueError(f"{path}: expected a camera matrix fx 0 cx, 0 fy cy, 0 0 1, got another one{hint}")
     fx, fy, cx, cy = map(float, (matrix[0, 0], matrix[1, 1], matrix[0, 2], matrix[1, 2]))
-    return _name_file(path, lambda: PinholeParameters(*pinhole(fx, fy, cx, cy, *size)))
+    camera = _name_file(path, lambda: PinholeParameters(*pinhole(fx, fy, cx, cy, *size)))
+    if note := skew_note(matrix, camera.height):
+        warnings.warn(f"{path}: {note}", stacklevel=4)
+    return camera
 
 
 def _ros_projections(right: Matrix | None, path: PathLike) -> tuple[Matrix, Matrix] | tuple[None, None]:

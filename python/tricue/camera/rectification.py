@@ -5,6 +5,7 @@ The raw cameras follow OpenCV's pinhole model with its distortion coefficients (
 fisheye model. Points in the cameras' frames: x_right = rotation @ x_left + translation.
 """
 
+import warnings
 from collections.abc import Sequence
 from contextlib import ExitStack
 from typing import Any, NamedTuple
@@ -13,7 +14,12 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.camera.calibration_formats import NUMBERED_DISTORTION_KEYS, image_size, rig_of_projections
+from tricue.camera.calibration_formats import (
+    NUMBERED_DISTORTION_KEYS,
+    image_size,
+    rig_of_projections,
+    skew_note,
+)
 from tricue.camera.frame import Frame
 from tricue.camera.numbers import positive
 from tricue.camera.opencv_file import OpenCVFile
@@ -112,6 +118,8 @@ class Rectification:
         rotations, projections = rectified or _rectify(raw, size)
         camera, baseline = rig_of_projections(*projections, positive(unit, "unit", "meters"), size, names)
         self.rig = StereoRig(Intrinsics(*camera), baseline)
+        for note in filter(None, (skew_note(each, size[1]) for each in raw.cameras)):
+            warnings.warn(f"{names}: {note}", stacklevel=3)
         self._maps = [
             # Fixed point has cv2.remap's own resolution, 1/32 px, and needs less memory than floats.
             cv2.initUndistortRectifyMap(camera, distortion, rotation, projection[:, :3], size, cv2.CV_16SC2)

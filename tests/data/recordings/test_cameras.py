@@ -93,6 +93,14 @@ def test_one_camera() -> None:
     assert calibrate({"color": view(raw)}, []) == Cameras(Intrinsics(55, 56, 30, 22, *SIZE))
 
 
+def test_skew_is_told() -> None:
+    """It proves that the skew of the images' camera, K's of raw ones and P's of rectified ones, is a note."""
+    camera = info(k=(60.0, 3.0, 31.5, 0, 60, 23.5, 0, 0, 1))
+    found = calibrate({"color": view(camera, rectified=False)}, [])
+    assert found.notes == ("/a: its skew of 3 px, up to 1.2 px, isn't taken out",)
+    assert calibrate({"color": view(camera)}, []).notes == ()
+
+
 @pytest.mark.parametrize("value", [0.0, math.nan, math.inf])
 def test_a_camera_without_a_projection(value: float) -> None:
     """It proves that K counts where P isn't filled in, and that a pair then has no baseline."""

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.camera.calibration_formats import skew_note
 from tricue.camera.rectification import (
     DISTORTION_COUNTS,
     Rectification,
@@ -105,12 +106,13 @@ def _intrinsics(view: View) -> tuple[Intrinsics | None, tuple[str, ...]]:
         said = f"{info.width}x{info.height}"
         return None, (f"{view.topic} has images of {width}x{height}, its camera_info is for {said}",)
     if view.rectified and _has_projection(info):
-        fx, cx, fy, cy = (info.p[i] for i in (0, 2, 5, 6))
+        matrix = np.reshape(info.p, (3, 4))
     else:
-        fx, cx, fy, cy = (info.k[i] for i in (0, 2, 4, 5))
+        matrix = np.reshape(info.k, (3, 3))
     bent = not view.rectified and np.abs(info.d).max(initial=0) > 0
-    notes = (f"{view.topic}: its lens' distortion isn't taken out",) if bent else ()
-    return Intrinsics(fx, fy, cx, cy, width, height), notes
+    found = "its lens' distortion isn't taken out" if bent else "", skew_note(matrix, height)
+    notes = tuple(f"{view.topic}: {note}" for note in found if note)
+    return Intrinsics(matrix[0, 0], matrix[1, 1], matrix[0, 2], matrix[1, 2], width, height), notes
 
 
 def _is_calibrated(info: CameraMessage) -> bool:
