@@ -172,6 +172,9 @@ def test_a_distance_in_another_unit_is_told(still, tmp_path, capsys):
     folder, out = write_pair(still, tmp_path / "pair"), tmp_path / "head.toml"
     place = [str(folder), "--box", ",".join(map(str, still.boxes[0])), "--output", str(out)]
     calibration = ["--calibration", str(folder / "rig.toml")]
+    for distance in ("nan", "inf", "0"):
+        line = failing(["stereo-noise", *place, *calibration, "--distance", distance], capsys)
+        assert "--distance: expected meters above 0" in line
     line = failing(["stereo-noise", *place, *calibration, "--distance", "120"], capsys)
     assert "--distance: expected about 1.1" in line
     assert line.endswith("m, as the pairs measure, got 120")

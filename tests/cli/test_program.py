@@ -134,13 +134,23 @@ BAD = [
         ["track", "{walk}", "--seed", "x"],
         "tricue track: argument --seed: expected a whole number from 0 on, got 'x'",
     ),
+    (["track", "{walk}", "--workers", "9" * 23], "tricue track: .*--workers: expected at most 1,000,000"),
+    (
+        ["track", "{walk}", "--start", "9" * 23],
+        "tricue track: .*--start: expected a frame's number, 0 to 1,000",
+    ),
+    (["track", "{walk}", "--box", f"{'9' * 23}:1,2,3,4"], "tricue track: .*--box: expected a frame's number"),
+    (
+        ["reproduce", "sabeti-fig2", "--jobs", "0"],
+        "tricue reproduce: .*--jobs: expected a whole number above",
+    ),
     (["demo", "--seed", "-3"], "tricue demo: argument --seed: expected a whole number from 0 on, got '-3'"),
     (["track"], "tricue track: the following arguments are required: INPUT"),
     (
         ["reproduce", "sabeti-fig9"],
         "tricue reproduce: experiment: expected one of .*sabeti-fig1.*, got 'sabeti-fig9'",
     ),
-    (["reproduce", "sabeti-fig1", "--seeds", "0"], "tricue reproduce: seeds, jobs: expected 1 or more"),
+    (["reproduce", "sabeti-fig1", "--seeds", "0"], "tricue reproduce: .*--seeds: expected a whole number"),
     (
         ["track", "{walk}", "--tracker", "fused", "--unit", "0.1"],
         "tricue track: --unit: expected with a stereo pair",

@@ -82,6 +82,15 @@ def test_the_exit_code_is_asked_for(folders, options, code, capsys):
     assert "lost most: s7 0.500 to 0.380" in printed
 
 
+@pytest.mark.parametrize("gain", ["nan", "inf", "-1e400", "much"])
+def test_a_gain_that_is_no_number_is_refused(folders, gain, capsys):
+    """NaN would let everything pass, unseen in a script."""
+    with pytest.raises(SystemExit) as ended:
+        main(["compare", *map(str, folders), f"--fail-under={gain}"])
+    assert ended.value.code == 2
+    assert f"argument --fail-under: expected a finite number, got {gain!r}" in capsys.readouterr().err
+
+
 def test_the_page_holds_the_same(folders, tmp_path, capsys):
     """Self-contained, with each tracker's verdict and sequences."""
     path = tmp_path / "new" / "compare.html"

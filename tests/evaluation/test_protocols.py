@@ -35,7 +35,9 @@ def test_orders():
     assert [order.noise for order in orders("noisy-3")] == [1, 2, 3]
 
 
-@pytest.mark.parametrize("name", ["restart", "every", "every-1", "every-x", "noisy-0", "starts-3", ""])
+@pytest.mark.parametrize(
+    "name", ["restart", "every", "every-1", "every-x", "noisy-0", "noisy-1001", "starts-3", ""]
+)
 def test_unknown_protocols_are_told(name):
     """The error names those that there are, and what came."""
     with pytest.raises(ValueError, match=r"--protocols: expected some of one-pass, restarts, .* got "):

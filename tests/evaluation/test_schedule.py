@@ -91,6 +91,24 @@ def test_processes_give_what_is_finished_as_it_comes(tmp_path):
         assert all("no such file or folder" in each.error for each in found)
 
 
+def test_there_are_no_more_processes_than_tasks(tmp_path):
+    """Each process costs a second and memory: of eight only two start for two tasks."""
+    from joblib.externals.loky.process_executor import ProcessPoolExecutor
+
+    started = []
+    adjust = ProcessPoolExecutor._adjust_process_count
+
+    def count(pool: ProcessPoolExecutor) -> None:
+        adjust(pool)
+        started.append(len(pool._processes))
+
+    tasks = [Task(TrackerSpec("still-box"), Entry(str(each), tmp_path / str(each))) for each in range(2)]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ProcessPoolExecutor, "_adjust_process_count", count)
+        assert len(list(schedule.run_tasks(tasks, perform, jobs=8))) == 2
+    assert max(started) == 2
+
+
 @pytest.mark.parametrize(("deaths", "failed"), [(1, []), (9, ["one-pass/color-particle/there/seed-2"])])
 def test_a_killed_process_costs_only_the_run_that_kills_it(folders, tmp_path, deaths, failed):
     """Runs go on without the process; a run that kills another one, too, is reported."""

@@ -12,6 +12,9 @@ from tricue.camera.box import Box, as_box
 from tricue.errors import one_line
 from tricue.track.base.registry import tracker_class
 
+MAX_COUNT = 1_000_000  # of processes, seeds or frames read ahead
+MAX_FRAME = 1_000_000_000
+
 
 def add_common(command: argparse.ArgumentParser) -> None:
     """Options of every command that runs a tracker."""
@@ -24,10 +27,23 @@ def add_common(command: argparse.ArgumentParser) -> None:
 
 
 def count(text: str) -> int:
-    """A whole number above 0."""
+    """A whole number above 0, at most MAX_COUNT."""
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"expected a whole number above 0, got {text!r}")
+    if int(text) > MAX_COUNT:
+        raise argparse.ArgumentTypeError(f"expected at most {MAX_COUNT:,}, got {text}")
     return int(text)
+
+
+def number(text: str) -> float:
+    """A finite number."""
+    try:
+        found = float(text)
+    except ValueError:
+        found = math.nan
+    if not math.isfinite(found):
+        raise argparse.ArgumentTypeError(f"expected a finite number, got {text!r}")
+    return found
 
 
 def seed(text: str) -> int:
@@ -81,13 +97,13 @@ def start_box(text: str) -> StartBox:
     number, colon, numbers = text.rpartition(":")
     if colon and not number.isdecimal():
         raise argparse.ArgumentTypeError(f"expected FRAME:x,y,width,height, got {text!r}")
-    return StartBox(box(numbers), int(number) if colon else None)
+    return StartBox(box(numbers), frame_number(number) if colon else None)
 
 
 def frame_number(text: str) -> int:
-    """A whole number from 0 on."""
-    if not text.isdecimal():
-        raise argparse.ArgumentTypeError(f"expected a frame's number from 0 on, got {text!r}")
+    """A whole number from 0 on, at most MAX_FRAME."""
+    if not text.isdecimal() or int(text) > MAX_FRAME:
+        raise argparse.ArgumentTypeError(f"expected a frame's number, 0 to {MAX_FRAME:,}, got {text!r}")
     return int(text)
 
 

@@ -2,6 +2,7 @@
 """``tricue calibrate WHAT``: parameters of the trackers, measured on the user's own images."""
 
 import argparse
+import math
 import os
 import shutil
 import tempfile
@@ -155,7 +156,7 @@ def _stereo_noise(options: argparse.Namespace, params: Any) -> dict[str, Any]:
     head = options.box or source.first_box
     if head is None:
         raise ValueError(f"{source.name}: expected a box; give --box x,y,width,height")
-    if options.distance is not None and not (found.rig and options.distance > 0):
+    if options.distance is not None and not (found.rig and 0 < options.distance < math.inf):
         raise ValueError("--distance: expected meters above 0, and the calibration of the stereo pair")
     try:
         static = measure_static_head(found.prepare(source), head, found.rig, params)

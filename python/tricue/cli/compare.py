@@ -4,6 +4,7 @@
 import argparse
 from pathlib import Path
 
+from tricue.cli.arguments import number
 from tricue.evaluation.compare import Comparison, compare_folders
 from tricue.evaluation.differences import BETTER
 from tricue.evaluation.report.compare_page import write_compare_page
@@ -36,7 +37,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     )
     command.add_argument(
         "--fail-under",
-        type=float,
+        type=number,
         metavar="GAIN",
         help="exit code 1 if a tracker's mean gain is below this, such as -0.01",
     )

@@ -4,6 +4,7 @@
 import argparse
 from pathlib import Path
 
+from tricue.cli.arguments import count
 from tricue.cli.progress import Progress
 
 EXAMPLES = """\
@@ -36,9 +37,9 @@ def add_options(command: argparse.ArgumentParser) -> None:
     """Add the command's options to its parser."""
     command.add_argument("experiment", metavar="EXPERIMENT", help=", ".join(NAMES))
     command.add_argument(
-        "--seeds", type=int, default=20, help="runs of each model on each scene, default %(default)s"
+        "--seeds", type=count, default=20, help="runs of each model on each scene, default %(default)s"
     )
-    command.add_argument("--jobs", type=int, default=1, help="processes, default %(default)s")
+    command.add_argument("--jobs", type=count, default=1, help="processes, default %(default)s")
     command.add_argument(
         "--output", type=Path, default=Path("results"), metavar="FOLDER", help="default %(default)s/"
     )

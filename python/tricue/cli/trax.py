@@ -12,6 +12,7 @@ import threading
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from tricue.cli.arguments import seed
 from tricue.cli.program import USAGE, Parser, silence_opencv
 from tricue.errors import one_line
 from tricue.evaluation.toolkits.trax_server import TraxTracker, serve
@@ -63,7 +64,7 @@ def _parser(environment: Mapping[str, str]) -> Parser:
     parser.add_argument(
         "--params", type=Path, default=of("PARAMS"), metavar="FILE", help="parameters of the tracker, TOML"
     )
-    parser.add_argument("--seed", type=int, default=of("SEED", "0"), help="default %(default)s")
+    parser.add_argument("--seed", type=seed, default=of("SEED", "0"), help="default %(default)s")
     parser.add_argument(
         "--calibration",
         type=Path,

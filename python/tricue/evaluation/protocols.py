@@ -32,6 +32,7 @@ EVERY, NOISY = "every", "noisy"  # followed by a number, as in every-3
 START_SHARES = (0.0, 0.25, 0.5, 0.75)
 NOISE = 0.1
 """Noise of the first box: how far its center moves, in units of its size, and how much its sides change."""
+MAX_DRAWS = 1000
 BLOCK_PIXELS = 50_000_000  # of a reversed sequence, decoded at once
 
 
@@ -96,7 +97,7 @@ def orders(protocol: str) -> tuple[Order, ...]:
     word, _, number = protocol.partition("-")
     if word == EVERY and number.isdecimal() and int(number) > 1:
         return (Order(step=int(number)),)
-    if word == NOISY and number.isdecimal() and int(number) > 0:
+    if word == NOISY and number.isdecimal() and 0 < int(number) <= MAX_DRAWS:
         return tuple(Order(noise=draw) for draw in range(1, int(number) + 1))
     known = f"{ONE_PASS}, {RESTARTS}, {STARTS}, {BACKWARD}, {EVERY}-3, {NOISY}-5"
     raise ValueError(f"--protocols: expected some of {known}, got {protocol!r}")

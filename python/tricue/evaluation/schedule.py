@@ -39,7 +39,9 @@ def run_tasks(
     """
     if scheduler is not None:
         return _run_on_cluster(tasks, perform, scheduler)
-    return _run_here(tasks, perform) if jobs == 1 else _run_in_processes(tasks, perform, jobs)
+    if jobs == 1:
+        return _run_here(tasks, perform)
+    return _run_in_processes(tasks, perform, min(jobs, len(tasks)))  # loky starts all at once
 
 
 def perform_task(index: int, task: Task, perform: Perform) -> Finished:

@@ -101,7 +101,7 @@ def _mapped(
     if jobs == 1:
         yield from map(work, tasks)
         return
-    pool = ProcessPoolExecutor(jobs, get_context("spawn"), end_when_interrupted)
+    pool = ProcessPoolExecutor(min(jobs, len(tasks)), get_context("spawn"), end_when_interrupted)
     try:
         with interrupts_later():  # until they have imported everything
             running = [pool.submit(work, task) for task in tasks]

@@ -380,7 +380,7 @@ def test_a_missing_extra_is_named() -> None:
         (["--set", "particles=0"], "particles: expected at least"),
         (["--set", "particle=5"], "particle: unknown parameter"),
         (["--params", "nofile.toml"], "nofile.toml: No such file"),
-        (["--seed", "x"], "argument --seed: invalid int value"),
+        (["--seed", "x"], "argument --seed: expected a whole number"),
         (["--calibration", "camera.toml"], "calibration: color-particle takes no camera's intrinsics"),
         (["--tracker", "flow-depth", "--calibration", "none.toml"], "none.toml: there is no such file"),
     ],
