@@ -3,6 +3,7 @@ import os
 import sqlite3
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -96,6 +97,31 @@ def test_topics_written_one_after_the_other(tmp_path: Path, make: Maker) -> None
     times = [message.time for message in make(tmp_path, sent).messages({each.topic for each in sent})]
     assert len(times) == 240
     assert times == sorted(times)
+
+
+@pytest.mark.parametrize("options", [{"chunk": 1 << 17}, {"use_chunking": False}])
+@pytest.mark.parametrize("is_cut", [False, True])
+def test_an_mcap_file_without_an_index_is_read_by_time(
+    tmp_path: Path, options: dict[str, Any], is_cut: bool
+) -> None:
+    """It proves that messages that were written late come in order of time in a file that wasn't closed, too,
+    from any time on, and those of the same time in the file's order.
+    """
+    sent = walk(60, size=(160, 120))
+    late = sorted(sent, key=lambda each: each.time + SECOND * ("depth" in each.topic))
+    path = write_mcap(tmp_path / "a.mcap", late, **options)
+    if is_cut:
+        content = path.read_bytes()
+        path.write_bytes(content[: int(0.8 * len(content))])
+    container = McapFile(path)
+    found = list(container.messages(container.topics))
+    assert len(found) == sum(container.counts().values()) > 100
+    assert [each.time for each in found] == sorted(each.time for each in found)
+    assert [each for each in found if "depth" not in each.topic] == list(
+        container.messages({name for name in container.topics if "depth" not in name})
+    )
+    middle = found[len(found) // 2].time
+    assert list(container.messages(container.topics, middle)) == [e for e in found if e.time >= middle]
 
 
 @pytest.mark.parametrize("compression", ["LZ4", "BZ2"])

@@ -1,27 +1,23 @@
 # SPDX-License-Identifier: MIT
-"""MCAP files, read with the library mcap: by the index, or, without one, from start to end."""
+"""MCAP files, read with the library mcap: by the file's index, or, without one, by one made from the file."""
 
+import heapq
 import struct
-from bisect import bisect_left
+from array import array
 from collections import Counter
 from collections.abc import Collection, Iterator
 from inspect import signature
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, BinaryIO
+
+import numpy as np
 
 from tricue.data.recordings.container import Container, Message, Topic
 from tricue.doctor.install import install_extra
 
 
-class _ChunkEnd(NamedTuple):
-    """Where a chunk ends in the file, and the time of the latest message so far."""
-
-    latest: int
-    offset: int
-
-
 class McapFile(Container):
-    """An MCAP file; one without a summary, such as a truncated one, is read once to find its topics."""
+    """An MCAP file; one without an index, such as a truncated one, is read once to find topics and parts."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -29,8 +25,9 @@ class McapFile(Container):
         self._summary = self._read_summary()
         self._counts: Counter[str] = Counter()
         self._names: dict[int, str] = {}  # of channels
-        self._chunk_ends: list[_ChunkEnd] = []
-        if self._summary is None:
+        self._parts = array("Q")  # without an index: of each part first and last time, and its offset
+        self._is_indexed = self._summary is not None and bool(self._summary.chunk_indexes)
+        if not self._is_indexed:
             self._scan()
             return
         self.topics = _topics(self._summary.channels.values(), self._summary.schemas)
@@ -38,9 +35,8 @@ class McapFile(Container):
             self._counts[self._summary.channels[number].topic] += count
 
     def messages(self, names: Collection[str], start: int = 0) -> Iterator[Message]:
-        indexed = self._summary is not None and self._summary.chunk_indexes
         try:
-            yield from self._indexed(names, start) if indexed else self._in_order(names, start)
+            yield from self._indexed(names, start) if self._is_indexed else self._by_parts(names, start)
         except self._broken as error:
             self.damage = self.damage or f"it is damaged: {error or type(error).__name__}"
 
@@ -75,58 +71,77 @@ class McapFile(Container):
             for _, channel, message in found:
                 yield Message(channel.topic, message.log_time, message.data)
 
-    def _in_order(self, names: Collection[str], start: int) -> Iterator[Message]:
-        from mcap import records
+    def _by_parts(self, names: Collection[str], start: int) -> Iterator[Message]:
+        """The messages in order of time, as the library gives them by an index.
 
-        channels = dict(self._names)
-        for record in self._records(self._offset(start)):
-            if isinstance(record, records.Channel):
-                channels[record.id] = record.topic
-            if not isinstance(record, records.Message) or record.log_time < start:
-                continue
-            if channels.get(record.channel_id) in names:
-                yield Message(channels[record.channel_id], record.log_time, record.data)
-
-    def _offset(self, start: int) -> int:
-        """The file offset from which to read to get all messages from this time on."""
-        return self._chunk_ends[at - 1].offset if (at := bisect_left(self._chunk_ends, (start,))) else 0
-
-    def _records(self, offset: int = 0) -> Iterator[Any]:
-        """The records, including those in chunks. offset: where in the file one begins, 0 for the first."""
-        from mcap.records import Chunk
-        from mcap.stream_reader import StreamReader, breakup_chunk
-
-        latest = 0
+        A part is a chunk, or a message outside of chunks. Parts may overlap in time; only the messages of
+        those that do are in memory.
+        """
+        waiting: list[tuple[int, int, int, Message]] = []
+        firsts, lasts, offsets = np.array(self._parts).reshape(-1, 3).T
         with self.path.open("rb") as file:
-            file.seek(offset)
-            reader = StreamReader(file, skip_magic=offset > 0, emit_chunks=True, validate_crcs=True)
-            for record in reader.records:
-                if not isinstance(record, Chunk):
-                    yield record
+            for part in np.lexsort((offsets, firsts)):
+                if lasts[part] < start:
                     continue
-                yield from breakup_chunk(record, validate_crc=True)
-                latest = max(latest, record.message_end_time)
-                if offset == 0 and file.tell() > (self._chunk_ends[-1].offset if self._chunk_ends else 0):
-                    self._chunk_ends.append(_ChunkEnd(latest, file.tell()))
+                while waiting and waiting[0][0] < firsts[part]:
+                    yield heapq.heappop(waiting)[-1]
+                offset = int(offsets[part])
+                for number, record in enumerate(_messages_at(file, offset)):
+                    name = self._names.get(record.channel_id, "")
+                    if name in names and record.log_time >= start:
+                        message = Message(name, record.log_time, record.data)
+                        heapq.heappush(waiting, (message.time, offset, number, message))
+        while waiting:
+            yield heapq.heappop(waiting)[-1]
 
     def _scan(self) -> None:
-        """Find topics and counts by reading the whole file."""
+        """Find topics, counts and parts by reading the whole file."""
         from mcap import records
+        from mcap.stream_reader import StreamReader
 
         schemas: dict[int, Any] = {}
         channels: dict[int, Any] = {}
+        counts: Counter[int] = Counter()
         try:
-            for record in self._records():
-                if isinstance(record, records.Schema):
-                    schemas[record.id] = record
-                elif isinstance(record, records.Channel):
-                    channels[record.id] = record
-                elif isinstance(record, records.Message):
-                    self._counts[channels[record.channel_id].topic] += 1
+            with self.path.open("rb") as file:
+                offset = 0
+                for record in StreamReader(file, emit_chunks=True, validate_crcs=True).records:
+                    within = _within(record)
+                    times = [each.log_time for each in within if isinstance(each, records.Message)]
+                    if times:
+                        self._parts.extend((min(times), max(times), offset))
+                    offset = file.tell()
+                    for each in within:
+                        if isinstance(each, records.Schema):
+                            schemas[each.id] = each
+                        elif isinstance(each, records.Channel):
+                            channels[each.id] = each
+                        elif isinstance(each, records.Message):
+                            counts[each.channel_id] += 1
         except self._broken:
             self.damage = "it is cut off or wasn't closed"
         self.topics = _topics(channels.values(), schemas)
         self._names = {number: channel.topic for number, channel in channels.items()}
+        for number, count in counts.items():
+            self._counts[self._names.get(number, "")] += count
+
+
+def _messages_at(file: BinaryIO, offset: int) -> Iterator[Any]:
+    """The messages of the part at this place in the file."""
+    from mcap import records
+    from mcap.stream_reader import StreamReader
+
+    file.seek(offset)
+    part = next(iter(StreamReader(file, skip_magic=offset > 0, emit_chunks=True).records))
+    return (each for each in _within(part) if isinstance(each, records.Message))
+
+
+def _within(record: Any) -> list[Any]:
+    """The records of a chunk; of any other record, itself."""
+    from mcap.records import Chunk
+    from mcap.stream_reader import breakup_chunk
+
+    return breakup_chunk(record, validate_crc=True) if isinstance(record, Chunk) else [record]
 
 
 def _since(reader: Any, start: int) -> dict[str, Any]:
