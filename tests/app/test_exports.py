@@ -21,7 +21,7 @@ from tricue.data.open_source import open_source
 from tricue.data.streams import Video
 from tricue.export.table import TableForm, columns
 
-from tests.app.conftest import FRAMES, START, moving
+from tests.app.conftest import FRAMES, HEIGHT, START, WIDTH, moving
 
 POSE = Pose(np.eye(3), (1.0, 0.0, 0.0))
 
@@ -104,6 +104,17 @@ def test_coco_names_the_files_of_a_folder(tmp_path: Path) -> None:
     project = edits.add_target(Project(), 0, START, "fused")
     content = json.loads(exports.as_coco(Tracked(project, Recording(open_source(tmp_path)), {"source": "x"})))
     assert [image["file_name"] for image in content["images"]] == ["img0.png", "img1.png"]
+
+
+def test_coco_has_each_images_size(tmp_path: Path) -> None:
+    """An image of another size, which has no box, keeps its own; a damaged one has the first one's."""
+    for at, image in enumerate(moving(4)):
+        cv2.imwrite(str(tmp_path / f"{at}.png"), image[: HEIGHT - 20 * (at == 1)])
+    (tmp_path / "3.png").write_bytes(b"no image")
+    project = edits.add_target(Project(), 0, START, "fused")
+    content = json.loads(exports.as_coco(Tracked(project, Recording(open_source(tmp_path)), {"source": "x"})))
+    sizes = [(each["width"], each["height"]) for each in content["images"]]
+    assert sizes == [(WIDTH, HEIGHT), (WIDTH, HEIGHT - 20), (WIDTH, HEIGHT), (WIDTH, HEIGHT)]
 
 
 def test_video_shows_the_boxes(tracked: Tracked, tmp_path: Path) -> None:

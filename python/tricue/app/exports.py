@@ -90,14 +90,15 @@ def as_mot(tracked: Tracked) -> str:
 
 def as_coco(tracked: Tracked) -> str:
     """COCO's JSON, see :class:`tricue.export.coco.CocoTracks`: a category is a target's name."""
-    source, size = tracked.recording.source, tracked.recording.size
+    recording, source = tracked.recording, tracked.recording.source
     targets = tracked.project.targets
     found = CocoTracks(source.name, {target.id: target.name for target in targets})
     names = image_names(source.channels)
-    for at in range(tracked.recording.length):
+    for at in range(recording.length):
         tracks = {each.id: each.tracks[at] for each in targets if at in each.tracks}
+        size = recording.size if tracks or not names else recording.image_size(at)  # tracks prove the size
         found.add(at, size, tracks, names[at] if names else "")
-    return json.dumps(found.content(tracked.recording.fps), allow_nan=False, ensure_ascii=False)
+    return json.dumps(found.content(recording.fps), allow_nan=False, ensure_ascii=False)
 
 
 EXPORTS = {

@@ -63,6 +63,14 @@ class Recording:
             raise ValueError(f"frame {number}: expected the first frame's size {first}, got {here} px")
         return frame
 
+    def image_size(self, number: int) -> tuple[int, int]:
+        """The size of a frame's image, which may differ from the first one's; the latter's if it can't be
+        read.
+        """
+        with suppress(ValueError):
+            return _size_of(self._read(number))
+        return self.size
+
     def _first_readable(self) -> tuple[int, Frame]:
         """The first readable frame with its number; ValueError if there is none among MAX_UNREADABLE."""
         for number in range(min(self.length, MAX_UNREADABLE)):
