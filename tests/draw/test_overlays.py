@@ -46,6 +46,23 @@ def test_small_images_are_enlarged() -> None:
         assert tuple(picture[300, 230]) == STATUS_COLORS[Status.TRACKED]
 
 
+def test_lines_are_seen_in_a_large_image_shown_smaller() -> None:
+    """It proves that the box keeps its color where a 4K picture is shown with a third of its size."""
+    box = Box(600, 900, 600, 900)
+    large = np.zeros((2160, 3840, 3), np.uint8)
+    for picture in (overlay(large, track(box)), targets_overlay(large, {1: track(box)})):
+        small = cv2.resize(picture, None, fx=1 / 3, fy=1 / 3, interpolation=cv2.INTER_AREA).astype(int)
+        assert small[400:450, 198:203].sum(2).max(1).min() > 300
+
+
+def test_text_fits_an_upright_image() -> None:
+    """It proves that the longest line, the position, is as long in an upright image as in a wide one."""
+    whole = Track(BOX, 0.5, Status.TRACKED, position=np.array([-1.23, 0.45, 12.3]), covariance=np.eye(3))
+    pictures = [overlay(np.zeros(shape, np.uint8), whole) for shape in ((1920, 1080, 3), (1080, 1920, 3))]
+    columns = [np.flatnonzero(picture[:250].any((0, 2))).max() for picture in pictures]
+    assert columns[0] == columns[1] < 1000
+
+
 @pytest.mark.parametrize(("shape", "scale"), [((20, 2000), 2), ((20, 5000), 1), ((20, 100), 24)])
 def test_wide_images_stay_narrow_enough_for_a_video(shape: tuple[int, int], scale: int) -> None:
     """It proves that an image of few rows isn't enlarged beyond the columns that encoders take."""

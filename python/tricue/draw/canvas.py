@@ -22,6 +22,7 @@ STATUS_COLORS: dict[Status, Color] = {  # also different in lightness, for red-g
 WHITE, BLACK = (255, 255, 255), (0, 0, 0)
 MIN_ROWS = 480  # smaller images are enlarged, so that lines and letters look fine
 MAX_COLUMNS = 4096  # the limit of this enlargement, because encoders and players reject much wider pictures
+LINE_SIDE = 720  # pixels of the shorter side for each pixel of a thin line
 MAX_DRAWN_COORDINATE = 30000  # pixels, within OpenCV's integer range
 _FONT = cv2.FONT_HERSHEY_SIMPLEX
 
@@ -58,27 +59,37 @@ def to_pixels(coordinates: ArrayLike, scale: int) -> list[int]:
     return [int(n) for n in np.clip(scaled, -MAX_DRAWN_COORDINATE, MAX_DRAWN_COORDINATE)]
 
 
+def line_width(canvas: Image) -> int:
+    """The width of a thin line, pixels; in a large image, 1 pixel can't be seen once it is shown smaller."""
+    return max(1, int(min(canvas.shape[:2])) // LINE_SIDE)
+
+
 def draw_box(canvas: Image, box: Box, scale: int, color: Color, thickness: int) -> None:
-    """Outline a box, given in pixels of the image before its enlargement by ``scale``."""
+    """Outline a box, given in pixels of the image before its enlargement by ``scale``.
+
+    thickness: in widths of a thin line.
+    """
     left, top, right, bottom = to_pixels(box.xyxy, scale)
-    cv2.rectangle(canvas, (left, top), (right - 1, bottom - 1), color, thickness, cv2.LINE_AA)
+    width = thickness * line_width(canvas)
+    cv2.rectangle(canvas, (left, top), (right - 1, bottom - 1), color, width, cv2.LINE_AA)
 
 
 def draw_ellipse(canvas: Image, box: Box, scale: int, color: Color) -> None:
     """Outline the inscribed ellipse of a box."""
     x, y, minor, major = to_pixels(box.ellipse, scale)
-    cv2.ellipse(canvas, (x, y), (minor, major), 0, 0, 360, color, 1, cv2.LINE_AA)
+    cv2.ellipse(canvas, (x, y), (minor, major), 0, 0, 360, color, line_width(canvas), cv2.LINE_AA)
 
 
 def draw_dots(canvas: Image, points: NDArray[np.float64], scale: int, color: Color) -> None:
     """Draw a dot at each of the points (N, 2 or more), with x and y first."""
+    radius = 2 * line_width(canvas)
     for x, y in points[:, :2]:
-        cv2.circle(canvas, tuple(to_pixels((x, y), scale)), 2, color, -1, cv2.LINE_AA)
+        cv2.circle(canvas, tuple(to_pixels((x, y), scale)), radius, color, -1, cv2.LINE_AA)
 
 
 def choose_font_scale(canvas: Image) -> float:
-    """OpenCV's font scale for text in an image of this height."""
-    return max(0.4, float(canvas.shape[0]) / 800)
+    """OpenCV's font scale for text in an image of this size; lines of text fit upright images, too."""
+    return max(0.4, float(min(canvas.shape[:2])) / 800)
 
 
 def put_text(canvas: Image, text: str, position: tuple[int, int], color: Color) -> None:

@@ -13,7 +13,7 @@ from tricue.draw.canvas import BLACK, Color, to_pixels
 from tricue.track.base.track import Status, Track
 
 DEFAULT_SECONDS = 2.0
-SHARE = 240  # the image's height over the line's width
+SHARE = 240  # the image's shorter side over the line's width
 MARGIN = 8  # pixels around the line that are redrawn
 
 Point = tuple[int, int]
@@ -45,7 +45,7 @@ class Trail:
         ]
         if not lines:
             return
-        width = max(2, canvas.shape[0] // SHARE)
+        width = max(2, min(canvas.shape[:2]) // SHARE)
         corners = np.array([line[:4] for line in lines]).reshape(-1, 2)
         (left, top), (right, bottom) = corners.min(0) - MARGIN - width, corners.max(0) + MARGIN + width
         left, top = max(left, 0), max(top, 0)
