@@ -2,15 +2,17 @@
 """Exports: CSV, JSON, MOT and COCO are read back by other code, and the overlay video shows the boxes."""
 
 import csv
+import dataclasses
 import io
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
-from tricue import Box, Pose, Status, Track
+from tricue import Box, Pose, Status, Track, app
 from tricue.app import exports
 from tricue.app import project as edits
 from tricue.app.exports import Tracked
@@ -19,6 +21,7 @@ from tricue.app.project import Project
 from tricue.app.session import Session
 from tricue.data.open_source import open_source
 from tricue.data.streams import Video
+from tricue.draw.targets import TARGET_COLORS, target_color
 from tricue.export.table import TableForm, columns
 
 from tests.app.conftest import FRAMES, HEIGHT, START, WIDTH, moving
@@ -118,16 +121,37 @@ def test_coco_has_each_images_size(tmp_path: Path) -> None:
 
 
 def test_video_shows_the_boxes(tracked: Tracked, tmp_path: Path) -> None:
-    """The overlay video has all frames; those with a box differ along it from those without."""
+    """The overlay video has all frames; a box is drawn in those that have it."""
     counted: list[int] = []
     exports.write_video(tmp_path / "out.mp4", tracked, lambda count: counted.append(count) is None)
     assert counted == list(range(1, FRAMES + 1))
     frames = [image for _, image in Video(tmp_path / "out.mp4")]
     assert len(frames) == FRAMES
     scale = frames[0].shape[0] // 120
-    edge = np.array([image[60 * scale, 20 * scale - 2 : 20 * scale + 3].max(axis=0) for image in frames[:6]])
-    green = edge[:, 1].astype(int) - edge[:, 0]
-    assert green[0] > 60 > green[4]
+    edges = np.array([image[60 * scale, 20 * scale - 2 : 20 * scale + 3] for image in frames[:6]], np.int64)
+    differences = np.abs(edges - target_color(1)).sum(-1).min(-1)
+    assert differences[0] < 90 < differences[4]
+
+
+def test_targets_have_the_colors_of_the_page(video: Path) -> None:
+    """What the page shows in a color is drawn in this color, whatever its status, beside its name."""
+    script = (Path(app.__file__).parent / "page" / "targets.js").read_text()
+    shown = re.findall(r'"#(\w{6})"', script[script.index("COLORS") : script.index("];")])
+    assert [tuple(bytes.fromhex(color)[::-1]) for color in shown] == list(TARGET_COLORS)
+
+    project = edits.rename_target(edits.add_target(Project(), 0, START, "fused"), 1, "Anna")
+    frame = next(iter(open_source(video)))
+    pictures = [
+        exports.draw_targets(frame, [(target, Track(START, 0.5, status))])
+        for target in (project.targets[0], dataclasses.replace(project.targets[0], name="Ann"))
+        for status in (Status.TRACKED, Status.OCCLUDED)
+    ]
+    scale = pictures[0].shape[0] // 120
+    row, column = round(START.center[1]) * scale, round(START.x) * scale
+    for picture in pictures:
+        differences = np.abs(picture[row, column - 2 : column + 3].astype(int) - target_color(1)).sum(1)
+        assert differences.min() < 90
+    assert not np.array_equal(pictures[0], pictures[2])
 
 
 def test_video_shows_the_trails(video: Path, tmp_path: Path) -> None:

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import cv2
 from numpy.typing import NDArray
 
 from tricue.app.frames import Recording
@@ -17,14 +16,14 @@ from tricue.app.project import Project, Target
 from tricue.arrays import Image
 from tricue.camera.frame import Frame
 from tricue.data.streams import image_names
-from tricue.draw.canvas import STATUS_COLORS, choose_scale, draw_box, enlarge, put_text, to_bgr
+from tricue.draw.canvas import choose_scale, to_bgr
 from tricue.draw.depth_pictures import depth_picture
-from tricue.draw.targets import target_color
+from tricue.draw.targets import target_color, targets_overlay
 from tricue.draw.trail import Trail
 from tricue.export.coco import CocoTracks
 from tricue.export.mot import mot_line
 from tricue.export.table import TableForm, columns, row
-from tricue.track.base.track import Status, Track
+from tricue.track.base.track import Track
 
 
 @dataclass(frozen=True)
@@ -132,23 +131,15 @@ def write_video(path: Path, tracked: Tracked, progress: Callable[[int], bool], t
 def draw_targets(
     frame: Frame, tracks: Sequence[tuple[Target, Track]], trails: Mapping[int, Trail] | None = None
 ) -> Image:
-    """The frame's image, enlarged if it is small, with each target's box, its name, and its status unless
-    TRACKED.
+    """The frame's image, enlarged if it is small, with each target's box and name in its color.
 
     trails: to draw, by the targets' ids.
     """
     image = picture(frame)
-    scale = choose_scale(*image.shape[:2])
-    canvas = enlarge(image, scale, cv2.INTER_CUBIC)
+    names = {target.id: target.name for target, _ in tracks}
+    canvas = targets_overlay(image, {target.id: track for target, track in tracks}, names=names)
     for number, trail in (trails or {}).items():
-        trail.draw(canvas, scale, target_color(number))
-    for target, track in tracks:
-        color = STATUS_COLORS[track.status]
-        draw_box(canvas, track.box, scale, color, 2)
-        label = f"{target.name}  {track.status}" if track.status is not Status.TRACKED else target.name
-        x, y = round(track.box.x * scale), round(track.box.y * scale) - 6
-        bottom = round((track.box.y + track.box.height) * scale) + 20
-        put_text(canvas, label, (max(0, x), y if y > 12 else min(bottom, canvas.shape[0] - 6)), color)
+        trail.draw(canvas, choose_scale(*image.shape[:2]), target_color(number))
     return canvas
 
 

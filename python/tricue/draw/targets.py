@@ -24,8 +24,8 @@ from tricue.track.base.track import Status, Track
 
 # Okabe and Ito's colors without black, in BGR, distinct for all kinds of color vision; used in a cycle.
 TARGET_COLORS: tuple[Color, ...] = (
-    (0, 159, 230),
     (233, 180, 86),
+    (0, 159, 230),
     (115, 158, 0),
     (66, 228, 240),
     (167, 121, 204),
@@ -40,11 +40,18 @@ def target_color(target: int) -> Color:
     return TARGET_COLORS[(target - 1) % len(TARGET_COLORS)]
 
 
-def targets_overlay(image: NDArray[Any], tracks: Mapping[int, Track], *, note: str = "") -> Image:
+def targets_overlay(
+    image: NDArray[Any],
+    tracks: Mapping[int, Track],
+    *,
+    note: str = "",
+    names: Mapping[int, str] | None = None,
+) -> Image:
     """A copy of an image, BGR (H, W, 3) or gray (H, W), with the tracks of several targets by their ids.
 
-    A small image is enlarged by a whole number. Each box has its target's color and id; occluded or lost ones
-    are drawn thin, with their status. note: text in the upper left corner.
+    A small image is enlarged by a whole number. Each box has its target's color and name; occluded or lost
+    ones are drawn thin, with their status. note: text in the upper left corner. names: by the ids; the ids
+    themselves by default.
     """
     scale = choose_scale(*image.shape[:2])
     canvas = enlarge(image, scale, cv2.INTER_CUBIC)
@@ -52,16 +59,16 @@ def targets_overlay(image: NDArray[Any], tracks: Mapping[int, Track], *, note: s
         draw_box(canvas, track.box, scale, BLACK, THICKNESS[track.status] + 2)
         draw_box(canvas, track.box, scale, target_color(target), THICKNESS[track.status])
     for target, track in tracks.items():  # on top of all boxes
-        _write_id(canvas, target, track, scale)
+        _write_name(canvas, target, (names or {}).get(target, str(target)), track, scale)
     put_line(canvas, note, 0, WHITE)
     return canvas
 
 
-def _write_id(canvas: Image, target: int, track: Track, scale: int) -> None:
-    """Write the id above the box, or in it if there is no room."""
+def _write_name(canvas: Image, target: int, name: str, track: Track, scale: int) -> None:
+    """Write a target's name above the box, or in it if there is no room."""
     left, top, _, _ = to_pixels(track.box.xyxy, scale)
     height = round(30 * choose_font_scale(canvas))
-    text = str(target) if track.status is Status.TRACKED else f"{target} {track.status}"
+    text = name if track.status is Status.TRACKED else f"{name} {track.status}"
     bottom = top - height // 4 if top > height else top + height
     baseline = min(max(bottom, height), canvas.shape[0] - height // 4)
     put_text(canvas, text, (left, baseline), target_color(target))

@@ -4,7 +4,8 @@
 export const TRACKED = 0, OCCLUDED = 1, LOST = 2, NONE = 255;
 export const STATUS_NAMES = { [TRACKED]: "tracked", [OCCLUDED]: "occluded", [LOST]: "lost", [NONE]: "" };
 
-const COLORS = ["#4cc38a", "#58a6ff", "#f2b04c", "#d387e8", "#56d4dd", "#f78166", "#c9d152", "#ff9bce"];
+// Those of tricue.draw.targets.TARGET_COLORS, so that a target has the same color in the exported video.
+const COLORS = ["#56b4e9", "#e69f00", "#009e73", "#f0e442", "#cc79a7", "#0072b2", "#d55e00"];
 
 /** Tells by the events "state" and "choice" what has changed. */
 export class Targets extends EventTarget {
