@@ -53,8 +53,20 @@ def test_it_stays_quiet_between() -> None:
 
 @pytest.mark.usefixtures("clock")
 def test_an_unknown_length_is_no_bar() -> None:
-    """It proves that a video or a camera shows the count alone."""
+    """It proves that a camera shows the count alone."""
     stream = Terminal()
     with Progress(None, stream) as progress:
         progress(1234, "decoding")
     assert stream.getvalue().startswith("\r1,234  decoding")
+
+
+@pytest.mark.usefixtures("clock")
+def test_a_total_that_is_passed_was_wrong() -> None:
+    """It proves that a video with more frames than its container states then shows the count alone."""
+    stream = Terminal()
+    with Progress(100, stream) as progress:
+        progress(100)
+        progress(101)
+    first, second = stream.getvalue().split("\r")[1:3]
+    assert first == f"[{'#' * 24}] 100/100"
+    assert second.strip() == "101"

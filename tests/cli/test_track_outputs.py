@@ -61,6 +61,17 @@ NEVER_STARTED = [
 ]
 
 
+def test_progress_in_a_video(
+    video: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It proves that a video's progress is told by the number of frames that its container states."""
+    monkeypatch.setattr("tricue.cli.progress._PLAIN_EVERY", 0.0)
+    for words, total in (([], 6), (["--start", "2"], 4), (["--end", "2"], 3)):
+        assert main(["track", str(video), "--box", BOX, *words]) == 0
+        lines = capsys.readouterr().err.splitlines()
+        assert [line.split()[0] for line in lines] == [f"{done}/{total}" for done in range(1, total + 1)]
+
+
 @pytest.mark.parametrize(("words", "message"), NEVER_STARTED)
 def test_a_run_that_never_starts_touches_nothing(
     video: Path, tmp_path: Path, words: list[str], message: str, capsys: pytest.CaptureFixture[str]

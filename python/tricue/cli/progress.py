@@ -10,7 +10,10 @@ _TERMINAL_EVERY, _PLAIN_EVERY = 0.1, 10.0  # seconds
 
 
 class Progress:
-    """``with Progress(total) as progress: progress(done, "note")``; the total may be unknown."""
+    """``with Progress(total) as progress: progress(done, "note")``.
+
+    The total may be unknown. Once more is done, it was wrong and is no longer shown.
+    """
 
     def __init__(self, total: int | None = None, stream: TextIO | None = None) -> None:
         self.total, self.stream = total, stream or sys.stderr
@@ -23,7 +26,9 @@ class Progress:
         if time.monotonic() < self._next:
             return
         self._next = time.monotonic() + self._every
-        line = f"{self._bar(done)}{done:,}{f'/{self.total:,}' if self.total else ''}  {note}".rstrip()
+        total = self.total if self.total and done <= self.total else None
+        bar = self._bar(done, total) if self.terminal and total else ""
+        line = f"{bar}{done:,}{f'/{total:,}' if total else ''}  {note}".rstrip()
         if self.terminal:
             self.stream.write(f"\r{line.ljust(self._shown)}")
             self._shown = len(line)
@@ -39,8 +44,7 @@ class Progress:
             self.stream.write(f"\r{' ' * self._shown}\r")
             self.stream.flush()
 
-    def _bar(self, done: int) -> str:
-        if not (self.terminal and self.total):
-            return ""
-        full = min(BAR_WIDTH, BAR_WIDTH * done // self.total)
+    @staticmethod
+    def _bar(done: int, total: int) -> str:
+        full = BAR_WIDTH * done // total
         return f"[{'#' * full}{'.' * (BAR_WIDTH - full)}] "

@@ -56,7 +56,7 @@ def _track(
     outputs: list[Output] = []
     with ExitStack() as files:
         stop = files.enter_context(catch_signals())
-        progress = files.enter_context(Progress(run.frames))
+        progress = files.enter_context(Progress(run.stated_frames))
         frames = stop.until_caught(islice(run.source, run.first, run.end))
         targets = None if run.targets is None else files.enter_context(run.targets)
         for step in _steps(run, targets, frames, clock):

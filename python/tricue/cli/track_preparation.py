@@ -59,7 +59,16 @@ class TrackRun(NamedTuple):
     @property
     def frames(self) -> int | None:
         """The number of frames; None if unknown."""
-        ends = [each for each in (self.source.length, self.end) if each is not None]
+        return self._tracked_of(self.source.length)
+
+    @property
+    def stated_frames(self) -> int | None:
+        """The number of frames for the progress, maybe wrong (see ``Source.stated_length``)."""
+        return self._tracked_of(self.source.stated_length)
+
+    def _tracked_of(self, length: int | None) -> int | None:
+        """How many frames of so many are tracked."""
+        ends = [each for each in (length, self.end) if each is not None]
         return max(min(ends) - self.first, 0) if ends else None
 
 

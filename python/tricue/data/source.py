@@ -18,7 +18,7 @@ from tricue.camera.read_calibration import KITTI_COLOR_CAMERAS
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.data.joint import Moment, common_joint, joints_of
 from tricue.data.live import Health, close_all, lives_of, total_health
-from tricue.data.streams import MAX_FPS, Images, Stream, remark_on_steps_back, steps_back
+from tricue.data.streams import MAX_FPS, Images, Stream, Video, remark_on_steps_back, steps_back
 
 Rectify = Callable[[NDArray[Any], NDArray[Any]], tuple[NDArray[Any], NDArray[Any]]]
 Register = Callable[[NDArray[Any]], NDArray[Any]]
@@ -93,6 +93,12 @@ class Source:
         """The number of frames; None if it isn't known before reading them."""
         lengths = (stream.length for stream in self.channels.values())
         return next((length for length in lengths if length is not None), None)
+
+    @property
+    def stated_length(self) -> int | None:
+        """The number of frames for display: the length, or what a video's container states, maybe wrongly."""
+        clock = self.clock
+        return clock.stated_length if self.length is None and isinstance(clock, Video) else self.length
 
     @property
     def size(self) -> tuple[int, int]:

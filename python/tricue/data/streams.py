@@ -170,7 +170,8 @@ class FrameTimes:
 class Video:
     """A video file. Its length is None, because containers often state a wrong number of frames or none.
 
-    url: its URL, if it isn't a local file. shown: its name in messages, without a password.
+    url: its URL, if it isn't a local file. shown: its name in messages, without a password. stated_length:
+    the number of frames that the container states, None if it states none.
     """
 
     length = None
@@ -183,6 +184,7 @@ class Video:
         if rate is None or rate > DOUBTED_FPS:
             rate = checked_fps(rate, [_told(capture) for _ in range(FIRST_FRAMES) if capture.read()[0]])
         self.fps, self.timed = rate or DEFAULT_FPS, rate is not None
+        self.stated_length = max(0, round(self._stated(capture)[0])) or None
         capture.release()
 
     @property
