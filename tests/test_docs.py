@@ -205,7 +205,7 @@ def test_commands_exist(page: Path) -> None:
 
 @pytest.fixture
 def recordings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with a video of a textured picture that moves, in which the test runs."""
+    """A folder with a video of a textured picture that moves, in which the test runs, a stack and a track."""
     noise = np.random.default_rng(0).integers(0, 256, (HEIGHT // 4, WIDTH // 4, 3), np.uint8)
     picture = cv2.GaussianBlur(cv2.resize(noise, (WIDTH, HEIGHT)), (0, 0), 2)
     writer = cv2.VideoWriter(
@@ -214,6 +214,11 @@ def recordings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for index in range(FRAMES):
         writer.write(np.roll(picture, 2 * index, axis=1))
     writer.release()
+    stack = [np.roll(picture[..., 0].astype(np.uint16) + 900, index, axis=1) for index in range(3)]
+    cv2.imwritemulti(str(tmp_path / "stack.tif"), stack)
+    rows = (f"{number},{number / 10},tracked,0.9,{3 * number},20,8,9,," for number in range(3))
+    names = "frame,time_s,status,score,x,y,width,height,X_m,Y_m"
+    (tmp_path / "track.csv").write_text("\n".join([names, *rows]))
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -258,6 +263,29 @@ def test_samples_about_data_and_fused_run(page: str, sample: str, monkeypatch: p
     names: dict[str, Any] = {}
     exec(compile(sample, f"docs/{page}", "exec"), names)
     assert "track" not in names or names["track"].status == "tracked"
+
+
+@pytest.mark.usefixtures("recordings")
+def test_a_stack_becomes_a_folder_of_images() -> None:
+    """The sample for gray images of 16 bits writes a page each, in their order, with all of the contrast."""
+    page = (ROOT / "docs" / "data.md").read_text("utf-8")
+    (sample,) = (text for text in blocks(page, "python") if "multi" in text)
+    exec(compile(sample, "docs/data.md", "exec"), {})
+    first, *others = (frame.color for frame in open_source("frames"))
+    assert first is not None
+    assert (first.dtype, first.min(), first.max()) == (np.uint8, 0, 255)
+    assert all(np.array_equal(np.roll(first, at, axis=1), image) for at, image in enumerate(others, 1))
+
+
+@pytest.mark.usefixtures("recordings")
+def test_speeds_are_those_of_the_table(capsys: pytest.CaptureFixture[str]) -> None:
+    """The sample for paths in pixels prints the speed of a target that moves 3 pixels in 0.1 s."""
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("agg")
+    (sample,) = blocks((ROOT / "docs" / "command-line.md").read_text("utf-8"), "python")
+    exec(compile(sample, "docs/command-line.md", "exec"), {})
+    assert capsys.readouterr().out == "median speed 30.0 pixels/s\n"
+    assert Path("path.png").stat().st_size > 1000
 
 
 @pages

@@ -138,7 +138,7 @@ def test_a_found_calibration_of_another_size_is_left_out(
     assert re.search(
         r"left out the calibration .*intrinsics.toml: .* 80x60 pixels, got one for 640x480", printed
     )
-    assert f"{path}: not written, no track has a position in meters\n" in printed
+    assert f"{path}: not written, no track has a position in meters; --csv has it in pixels\n" in printed
 
 
 def test_the_plot_of_an_earlier_run_is_not_taken_for_this_one(

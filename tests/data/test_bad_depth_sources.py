@@ -91,7 +91,7 @@ def uneven_vot(folder: Path) -> Source:
     [
         (
             lambda f: open_source(depth_folder(f / "walk", [1])),
-            r"walk: expected --depth-scale, the meters per unit .*; 0\.001 where they are millimeters",
+            r"walk: expected --depth-scale, the meters per unit .*; 0\.001 where they are .*8 bits",
         ),
         (
             lambda f: open_source(color_folder(f / "c", 1), depth=depth_folder(f / "d", [1])),

@@ -90,7 +90,7 @@ def plot(path: Path, run: TrackRun, tracks: Mapping[int, Track]) -> str:
         if earlier:
             path.unlink()
         removed = "; removed that of an earlier run" if earlier else ""
-        return f"{path}: not written, no track has a position in meters{removed}"
+        return f"{path}: not written, no track has a position in meters{removed}; --csv has it in pixels"
     save_path(path, tracks.values(), run.intrinsics)
     return f"wrote {path}{', in assumed meters' if run.assumed else ''}"
 

@@ -134,7 +134,7 @@ def _opened(
         raise ValueError(f"{place}: expected a video or a folder, got a text")
     if is_image(path):
         if has_several_pictures(path):
-            hint = "several pictures in one image file; turn it into a video or into a folder of images"
+            hint = "several pictures in one image file; turn it into a video or a folder of 8-bit images"
         else:
             hint = "one picture; give its folder"
         raise ValueError(f"{place}: expected a video or a folder, got {hint}")
