@@ -43,6 +43,24 @@ def test_a_part_is_tracked(images: Path, tmp_path: Path, capsys: pytest.CaptureF
     assert float(found[0]["time_s"]) == pytest.approx(0.1)
 
 
+def test_a_box_in_black_frames(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that a box of a single color is told, as where a video begins black, and no other."""
+    noise = np.random.default_rng(0).integers(0, 256, (48, 64, 3), np.uint8)
+    for number in range(6):
+        cv2.imwrite(str(tmp_path / f"{number}.png"), noise if number > 2 else noise // 64)
+    told = (
+        "the box in frame 1 shows a single color; "
+        "give one in a frame that shows the target, --box FRAME:x,y,width,height"
+    )
+    for boxes, notes in (
+        (["1:20,16,16,16"], [told]),
+        (["3:20,16,16,16"], []),
+        (["1:50,-9,30,30", "4:20,16,16,16"], [told]),
+    ):
+        code, printed, _ = run(capsys, str(tmp_path), *(word for box in boxes for word in ("--box", box)))
+        assert (code, [line for line in printed if "single color" in line]) == (0, notes)
+
+
 def test_a_box_of_a_later_frame(images: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """It proves that FRAME:x,y,w,h starts there, one target or several, each in its own frame."""
     words = ["--box", f"3:{FIRST}", "--csv", str(tmp_path / "one.csv")]

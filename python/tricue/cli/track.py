@@ -42,7 +42,8 @@ def run(options: argparse.Namespace) -> int:
         raise ValueError(not_started(run, clock))
     with redirect_stdout(sys.stderr if options.json == STANDARD_OUTPUT else sys.stdout):
         report(run, clock, record, interrupted)
-        for note in [*notes, *run.source.remarks, *_results(options, run, outputs, record.tracks.get(1, {}))]:
+        results = _results(options, run, outputs, record.tracks.get(1, {}))
+        for note in [*record.notes, *notes, *run.source.remarks, *results]:
             print(note)
     if not interrupted:
         require_all_started(run, clock)

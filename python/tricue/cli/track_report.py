@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame
 from tricue.cli.lost_ranges import LostRanges
 from tricue.cli.outputs import Step
 from tricue.cli.starts import BOX_HINT
@@ -16,20 +18,47 @@ from tricue.cli.steps import RunClock
 from tricue.cli.track_preparation import TrackRun
 from tricue.track.base.track import Status, Track
 
+MIN_CONTRAST = 8  # gray levels in the first box; a compressed black frame has fewer
+
 
 @dataclass
 class RunRecord:
-    """The tracks of each target by frame, and the ranges in which it is lost. fps: of the source."""
+    """The tracks of each target by frame, and the ranges in which it is lost. fps: of the source.
+
+    plain: the frames in which the box to start on shows a single color.
+    """
 
     fps: float
     tracks: dict[int, dict[int, Track]] = field(default_factory=dict)
     lost: dict[int, LostRanges] = field(default_factory=dict)
+    plain: set[int] = field(default_factory=set)
 
     def add(self, step: Step) -> None:
         """Record the tracks of one more frame."""
         for target, track in step.targets.items():
+            if target not in self.tracks and _is_plain(step.frame, track.box):
+                self.plain.add(step.number)
             self.tracks.setdefault(target, {})[step.number] = track
             self.lost.setdefault(target, LostRanges()).add(step.number, step.time(self.fps), track.status)
+
+    @property
+    def notes(self) -> list[str]:
+        """What to do about such boxes."""
+        return [
+            f"the box in frame {number} shows a single color; "
+            "give one in a frame that shows the target, --box FRAME:x,y,width,height"
+            for number in sorted(self.plain)
+        ]
+
+
+def _is_plain(frame: Frame, box: Box) -> bool:
+    """Whether a box shows a single color, and the frame has nothing else to follow."""
+    if frame.color is None or frame.depth is not None or frame.right is not None:
+        return False
+    rows, columns = frame.color.shape[:2]
+    left, top, right, bottom = (round(edge) for edge in box.clip(columns, rows).xyxy)
+    part = frame.color[top:bottom, left:right]
+    return part.size > 0 and int(np.ptp(part, axis=(0, 1)).max()) < MIN_CONTRAST
 
 
 def report(run: TrackRun, clock: RunClock, record: RunRecord, interrupted: bool) -> None:
