@@ -55,6 +55,13 @@ def test_lines_are_seen_in_a_large_image_shown_smaller() -> None:
         assert small[400:450, 198:203].sum(2).max(1).min() > 300
 
 
+def test_a_tiny_target_stays_visible() -> None:
+    """It proves that nothing is drawn within a tiny box, as there is an ellipse within others."""
+    for side, drawn in ((14, False), (40, True)):
+        picture = overlay(BLACK, track(Box(200, 300, side, side)))
+        assert picture[303 : 297 + side, 203 : 197 + side].any() == drawn
+
+
 def test_text_fits_an_upright_image() -> None:
     """It proves that the longest line, the position, is as long in an upright image as in a wide one."""
     whole = Track(BOX, 0.5, Status.TRACKED, position=np.array([-1.23, 0.45, 12.3]), covariance=np.eye(3))

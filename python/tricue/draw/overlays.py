@@ -20,11 +20,13 @@ from tricue.draw.canvas import (
     draw_dots,
     draw_ellipse,
     enlarge,
+    line_width,
     put_line,
 )
 from tricue.draw.depth_pictures import depth_picture
 from tricue.track.base.track import Track
 
+MIN_ELLIPSE = 24  # widths of a thin line; in a smaller box, an ellipse covers the target
 _PARTICLE_COLOR, _TRUTH_COLOR, _OBJECT_COLOR = (255, 190, 60), WHITE, (230, 230, 230)
 
 
@@ -41,7 +43,7 @@ def overlay(
 
     A small image is enlarged by a whole number. particles: (N, 2 or more), their centers x, y in pixels.
     truth: the true box, drawn thin and white. note: text below the status. ellipse: whether the box's
-    inscribed ellipse is drawn, too.
+    inscribed ellipse is drawn, too, unless the box is tiny.
     """
     scale = choose_scale(*image.shape[:2])
     canvas = enlarge(image, scale, cv2.INTER_CUBIC)
@@ -50,7 +52,7 @@ def overlay(
         draw_dots(canvas, np.asarray(particles, np.float64), scale, _PARTICLE_COLOR)
     if truth is not None:
         draw_box(canvas, truth, scale, _TRUTH_COLOR, 1)
-    if ellipse:
+    if ellipse and min(track.box[2:]) * scale >= MIN_ELLIPSE * line_width(canvas):
         draw_ellipse(canvas, track.box, scale, color)
     draw_box(canvas, track.box, scale, color, 2)
     _write_track(canvas, track, note)
