@@ -262,26 +262,33 @@ class ColorParticleParams(Params):
             in motion (``velocity_noise=1``), on top of half a pixel (``MIN_PIXEL_NOISE``). Both axes of the
             ellipse vary by 2 % a frame, each by itself (``size_noise=0``, ``aspect_noise=0.02``), without a
             pull to a mean size; ``size_range`` only keeps them positive. "Maximum sample propagation area
-            is the 40-pixel proximity": 40 px along each axis, whatever the target's size.
+            is the 40-pixel proximity": 40 px along each axis, whatever the target's size; particles that are
+            drawn beyond are set to that border.
         Proposal, (3)-(16)
-            The moments (11)-(16) are those of the skin pixels of the whole image. (14)-(16) lack the division
-            by the count, without which they are no covariance; it is taken, and 1 px² is added to both
-            variances (``MIN_PIXEL_VARIANCE``), so that skin in one row has one, too. Print gives no share of
-            the particles: half come from this Gaussian, half from the transition. (3) takes the most frequent
-            color; as 8-bit colors hardly repeat, it is that of 32 levels a channel, in the middle third of
-            the box. The threshold on (10) comes from a ROC curve that isn't printed: our default
-            (``tricue reproduce sabeti-roc``). (10) can't exceed the largest channel of the reference color,
-            as eta - delta <= c0 in each channel; so a dark skin needs a lower threshold. Less skin than a
+            (3) takes the most frequent color; as 8-bit colors hardly repeat, it is that of 32 levels a
+            channel, in the middle third of the box. It stays that of the first frame.
+            (9) is each pixel's largest channel, as its indices have it. The text calls it "the maximum RGB
+            value in the image", which "usually has a value of 1": (10) is then nearly 1 - delta, and skin
+            takes another threshold (``tricue reproduce sabeti-roc`` has both). As printed, (10) can't exceed
+            the largest channel of the reference color, as eta - delta <= c0 in each channel; so a dark skin
+            needs a lower threshold. The threshold comes from a ROC curve that isn't printed: our default.
+            In (11)-(16), I is 1 on the skin pixels of the whole image, and 0 elsewhere. (14)-(16) lack the
+            division by the count, without which they are no covariance; it is taken, and 1 px² is added to
+            both variances (``MIN_PIXEL_VARIANCE``), so that skin in one row has one, too. Print gives no
+            share of the particles: half come from this Gaussian, half from the transition. Less skin than a
             twentieth of the target gives no Gaussian.
         Likelihood, (17)-(29)
             1 - d (18), linear, of all pixels in the ellipse (a grid of 64x48 over its box), without a color
-            term. N of (19) isn't printed: 16. The ranks of the sections are divided by their sum and (29)
-            by 3 sqrt 2, as 1 - d would be negative otherwise. (27) and (28) need q(N): the rank closest to 1.
+            term. N of (19) isn't printed: 16. The sums (25), (26) are over the 256 levels, also those without
+            pixels. They are divided by their sum and (29) by 3 sqrt 2, as 1 - d would be negative otherwise.
+            (27) and (28) need q(N): the rank closest to 1.
         Weights, (2) and (31)
-            Resampled in every frame, as CONDENSATION does; print doesn't say when.
+            Resampled in every frame, as CONDENSATION does; print doesn't say when. So the weights before are
+            equal in (2), whose proposal is the mixture of transition and Gaussian.
         Update
             The model is that of the last estimate ("estimated in the previous frame"), where the confidence
-            is high. Print doesn't define confidence: what is recognized, above 0.3.
+            is high. Print doesn't define confidence: at the estimate, d is at most 0.21 (``min_score`` of
+            1 - d / 0.3).
 
         There is no wide search (``likelihood_drop``) and no re-detection (``lost_after``): the paper recovers
         only by its several hypotheses. OCCLUDED still says that little is recognized, and only that

@@ -232,9 +232,9 @@ class DepthParticleParams(SegmentationParams):
 
         - Segmentation (32)-(36): all maxima of the density divide the range (``prominence``), and nothing but
           connected components separates what a division holds: no floor, no edges, no filled gaps, nothing
-          remembered or completed. The kernel's width (``bandwidth``) and the least area of an object aren't
-          printed, and stay ours. Images of 480 columns and more are thinned (``resolution``); the paper's 176
-          aren't.
+          remembered or completed. Z_min and Z_max of (35) are ``near`` and ``far``. The kernel's width
+          (``bandwidth``) and the least area of an object aren't printed, and stay ours. Images of 480 columns
+          and more are thinned (``resolution``); the paper's 176 aren't.
         - Human candidates: by aspect ratio and by size at their mean depth, always; not by the share of its
           box that a candidate fills. The limits aren't printed, and stay ours.
         - Which candidate is the target: by place and extent along the image's axes and in depth, by its
@@ -244,12 +244,17 @@ class DepthParticleParams(SegmentationParams):
           in the image is a lower bound.
         - State: "a scalable rectangle"; ours is in meters, with a depth. The location is the expected value,
           the rectangle's center. Particles, (39): A = I, and K grows with the speed, that of the last step
-          (``velocity_rate``); K's numbers, and the share drawn from the segmented object, aren't printed.
+          (``velocity_rate``). K's numbers aren't printed, and stay ours: in X and Z 3 cm, plus 0.5 m and half
+          of the speed per second; less in Y (``AXIS_NOISE``); 6 % of the size per frame.
+        - Proposal: 40 % of the particles are drawn from a Gaussian at the target's object, with deviations of
+          5 to 8 cm (``OBJECT_DEVIATION``). Neither is printed. Without an object all come from (39).
+        - Weights, (2) and (31): resampled in every frame, so the weights before are equal.
         - Likelihood (37), (38): 1 - d of the depths' histograms, 256 levels over the camera's range, of 64 x
           64 places in a rectangle instead of all its pixels. With the counts as printed d would exceed 1:
           they are divided by their sum, and d by its maximum, the square root of 2.
         - The histogram is updated "if estimation confidence is high": while the likelihood of the estimate is
-          above 0.6 of its running mean (``likelihood_drop``). Neither number nor rate is printed.
+          above 0.6 of its running mean (``likelihood_drop``). Neither this nor the rate is printed; it stays
+          ours, 8 % per frame.
         - Nothing is printed about hidden targets: the filter goes on, and every frame is TRACKED.
         - Number of particles and range: those of section V, 100 (of figure 1) and 0.3 to 7.5 m.
         """
