@@ -33,6 +33,28 @@ def test_curve_is_that_of_equation_10(name):
     assert curve.area > 0.9
 
 
+def test_the_brightest_may_be_the_images():
+    """With the text's reading of (9), each point counts pixels by the image's largest channel; darker images
+    have a lower one.
+    """
+    images = [
+        (image * gain).astype(np.uint8) for (image, _), gain in zip(PICTURES, (1, 0.7, 0.4), strict=True)
+    ]
+    masks = [mask for _, mask in PICTURES]
+    curve = skin_roc(images, masks, SKIN_COLOR.astype(np.uint8), brightest="image")
+    boundary = np.concatenate(
+        [
+            (image.max() / 255.0 - np.abs(image / 255.0 - SKIN_COLOR / 255.0).max(axis=2)).ravel()
+            for image in images
+        ]
+    )
+    mask = np.concatenate([mask.ravel() for mask in masks])
+    for index in range(0, len(curve.thresholds), 7):
+        above = boundary > curve.thresholds[index] + 1e-9  # the sums here round, those of integers do not
+        assert curve.fpr[index] == np.mean(above[~mask])
+        assert curve.tpr[index] == np.mean(above[mask])
+
+
 @pytest.mark.parametrize("name", ["native", "reference"])
 def test_own_reference_leaves_out_pictures_without_skin(name):
     """Without a reference each picture takes its own skin's, and one that has no skin adds no negatives."""

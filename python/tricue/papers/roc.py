@@ -9,6 +9,7 @@ any number of images.
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,7 @@ LOW, HIGH = -255, 255
 """Range of the scores."""
 
 Mask = NDArray[np.bool_]
+Brightest = Literal["pixel", "image"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,14 +77,16 @@ def skin_roc(
     masks: Iterable[Mask],
     reference: NDArray[np.uint8] | None = None,
     kernel_set: kernels.Name = "native",
+    brightest: Brightest = "pixel",
 ) -> Roc:
     """The curve of the skin classifier (10), thresholds on Δ in [-1, 1].
 
     ``reference`` is the (3,) BGR color (3) for all images. Without it every image has its own, from its own
     skin pixels: the best that a patch taken from the target can give. Images without skin are then left out,
-    because they have no such patch.
+    because they have no such patch. ``brightest``: η of (9), the largest channel of each pixel, as in the
+    equation and in the tracker, or of the image, as in the text beside it.
     """
-    curve = roc(_scored(images, masks, reference, kernel_set))
+    curve = roc(_scored(images, masks, reference, kernel_set, brightest))
     return Roc(curve.fpr, curve.tpr, curve.thresholds / HIGH)
 
 
@@ -91,16 +95,19 @@ def _scored(
     masks: Iterable[Mask],
     reference: NDArray[np.uint8] | None,
     kernel_set: kernels.Name,
+    brightest: Brightest,
 ) -> Iterable[tuple[NDArray[np.integer], Mask]]:
     kernel = kernels.load(kernel_set)
     for image, mask in zip(images, masks, strict=True):
-        if reference is not None:
-            yield kernel.skin_boundary(image, reference), mask
-        elif mask.any():
-            yield (
-                kernel.skin_boundary(image, kernel.skin_reference(np.ascontiguousarray(image[mask][None]))),
-                mask,
-            )
+        color = reference
+        if color is None:
+            if not mask.any():
+                continue
+            color = kernel.skin_reference(np.ascontiguousarray(image[mask][None]))
+        boundary: NDArray[np.integer] = kernel.skin_boundary(image, color)
+        if brightest == "image":
+            boundary = boundary + (image.max().astype(np.int16) - image.max(axis=2))
+        yield boundary, mask
 
 
 def _histograms(scores: NDArray[np.integer], mask: Mask) -> NDArray[np.int64]:

@@ -44,6 +44,8 @@ def test_the_threshold_keeps_the_rate_and_sets_the_tracker(folder, tmp_path):
     assert ColorParticleTracker(skin_threshold=threshold).params.skin_threshold == threshold
     assert "| each image's own | 3 |" in report.summary  # an image without skin has no color of its own
     assert "| one for all | 4 |" in report.summary
+    (row,) = re.findall(r"\| own, η of the image \| 3 \| .*", report.summary)  # no default: no tracker has it
+    assert "default" not in row
     image = cv2.imread(str(report.figure))
     assert image.shape[1] > 1000
     assert image.std() > 20

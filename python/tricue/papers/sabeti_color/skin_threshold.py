@@ -18,7 +18,7 @@ from tricue.draw.writable import check_writable
 from tricue.papers import tables
 from tricue.papers.experiment import Report
 from tricue.papers.plots import show_frame
-from tricue.papers.roc import LOWEST_SKIN_THRESHOLD, Roc, round_up, skin_roc
+from tricue.papers.roc import LOWEST_SKIN_THRESHOLD, Brightest, Roc, round_up, skin_roc
 from tricue.papers.sabeti_color.skin_images import Mask, RenderedSkin, SkinFolder, SkinImages
 from tricue.track.color_particle.params import ColorParticleParams
 
@@ -28,7 +28,7 @@ MAX_FALSE_POSITIVES = 0.1
 COLUMNS = ("reference color", "images", "area", "threshold", "true-positive rate", "false-positive rate")
 CSV_COLUMNS = ("reference", "threshold", "false_positive_rate", "true_positive_rate")
 PICTURES = 6
-OWN, SHARED = "each image's own", "one for all"
+OWN, SHARED, IMAGE_MAXIMUM = "each image's own", "one for all", "own, η of the image"
 DEFAULT_THRESHOLD = ColorParticleParams().skin_threshold
 TINTS = {"right": (90, 190, 0), "false": (40, 40, 240), "missed": (240, 130, 0)}  # BGR, over pixels
 
@@ -70,7 +70,11 @@ def run(
         check_writable(output / f"{NAME}{suffix}")
     images: SkinImages = RenderedSkin(count) if data is None else SkinFolder(data)
     with_skin, shared = _shared_color(images, progress)
-    curves = {OWN: _curve(images, None), SHARED: _curve(images, shared)}
+    curves = {
+        OWN: _curve(images, None),
+        SHARED: _curve(images, shared),
+        IMAGE_MAXIMUM: _curve(images, None, "image"),
+    }
     chosen = {
         name: _Chosen(curve, *curve.at_false_positive_rate(rate, LOWEST_SKIN_THRESHOLD))
         for name, curve in curves.items()
@@ -100,15 +104,16 @@ def _shared_color(
     return len(skins), kernels.load("native").skin_reference(np.concatenate(skins)[None])
 
 
-def _curve(images: SkinImages, reference: NDArray[np.uint8] | None) -> Roc:
-    return skin_roc((image for image, _ in images), (mask for _, mask in images), reference)
+def _curve(images: SkinImages, reference: NDArray[np.uint8] | None, brightest: Brightest = "pixel") -> Roc:
+    pictures, masks = (image for image, _ in images), (mask for _, mask in images)
+    return skin_roc(pictures, masks, reference, brightest=brightest)
 
 
 def _summarize(chosen: Mapping[str, _Chosen], count: int, with_skin: int, rate: float) -> str:
     lines = tables.header(COLUMNS)
     for name, each in chosen.items():
-        number = f"{with_skin if name == OWN else count}"
-        for threshold in (each.threshold, DEFAULT_THRESHOLD):
+        number = f"{count if name == SHARED else with_skin}"
+        for threshold in _thresholds(name, each):
             fpr, tpr = each.rates(threshold)
             which = f"{round_up(threshold, 3):.3f}" + (" (default)" if threshold == DEFAULT_THRESHOLD else "")
             lines.append(
@@ -121,6 +126,11 @@ def _summarize(chosen: Mapping[str, _Chosen], count: int, with_skin: int, rate: 
         f"tricue track VIDEO --tracker color-particle --set skin_threshold={threshold:.3f}",
     ]
     return "\n".join(lines)
+
+
+def _thresholds(name: str, chosen: _Chosen) -> list[float]:
+    """The threshold chosen on a curve, and the default, if the tracker classifies as the curve does."""
+    return [chosen.threshold, *([] if name == IMAGE_MAXIMUM else [DEFAULT_THRESHOLD])]
 
 
 def _write_csv(path: Path, curves: Mapping[str, Roc]) -> None:
@@ -146,11 +156,8 @@ def _draw(
     for color, (name, each) in zip(figures.COLORS, chosen, strict=False):
         label = f"reference color: {name}, area {each.curve.area:.2f}"
         axes.plot(each.curve.fpr, each.curve.tpr, color=color, label=label)
-        marks = (
-            (each.threshold, "o", f"threshold {each.threshold:.2f}"),
-            (DEFAULT_THRESHOLD, "x", "default"),
-        )
-        for threshold, marker, text in marks:
+        marks = (("o", f"threshold {each.threshold:.2f}"), ("x", "default"))
+        for threshold, (marker, text) in zip(_thresholds(name, each), marks, strict=False):
             fpr, tpr = each.rates(threshold)
             axes.plot(fpr, tpr, marker, color=color, label=f"{text}: {tpr:.0%} of skin, {fpr:.0%} of others")
     axes.plot([0, 1], [0, 1], color="0.7", linewidth=0.8, linestyle=":")
@@ -163,7 +170,9 @@ def _draw(
         panel.axis("off")
     for panel, (image, mask) in zip(panels, pictures, strict=False):
         show_frame(panel, _overlay(image, mask, own.threshold), "")
-    right.suptitle(f"above {own.threshold:.2f}; green: skin, red: not skin; blue: skin that was missed")
+    right.suptitle(
+        f"own color, above {own.threshold:.2f}; green: skin, red: not skin; blue: skin that was missed"
+    )
 
 
 def _overlay(image: Image, mask: Mask, threshold: float) -> Image:
