@@ -196,6 +196,7 @@ def test_a_distance_in_another_unit_is_told(still, tmp_path, capsys):
             lambda at: [cv2.imwrite(str(path), np.zeros(SIZE, np.uint8)) for path in (at / "mask").iterdir()],
             "skin",
         ),
+        (lambda at: cv2.imwrite(str(at / "mask" / "1.png"), np.eye(*SIZE)), "mask/1.png: expected white"),
     ],
 )
 @pytest.mark.parametrize("what", ["skin-threshold", "head-colors"])

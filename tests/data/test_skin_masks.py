@@ -54,6 +54,22 @@ def test_a_mask_of_another_size_is_named(folder):
         find_masked_images(folder)[0].read()
 
 
+def test_a_mask_of_zeros_and_ones_is_named(folder):
+    """None of its marks would be white; a black mask marks nothing, which is no mistake."""
+    cv2.imwrite(str(folder / "mask" / "2.png"), np.eye(4, 6, dtype=np.uint8))
+    cv2.imwrite(str(folder / "mask" / "10.png"), np.zeros((4, 6), np.uint8))
+    first, second = find_masked_images(folder)
+    with pytest.raises(ValueError, match=r"mask/2.png: expected white, 128 to 255, .* got levels up to 1$"):
+        first.read()
+    assert not second.read()[1].any()
+
+
+def test_a_file_in_place_of_the_folder_is_named(folder):
+    """It is there, but no folder."""
+    with pytest.raises(ValueError, match=r"2.bmp: expected a folder$"):
+        find_masked_images(folder / "image" / "2.bmp")
+
+
 def test_a_file_that_is_no_image_is_named(folder):
     """A text file with the suffix of an image is named."""
     (folder / "mask" / "2.png").write_text("no image")

@@ -76,8 +76,8 @@ MASK = np.array([[True, False]])
         ([(np.zeros((2, 1), int), MASK)], ValueError, "masks: expected bool of shape"),
         ([(np.zeros((1, 2)), MASK)], TypeError, "scores: expected integers"),
         ([(np.full((1, 2), 256), MASK)], ValueError, "scores: expected values in"),
-        ([(np.zeros((1, 2), int), MASK | True)], ValueError, "both classes"),
-        ([], ValueError, "both classes"),
+        ([(np.zeros((1, 2), int), MASK | True)], ValueError, "masks: .*, found only skin"),
+        ([], ValueError, "masks: expected skin and other pixels, found no skin"),
     ],
 )
 def test_bad_maps_are_named(pairs, error, words):

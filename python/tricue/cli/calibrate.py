@@ -116,7 +116,7 @@ def _skin_threshold(options: argparse.Namespace, _params: Any) -> dict[str, Any]
         curve = skin_roc((image for image, _ in images), (mask for _, mask in masks))
     except ValueError as error:
         if str(error).startswith("masks:"):
-            raise ValueError(f"{options.place}: {error}; no mask marks skin, or all do") from None
+            raise ValueError(f"{options.place}: {error}") from None
         raise
     threshold, _ = curve.at_false_positive_rate(options.false_positives, LOWEST_SKIN_THRESHOLD)
     count = f"{len(pairs)} images, {with_skin} with skin"

@@ -25,7 +25,8 @@ class MaskedImage(NamedTuple):
     def read(self) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
         """The image, BGR (H, W, 3), and its mask (H, W), True where it is white.
 
-        ValueError or OSError names a file that can't be read, or a mask whose size isn't its image's.
+        ValueError or OSError names a file that can't be read, a mask whose size isn't its image's, or a mask
+        that is gray but nowhere white, such as one of 0 and 1, in which all marks would be overlooked.
         """
         image: NDArray[np.uint8] = read_image(self.image, cv2.IMREAD_COLOR).astype(np.uint8, copy=False)
         mask = read_image(self.mask, cv2.IMREAD_GRAYSCALE)
@@ -34,6 +35,12 @@ class MaskedImage(NamedTuple):
             raise ValueError(
                 f"{self.mask}: expected a mask of {width}x{height} pixels, as {self.image.name} has, "
                 f"got {columns}x{rows}"
+            )
+        brightest = int(mask.max())
+        if 0 < brightest <= MARKED_ABOVE:
+            raise ValueError(
+                f"{self.mask}: expected white, {MARKED_ABOVE + 1} to 255, where pixels are marked, and black "
+                f"elsewhere, got levels up to {brightest}"
             )
         return image, np.asarray(mask > MARKED_ABOVE)
 
@@ -77,7 +84,7 @@ def _check_partners(paths: Mapping[str, Path], partners: Mapping[str, Path], exp
 def _required(folder: Path, names: Sequence[str]) -> Path:
     found = _subfolder(folder, names)
     if found is None and not folder.is_dir():
-        raise ValueError(f"{folder}: there is no such folder")
+        raise ValueError(f"{folder}: {'expected a folder' if folder.exists() else 'there is no such folder'}")
     if found is None:
         raise ValueError(f"{folder}: expected the folders image and mask in it, found no {names[0]}")
     return found

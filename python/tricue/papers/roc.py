@@ -65,8 +65,10 @@ def roc(pairs: Iterable[tuple[NDArray[np.integer], Mask]]) -> Roc:
     counts = np.zeros((2, HIGH - LOW + 1), dtype=np.int64)
     for scores, mask in pairs:
         counts += _histograms(scores, mask)
-    if not counts.sum(axis=1).all():
-        raise ValueError("masks: expected pixels of both classes")
+    others, skin = counts.sum(axis=1).tolist()
+    if not (others and skin):
+        found = "only skin" if skin else "no skin"
+        raise ValueError(f"masks: expected skin and other pixels, found {found}")
     above = np.cumsum(counts[:, ::-1], axis=1) / counts.sum(axis=1, keepdims=True)
     fpr, tpr = np.hstack([np.zeros((2, 1)), above])
     return Roc(fpr, tpr, np.arange(HIGH, LOW - 2, -1, dtype=np.float64))

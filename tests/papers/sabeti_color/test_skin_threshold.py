@@ -95,12 +95,16 @@ def test_nothing_is_written_of_a_folder_with_a_mistake(folder, tmp_path, capsys)
     assert not (tmp_path / "out").exists()
 
 
-def test_masks_without_skin_are_refused(folder, tmp_path):
-    """Without any skin there is no curve."""
+@pytest.mark.parametrize(("level", "found"), [(0, "no skin"), (255, "only skin")])
+def test_masks_of_one_kind_are_refused(folder, tmp_path, level, found):
+    """Without any skin, or anything else, there is no curve; the error names the folder."""
     for path in (folder / "masks").iterdir():
-        cv2.imwrite(str(path), np.zeros((40, 50), np.uint8))
-    with pytest.raises(ValueError, match="masks: expected skin in at least one of 4 images in data"):
+        cv2.imwrite(str(path), np.full((40, 50), level, np.uint8))
+    with pytest.raises(
+        ValueError, match=f"data: masks: expected skin and other pixels, found {found}"
+    ) as error:
         reproduce.run("sabeti-roc", output=tmp_path / "out", data=folder)
+    assert str(error.value).startswith(str(folder))
     assert not (tmp_path / "out").exists()
 
 

@@ -46,7 +46,7 @@ class RenderedSkin:
 
 
 class SkinFolder:
-    """``images/NAME.*`` and ``masks/NAME.*`` in a user's folder, see :mod:`tricue.data.skin_masks`.
+    """``image/NAME.*`` and ``mask/NAME.*`` in a user's folder, see :mod:`tricue.data.skin_masks`.
 
     Errors name the file: FileNotFoundError for a missing folder, ValueError for invalid content.
     """

@@ -69,12 +69,17 @@ def run(
     for suffix in (".png", ".csv"):  # check before reading the images, which may be many
         check_writable(output / f"{NAME}{suffix}")
     images: SkinImages = RenderedSkin(count) if data is None else SkinFolder(data)
-    with_skin, shared = _shared_color(images, progress)
-    curves = {
-        OWN: _curve(images, None),
-        SHARED: _curve(images, shared),
-        IMAGE_MAXIMUM: _curve(images, None, "image"),
-    }
+    try:
+        with_skin, shared = _shared_color(images, progress)
+        curves = {
+            OWN: _curve(images, None),
+            SHARED: _curve(images, shared),
+            IMAGE_MAXIMUM: _curve(images, None, "image"),
+        }
+    except ValueError as error:
+        if str(error).startswith("masks:"):  # of all, not of one file
+            raise ValueError(f"{data}: {error}") from None
+        raise
     chosen = {
         name: _Chosen(curve, *curve.at_false_positive_rate(rate, LOWEST_SKIN_THRESHOLD))
         for name, curve in curves.items()
@@ -100,7 +105,7 @@ def _shared_color(
         if progress:
             progress(done, len(images))
     if not skins:
-        raise ValueError(f"masks: expected skin in at least one of {images.title}, found none")
+        raise ValueError("masks: expected skin and other pixels, found no skin")
     return len(skins), kernels.load("native").skin_reference(np.concatenate(skins)[None])
 
 
