@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 from tricue import Box, Intrinsics, PanTilt, Status, Track
+from tricue.track.pan_tilt import PanTiltCommand
 
 CAMERA = Intrinsics.from_fov(160, 120, 32.0)
 STEP = 1 / 15
@@ -29,17 +30,22 @@ def track_of(direction: np.ndarray, angles: np.ndarray) -> Track:
     return track_at(x / z, y / z)
 
 
-def follow(head: PanTilt, path: np.ndarray, latency: int = 0) -> np.ndarray:
+def follow(
+    head: PanTilt, path: np.ndarray, latency: int = 0, *, by_angles: bool = False, encoders: bool = True
+) -> np.ndarray:
     """(M, 2) by which the camera looks beside a target on a path (M, 2) of pan and tilt; commands move the
-    head ``latency`` frames later.
+    head ``latency`` frames later. by_angles: whether it takes angles. encoders: whether it tells its own.
     """
     angles, errors = np.zeros(2), []
-    waiting = [np.zeros(2)] * latency
+    waiting: list[PanTiltCommand | None] = [None] * latency
     for index, direction in enumerate(path):
         errors.append(direction - angles)
-        command = head.command(track_of(direction, angles), *angles, timestamp=index * STEP)
-        waiting.append(np.array([command.pan_speed, command.tilt_speed]))
-        angles = angles + STEP * waiting.pop(0)
+        told = angles if encoders else ()
+        waiting.append(head.command(track_of(direction, angles), *told, timestamp=index * STEP))
+        command = waiting.pop(0)
+        if command is not None:
+            speeds = np.array([command.pan_speed, command.tilt_speed])
+            angles = np.array([command.pan, command.tilt]) if by_angles else angles + STEP * speeds
     return np.array(errors)
 
 
@@ -71,6 +77,17 @@ def test_a_steady_target_is_not_followed_late():
     np.testing.assert_allclose(alone[-15:, 0], 0.2 / 2.0, rtol=0.15)
 
 
+@pytest.mark.parametrize("latency", [0, 1, 3])
+@pytest.mark.parametrize("by_angles", [False, True], ids=["speeds", "angles"])
+@pytest.mark.parametrize("encoders", [True, False], ids=["encoders", "none"])
+def test_a_late_head_is_not_late_either(latency, by_angles, encoders):
+    """Told the latency, a steady target is looked at all the same, by a head that takes speeds or angles."""
+    path = np.stack([0.2 * STEP * np.arange(120), np.full(120, 0.1)], axis=1)
+    head = PanTilt(CAMERA, gain=2.0, latency=latency * STEP)
+    errors = follow(head, path, latency, by_angles=by_angles, encoders=encoders)
+    assert np.abs(errors[-15:]).max() < math.radians(0.1)
+
+
 @pytest.mark.parametrize("gap", [0.2, 0.5, 1.0])
 def test_a_longer_interval_is_no_farther_way(gap):
     """A head that is told angles turns to a target that stands at once after a gap, and not beyond."""
@@ -100,6 +117,15 @@ def test_latency_is_extrapolated():
         for each in (2 * STEP, 0.0)
     )
     assert known < 0.5 * unknown
+
+
+@pytest.mark.parametrize("gain", [2.0, 4.0, 10.0])
+def test_a_known_latency_makes_no_head_swing(gain):
+    """Commands that haven't moved the head yet aren't given again, so that no gain is too high."""
+    path = np.tile([0.3, -0.2], (60, 1))
+    errors = follow(PanTilt(CAMERA, gain=gain, latency=3 * STEP, max_acceleration=50), path, 3)
+    assert (errors * [1, -1]).min() > -1e-9
+    assert np.abs(errors[-1]).max() < math.radians(0.1)
 
 
 def moving(head: PanTilt) -> float:
@@ -169,6 +195,18 @@ def test_limits_hold():
     assert np.diff(speeds).max() <= 3.0 * STEP + 1e-12
     assert max(command.pan for command in commands) == pytest.approx(0.1)
     assert speeds[-1] == pytest.approx(0)
+
+
+@pytest.mark.parametrize("latency", [0, 1, 3])
+@pytest.mark.parametrize("speed", [0.3, 1.0, 1.7])
+def test_it_brakes_before_its_limits(latency, speed):
+    """A target that goes on beyond them is followed up to them, and no harder than to anywhere else."""
+    path = np.stack([np.minimum(speed * STEP * np.arange(90), 1.2), np.zeros(90)], axis=1)
+    head = PanTilt(CAMERA, latency=latency * STEP, max_speed=1.5, pan_limits=(-0.4, 0.4))
+    pan = path[:, 0] - follow(head, path, latency)[:, 0]
+    assert pan.max() <= 0.4 + 1e-9
+    assert pan[-1] == pytest.approx(0.4)
+    assert np.abs(np.diff(pan, 2)).max() <= 2.0 * STEP**2 + 1e-9
 
 
 @pytest.mark.parametrize("side", [1, -1])

@@ -16,6 +16,7 @@ from tricue.track.base import validation
 from tricue.track.base.track import Status, Track
 
 Angles = tuple[float, float]  # pan, tilt
+Waiting = tuple[tuple[float, np.ndarray], ...]  # seconds, and pan and tilt speeds, of commands
 
 
 class PanTiltCommand(NamedTuple):
@@ -25,7 +26,7 @@ class PanTiltCommand(NamedTuple):
     """Radians per second."""
     tilt_speed: float
     pan: float
-    """Radians: the angle that this speed reaches by the next frame."""
+    """Radians: the angle that this speed reaches one frame after it takes effect."""
     tilt: float
 
 
@@ -46,13 +47,14 @@ class PanTilt:
     ``intrinsics`` the target is in the direction of the box's center, without them in that of the track's
     ``position``.
 
-    gain: 1/s; an error of 1 rad makes a speed of so many rad/s. Above about 1 / (2 latency) the head
-    oscillates. If frames are farther apart than 1 / gain, the speed corrects the error by the next frame.
+    gain: 1/s; an error of 1 rad makes a speed of so many rad/s. If the latency is e seconds longer than
+    given, the head swings above a gain of about 1 / (2 e). If frames are farther apart than 1 / gain, the
+    speed corrects the error by the next frame.
     velocity_gain: how much of the target's velocity is fed forward, 0 to 1. velocity_time: seconds over which
     that velocity is averaged. latency: seconds from a frame to when its command moves the head, over which
     both are extrapolated. dead_band: radians; a smaller error on an axis is ignored. max_speed: rad/s.
     max_acceleration: rad/s²; a tracker by flow needs image motion that changes slowly. pan_limits,
-    tilt_limits: radians. rate: frames/s without timestamps.
+    tilt_limits: radians; the head brakes before them. rate: frames/s without timestamps.
 
     TypeError and ValueError name the argument that is wrong.
     """
@@ -91,6 +93,7 @@ class PanTilt:
         self._seen: float | None = None  # when
         self._now: float | None = None
         self._last = PanTiltCommand(0.0, 0.0, 0.0, 0.0)
+        self._waiting: Waiting = ()  # commands up to the last but one
 
     def command(
         self,
@@ -102,28 +105,46 @@ class PanTilt:
     ) -> PanTiltCommand:
         """The command after a frame with this track.
 
-        pan, tilt: the head's angles when the frame was taken, radians; without them the last command is
-        assumed to be carried out. timestamp: of the frame, seconds. ValueError for a track without a position
-        if there are no intrinsics, and for numbers that aren't finite; an error leaves the controller as it
-        was. Warns (UserWarning) of a timestamp so large that it looks like milliseconds or a smaller unit.
+        pan, tilt: the head's angles when the frame was taken, radians; without them all commands are assumed
+        to be carried out, after the latency. timestamp: of the frame, seconds. ValueError for a track without
+        a position if there are no intrinsics, and for numbers that aren't finite; an error leaves the
+        controller as it was. Warns (UserWarning) of a timestamp so large that it looks like milliseconds or a
+        smaller unit.
         """
         now = None if timestamp is None else as_seconds(timestamp)
-        given = (self._last.pan if pan is None else pan), (self._last.tilt if tilt is None else tilt)
+        interval = validation.elapsed(self._now, now, self.rate)
+        waiting = self._commands_under_way(interval)
+        turn = sum((seconds * speeds for seconds, speeds in waiting), np.zeros(2))  # until this command
+        assumed = np.array(self._last[2:]) - turn
+        given = (assumed[0] if pan is None else pan), (assumed[1] if tilt is None else tilt)
         angles = np.array([finite(given[0], "pan", "radians"), finite(given[1], "tilt", "radians")])
         # Everything that may raise an error comes before any change.
         seen = track.status is Status.TRACKED and bool(track.score)
         direction = self._direction(track, angles) if seen else None
-        interval = validation.elapsed(self._now, now, self.rate)
         self._now = (self._now or 0.0) + interval if now is None else now
+        self._waiting = waiting
         if direction is not None:
             self._measure(direction, interval)
-            speeds = self._speeds(angles, interval)
+            speeds = self._speeds(angles + turn, interval)
         elif track.status is Status.LOST:
             self._target, self._velocity = None, np.zeros(2)
             speeds = np.zeros(2)
         else:
             speeds = self.velocity_gain * self._velocity
-        return self._limited(speeds, angles, interval)
+        return self._limited(speeds, angles + turn, interval)
+
+    def _commands_under_way(self, interval: float) -> "Waiting":
+        """The commands that move the head from this frame until its own command does, newest first.
+
+        For how many seconds each does so, and its speeds.
+        """
+        waiting, left = [], self.latency
+        for seconds, speeds in ((interval, np.array(self._last[:2])), *self._waiting):
+            if left <= 0:
+                break
+            waiting.append((min(seconds, left), speeds))
+            left -= seconds
+        return tuple(waiting)
 
     def _direction(self, track: Track, angles: np.ndarray) -> np.ndarray:
         """Pan and tilt at which the target would be in the middle of the image."""
@@ -162,30 +183,43 @@ class PanTilt:
     def _speeds(self, angles: np.ndarray, interval: float) -> np.ndarray:
         """Feed-forward plus proportional, at the time when the command moves the head.
 
-        interval: seconds to the next frame; in this time the error is corrected at most once.
+        angles: of the head at that time. interval: seconds to the next frame; in this time the error is
+        corrected at most once.
         """
         assert self._target is not None
         velocity = self.velocity_gain * self._velocity
-        moving = np.array([self._last.pan_speed, self._last.tilt_speed])
-        error = _wrapped(self._target - angles) + self.latency * (velocity - moving)
+        error = _wrapped(self._target + self.latency * velocity - angles)
         outside = np.sign(error) * np.maximum(np.abs(error) - self.dead_band, 0.0)
         return np.asarray(velocity + min(self.gain, 1 / interval) * outside)
 
     def _limited(self, speeds: np.ndarray, angles: np.ndarray, interval: float) -> PanTiltCommand:
         """The command for these speeds, within the limits of speed and of angles.
 
-        A head outside its limits of angles is brought back as fast as those of acceleration and speed allow.
+        angles: of the head when the command moves it. Outside its limits it is brought back as fast as those
+        of acceleration and speed allow.
         """
         low, high = np.transpose(self.limits)
         before, change = np.array(self._last[:2]), self.max_acceleration * interval
         smooth = np.clip(speeds, before - change, before + change).clip(-self.max_speed, self.max_speed)
-        within = (np.clip(angles + smooth * interval, low, high) - angles) / interval
+        left, right = (_speed_that_stops(room, change, interval) for room in (angles - low, high - angles))
+        within = np.clip(smooth, -left, right)
         slowest = np.where(angles > high, np.minimum(before, 0) - change, -np.inf)
         fastest = np.where(angles < low, np.maximum(before, 0) + change, np.inf)
         allowed = np.clip(within, slowest, fastest).clip(-self.max_speed, self.max_speed)
         reached = angles + allowed * interval
         self._last = PanTiltCommand(*allowed.tolist(), *reached.tolist())
         return self._last
+
+
+def _speed_that_stops(room: np.ndarray, change: float, interval: float) -> np.ndarray:
+    """The largest speed that ends within some room, radians, if each frame is slower by ``change``.
+
+    From n + f times ``change``, 0 <= f < 1, the head moves by (n + 1) (n / 2 + f) times ``change`` times
+    ``interval``. A negative room takes a negative speed, which is back inside in one frame.
+    """
+    steps = room / (change * interval)
+    n = np.floor((np.sqrt(1 + 8 * np.maximum(steps, 0)) - 1) / 2)
+    return np.asarray(change * (n / 2 + steps / (n + 1)))
 
 
 def _wrapped(angle: np.ndarray) -> np.ndarray:
