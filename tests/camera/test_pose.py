@@ -32,6 +32,28 @@ def test_a_camera_that_looks_along_y():
     np.testing.assert_allclose(pose.to_world([0, -1, 0]), [2, 0, 2.6])
 
 
+@pytest.mark.parametrize(
+    ("pan", "tilt", "ahead", "right", "down"),
+    [
+        (90, 0, [1, 0, 0], [0, 0, -1], [0, 1, 0]),  # looks to the right
+        (0, 90, [0, -1, 0], [1, 0, 0], [0, 0, 1]),  # looks up, the image's upper edge behind
+        (90, 90, [0, -1, 0], [0, 0, -1], [1, 0, 0]),  # looks up, the upper edge to the left
+    ],
+)
+def test_a_head_that_pans_and_tilts(pan, tilt, ahead, right, down):
+    """Pan turns the camera to the right, about the vertical; then tilt raises its view."""
+    pose = Pose.from_pan_tilt(*np.radians([pan, tilt]), translation=(1, 2, 3))
+    axes = pose.to_world(np.eye(3)) - [1, 2, 3]
+    np.testing.assert_allclose(axes, [right, down, ahead], atol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["pan", "tilt"])
+def test_an_angle_that_is_none_is_named(name):
+    """NaN is no angle."""
+    with pytest.raises(ValueError, match=rf"^{name}: expected a finite number, radians, got nan"):
+        Pose.from_pan_tilt(**{"pan": 0.0, "tilt": 0.0, name: np.nan})
+
+
 def test_covariance_is_that_of_the_moved_points():
     """The covariance of sampled points, transformed one by one, is the transformed covariance, exactly."""
     root = np.diag([0.1, 0.2, 0.9])

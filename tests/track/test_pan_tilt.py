@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from tricue import Box, Intrinsics, PanTilt, Status, Track
+from tricue import Box, Intrinsics, PanTilt, Pose, Status, Track
 from tricue.track.pan_tilt import PanTiltCommand
 
 CAMERA = Intrinsics.from_fov(160, 120, 32.0)
@@ -23,10 +23,7 @@ def track_of(direction: np.ndarray, angles: np.ndarray) -> Track:
     """The track of a target in a direction, seen by a head at these angles; both pan, tilt."""
     pan, tilt = direction
     ray = np.array([math.sin(pan) * math.cos(tilt), -math.sin(tilt), math.cos(pan) * math.cos(tilt)])
-    pan, tilt = angles
-    about_y = np.array([[math.cos(pan), 0, -math.sin(pan)], [0, 1, 0], [math.sin(pan), 0, math.cos(pan)]])
-    about_x = np.array([[1, 0, 0], [0, math.cos(tilt), math.sin(tilt)], [0, -math.sin(tilt), math.cos(tilt)]])
-    x, y, z = about_x @ about_y @ ray
+    x, y, z = Pose.from_pan_tilt(*angles).inverse.to_world(ray)
     return track_at(x / z, y / z)
 
 

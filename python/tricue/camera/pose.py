@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The pose of a camera: the transform from its coordinates to the world's."""
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -8,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tricue.arrays import Floats
+from tricue.camera.numbers import finite
 
 MAX_SKEW = 1e-3
 """How much RᵀR may differ from the identity: enough for a rotation written with few digits."""
@@ -38,6 +40,19 @@ class Pose:
         if len(rows) == 4 and not np.allclose(rows[3], [0, 0, 0, 1]):
             raise ValueError(f"pose: expected the last row 0, 0, 0, 1, got {rows[3].tolist()}")
         return cls(rows[:3, :3], rows[:3, 3])
+
+    @classmethod
+    def from_pan_tilt(cls, pan: float, tilt: float, translation: ArrayLike = (0.0, 0.0, 0.0)) -> "Pose":
+        """Of a camera on a pan-tilt head: the world's axes are the camera's where both angles are 0.
+
+        pan, tilt: the head's angles as in :class:`tricue.PanTilt`, radians: pan to the right, then tilt
+        upward. The axes are assumed to meet at the camera's center, which is at ``translation``.
+        """
+        about_y, about_x = finite(pan, "pan", "radians"), finite(tilt, "tilt", "radians")
+        cos, sin = math.cos(about_y), math.sin(about_y)
+        turn = np.array([[cos, 0, sin], [0, 1, 0], [-sin, 0, cos]])
+        cos, sin = math.cos(about_x), math.sin(about_x)
+        return cls(turn @ [[1, 0, 0], [0, cos, -sin], [0, sin, cos]], translation)
 
     @property
     def matrix(self) -> Floats:
