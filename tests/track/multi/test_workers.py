@@ -278,6 +278,31 @@ def test_an_answer_that_was_read_in_part_ends_its_worker(started, things, alone,
         assert several.update(things.frames[1]) == {number: alone(FUSED)[0][number] for number in (1, 3)}
 
 
+@pytest.mark.parametrize("call", ["update", "add"])
+def test_a_worker_that_hangs_takes_one_interrupt(call, started, things, alone, monkeypatch):
+    """Ctrl-C while it is waited for ends it after a moment, and is raised; the other targets go on."""
+    monkeypatch.setattr(remote_targets, "PATIENCE", 0.5)
+    with started(FUSED[:3], workers=2) as several:
+        process = process_of(several)
+        os.kill(process, signal.SIGSTOP)
+        ctrl_c = threading.Timer(0.5, os.kill, [os.getpid(), signal.SIGINT])
+        again = threading.Timer(PATIENCE, os.kill, [os.getpid(), signal.SIGINT])  # so that the test ends
+        begin = time.monotonic()
+        ctrl_c.start()
+        again.start()
+        with pytest.raises(KeyboardInterrupt):
+            several.update(things.frames[1]) if call == "update" else several.add(
+                things.frames[1], things.boxes[0]
+            )
+        again.cancel()
+        assert time.monotonic() - begin < PATIENCE / 2
+        assert not is_running(process)
+        with pytest.raises(WorkerEndedError, match="its targets 2 are gone"):
+            several.update(things.frames[1])
+        expected = alone(FUSED)[0]
+        assert several.update(things.frames[1]) == {number: expected[number] for number in (1, 3)}
+
+
 def test_a_frame_that_never_came_takes_nothing_back(started, things, alone, monkeypatch):
     """Ctrl-C while a frame is copied to the workers comes before they begin with it: they stay where they
     were, and go on with the next frame as the target of this process does.

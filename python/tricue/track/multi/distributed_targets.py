@@ -51,10 +51,10 @@ class DistributedTargets(FollowedTargets):
             tracks |= worker.finish_update(frame)
         return tracks
 
-    def undo(self, number: int) -> None:
+    def undo(self, number: int, hurried: bool = False) -> None:
         """Undo an update, if it was the last one. Targets of a worker that has ended are gone."""
         for each in self._parts:
-            each.undo(number)
+            each.undo(number, hurried)
 
     def copies(self) -> dict[int, Tracker]:
         return {target: tracker for each in self._parts for target, tracker in each.copies().items()}

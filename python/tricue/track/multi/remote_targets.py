@@ -20,7 +20,7 @@ from tricue.track.multi.frame_memory import FrameMemory, Layout
 from tricue.track.multi.messages import WAKE, from_plain, receive, send, unpicklable
 from tricue.track.multi.target_group import TargetGroup
 
-PATIENCE = 5.0  # seconds that a worker gets to end by itself
+PATIENCE = 5.0  # seconds that a worker gets to end by itself, or to answer after Ctrl-C
 
 
 class RemoteTargets(TargetGroup):
@@ -60,8 +60,9 @@ class RemoteTargets(TargetGroup):
             track: Track = self._receive_seen(frame)
         except WorkerEndedError:
             raise
-        except BaseException:  # the worker may have succeeded anyway
-            self._ask("remove", target)
+        except BaseException as error:  # the worker may have succeeded anyway
+            with suppress(WorkerEndedError):
+                self._ask("remove", target, hurried=not isinstance(error, Exception))
             raise
         self._ids.add(target)
         return track
@@ -86,11 +87,11 @@ class RemoteTargets(TargetGroup):
         """The tracks of the started update; messages are added to its frame."""
         return from_plain(self._receive_seen(frame))
 
-    def undo(self, number: int) -> None:
+    def undo(self, number: int, hurried: bool = False) -> None:
         """Undo an update, whether it is running, finished, or never started; nothing if the process ended."""
         with suppress(WorkerEndedError):  # ``ids`` shows it
             if not self.ended:
-                self._ask("undo", number)
+                self._ask("undo", number, hurried=hurried)
 
     def copies(self) -> dict[int, Tracker]:
         found: dict[int, Tracker] = self._ask("copies") if self._ids else {}
@@ -100,9 +101,9 @@ class RemoteTargets(TargetGroup):
         """Stop following all targets, and end the process."""
         self._end_process()
 
-    def _ask(self, method: str, *arguments: Any) -> Any:
+    def _ask(self, method: str, *arguments: Any, hurried: bool = False) -> Any:
         self._send(method, *arguments)
-        return self._receive()
+        return self._receive(hurried)
 
     def _send(self, method: str, *arguments: Any) -> None:
         if os.getpid() != self._owner:
@@ -117,15 +118,17 @@ class RemoteTargets(TargetGroup):
         except (AttributeError, TypeError, pickle.PicklingError) as error:
             raise unpicklable(error) from None
 
-    def _receive(self) -> Any:
+    def _receive(self, hurried: bool = False) -> Any:
         """The answer to the last request; earlier answers that weren't read, as after Ctrl-C, are skipped.
 
         Ctrl-C while waiting leaves the connection usable. If an answer was read only in part, the next one
-        couldn't be found, so the worker is ended.
+        couldn't be found, so the worker is ended; so is one that doesn't answer within PATIENCE, if hurried.
         """
         number, succeeded, value = 0, False, None
         while number != self._number:
-            self._answers.poll()
+            if not self._answers.poll(1000 * PATIENCE if hurried else None):
+                self._process.kill()
+                raise self._end()
             try:
                 number, answer = receive(self._connection)
                 succeeded, value = pickle.loads(answer)
@@ -165,5 +168,7 @@ def _end(connection: Connection, process: "subprocess.Popen[bytes]", owner: int)
     try:
         process.wait(PATIENCE)
     except subprocess.TimeoutExpired:
+        pass
+    finally:  # also after Ctrl-C
         process.kill()
         process.wait()

@@ -31,8 +31,11 @@ class TargetGroup(Protocol):
     def remove(self, target: int) -> None:
         """Stop following one of the targets."""
 
-    def undo(self, number: int) -> None:
-        """Undo an update, if it was the last one; this works because trackers replace their states."""
+    def undo(self, number: int, hurried: bool = False) -> None:
+        """Undo an update, if it was the last one; this works because trackers replace their states.
+
+        hurried: whether to end another process that doesn't do it within a few seconds.
+        """
 
     def copies(self) -> dict[int, Tracker]:
         """Copies of the trackers."""

@@ -54,7 +54,7 @@ class Targets(FollowedTargets):
         )
         return {target: _update(target, tracker, frame) for target, tracker in self._trackers.items()}
 
-    def undo(self, number: int) -> None:
+    def undo(self, number: int, hurried: bool = False) -> None:
         last, before = self._before
         for target, values in before.items() if last == number else ():
             vars(self._trackers[target]).update(values)

@@ -128,8 +128,9 @@ class MultiTracker:
         What several trackers compute from the whole frame is computed once, and warnings are given once. An
         error of one target names it ("target 2: ...") and leaves all of them as they were, except that a
         third party's tracker keeps what it has done. If a worker process was killed, or was ended because
-        Ctrl-C came in the middle of its answer, a RuntimeError says which targets went with it; the others go
-        on with the next frame. If another error came first, the next call raises this one.
+        Ctrl-C came in the middle of its answer or found it hanging, a RuntimeError says which targets went
+        with it; the others go on with the next frame. If another error came first, the next call raises this
+        one.
         """
         shared = SharedFrame.of(as_frame(frame))
         with self._one_call():
@@ -139,8 +140,8 @@ class MultiTracker:
                 found = self._targets.update(self._updates, shared)
                 self._warn(shared)
                 tracks = {target: found[target] for target in self._tracks}
-            except BaseException:
-                self._targets.undo(self._updates)
+            except BaseException as error:
+                self._targets.undo(self._updates, hurried=not isinstance(error, Exception))
                 raise
             before, self._tracks = self._tracks, tracks  # calls nothing that Ctrl-C could interrupt
             found = self.tracks
