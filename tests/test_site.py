@@ -93,13 +93,16 @@ def test_every_kernel_is_in_the_reference(extension: dict[str, ModuleType]) -> N
 
 @pytest.mark.parametrize("tracker", TRACKERS)
 def test_tables_have_every_parameter(extension: dict[str, ModuleType], tracker: str) -> None:
-    """Each parameter has a row with its default, its unit and its source."""
+    """Each parameter has a row with its default, that of paper() if it differs, its unit and its source."""
     assert f"```{{parameters}} {tracker}\n```" in reference()
     rows = extension["pages"]._parameters(None, tracker, DOCS / "index.md").splitlines()[2:]
-    fields = dataclasses.fields(tracker_class(tracker).Params)
+    kind = tracker_class(tracker).Params
+    printed, fields = getattr(kind, "paper", kind)(), dataclasses.fields(kind)
     assert len(rows) == len(fields)
     for row, field in zip(rows, fields, strict=True):
-        assert row.startswith(f"| `{field.name}` | `{field.default!r}`")
+        value = getattr(printed, field.name)
+        other = "" if value == field.default else f"<br>`paper()`: `{value!r}`"
+        assert row.startswith(f"| `{field.name}` | `{field.default!r}`{other} |")
         assert extension["pages"]._cell(field.metadata["source"]) in row
 
 

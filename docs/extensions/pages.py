@@ -102,7 +102,7 @@ def _parameters(app: Sphinx, tracker: str, page: Path) -> str:
     for field in dataclasses.fields(kind):
         default = f"`{field.default!r}`"
         if printed is not None and getattr(printed, field.name) != field.default:
-            default += f"<br>in the paper `{getattr(printed, field.name)!r}`"
+            default += f"<br>`paper()`: `{getattr(printed, field.name)!r}`"
         unit, meaning, origin = (_cell(str(field.metadata.get(key, ""))) for key in ("unit", "doc", "source"))
         limits = ", ".join(part for part in (unit, _bounds(field)) if part not in ("", "-"))
         source = f"<small>{origin}</small>"
