@@ -278,10 +278,11 @@ class ColorParticleParams(Params):
             share of the particles: half come from this Gaussian, half from the transition. Less skin than a
             twentieth of the target gives no Gaussian.
         Likelihood, (17)-(29)
-            1 - d (18), linear, of all pixels in the ellipse (a grid of 64x48 over its box), without a color
-            term. N of (19) isn't printed: 16. The sums (25), (26) are over the 256 levels, also those without
-            pixels. They are divided by their sum and (29) by 3 sqrt 2, as 1 - d would be negative otherwise.
-            (27) and (28) need q(N): the rank closest to 1.
+            1 - d (18), linear, of all pixels in the ellipse (a grid of 64x48 over its box). Section V says
+            that the likelihood combines the ranks with a model of the skin's color, but no equation has one,
+            so there is none. N of (19) isn't printed: 16. The sums (25), (26) are over the 256 levels, also
+            those without pixels. They are divided by their sum and (29) by 3 sqrt 2, as 1 - d would be
+            negative otherwise. (27) and (28) need q(N): the rank closest to 1.
         Weights, (2) and (31)
             Resampled in every frame, as CONDENSATION does; print doesn't say when. So the weights before are
             equal in (2), whose proposal is the mixture of transition and Gaussian.

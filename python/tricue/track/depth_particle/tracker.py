@@ -206,9 +206,9 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         target: TargetObject | None,
         measured: Measurement,
     ) -> FilteredTarget:
-        """One step of the particle filter: propose by (39) and at the object, weigh (2), estimate (31); then
-        again close to that estimate, because 100 particles are few in five dimensions. size: (2,) the mean
-        size.
+        """One step of the particle filter: propose by (39) and at the object, weigh by (2) and (31), and
+        estimate; then again close to that estimate, because 100 particles are few in five dimensions. size:
+        (2,) the mean size.
         """
         p, before = self.params, state.particles
         width, height = size.tolist()
