@@ -80,7 +80,7 @@ class Gaussian(NamedTuple):
     def learn(self, k: Kernels, seen: WindowSamples, rate: float) -> "Gaussian":
         b, g, r = seen.inside[0].astype(np.float64)
         luma = 0.299 * r + 0.587 * g + 0.114 * b
-        chroma = np.stack([(b - luma) * 0.564 + 128, (r - luma) * 0.713 + 128])
+        chroma = np.stack([128 + (b - luma) / 1.772, 128 + (r - luma) / 1.402])  # as in skin_gaussian
         covariance = np.cov(chroma, bias=True) + MIN_CHROMA_VARIANCE * np.eye(2)
         return Gaussian(blend(self.mean, chroma.mean(axis=1), rate), blend(self.covariance, covariance, rate))
 
