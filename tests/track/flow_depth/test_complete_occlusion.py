@@ -52,6 +52,24 @@ def test_a_jump_of_the_disparity_hides_the_target(scene: WalkScene):
     assert first.depth == pytest.approx(scene.positions[SEEN, 2], rel=0.1)
 
 
+def test_a_frame_that_hides_the_target_has_its_votes(scene: WalkScene):
+    """Blocks change their states, section 4.4, before it is decided on the whole target, section 4.5: those
+    behind a board are occluded blocks from the frame on in which they and too few pixels hide the target.
+    """
+    tracker = tracker_on(scene)
+    frame = scene.frames[SEEN]
+    x0, _, x1, _ = scene.boxes[SEEN].xyxy
+    edge = round(0.6 * x0 + 0.4 * x1)
+    depth = np.array(frame.depth)
+    depth[:, :edge] = NEAR
+    assert any(box.x < edge for box in tracker.blocks[0])
+    track = tracker.update(Frame(np.zeros_like(frame.color), depth=depth))  # black: no flow, so no pixels
+    assert track.status is O
+    targets, occluded = tracker.blocks
+    assert any(box.x < edge for box in occluded)
+    assert not any(box.x < edge for box in targets)
+
+
 def test_the_jump_back_shows_it_again(scene: WalkScene):
     """Once the disparity in the window is much smaller than in the frame before, the target is TRACKED again,
     in that frame.

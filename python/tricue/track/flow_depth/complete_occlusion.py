@@ -2,21 +2,22 @@
 """Complete occlusion as printed in section 4.5: it begins and ends with jumps of the window's disparity."""
 
 from tricue.kernels import Kernels
-from tricue.track.flow_depth.blocks import OCCLUDED_BLOCK
+from tricue.track.flow_depth.blocks import OCCLUDED_BLOCK, Blocks
 from tricue.track.flow_depth.cues import Cues
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.state import FlowDepthState
 from tricue.track.flow_depth.verify import Verdict, disparity_limits, estimate
 
 
-def is_occluded(k: Kernels, state: FlowDepthState, cues: Cues, verdict: Verdict, p: FlowDepthParams) -> bool:
-    """Whether the target is completely occluded in this frame.
+def is_occluded(
+    state: FlowDepthState, cues: Cues, verdict: Verdict, blocks: Blocks, p: FlowDepthParams
+) -> bool:
+    """Whether the target is completely occluded in this frame, with its blocks after the frame's votes.
 
     It is if its disparity has become much larger, and if it has too few pixels and an occluded block.
     """
     if verdict.disparity > disparity_limits(state, state.disparity, cues.disparity_scale, p).occluder:
         return True
-    blocks = state.blocks.voted(k, verdict.observed, verdict.limits, p)
     return not verdict.has_pixels(state, p.min_pixels) and bool((blocks.states == OCCLUDED_BLOCK).any())
 
 

@@ -172,12 +172,13 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
                 disparity=disparity, occluder_disparity=math.nan, temporal_window=state.window
             )
         verdict = verify_by(k, state, cues, None, p)
-        if is_occluded(k, state, cues, verdict, p):
+        blocks = state.blocks.voted(k, verdict.observed, verdict.limits, p)
+        if is_occluded(state, cues, verdict, blocks, p):
             disparity = disparity_in_window(k, state._replace(occluded=False), cues, p)
-            return _coast(state, seconds, occluded=True, occluder_disparity=disparity)
+            return _coast(state, seconds, blocks=blocks, occluded=True, occluder_disparity=disparity)
         if verdict.has_pixels(state, p.min_pixels):
             return learn(k, state._replace(missed_seconds=0.0), cues, verdict, p)
-        return _coast(state, seconds, pixels=verdict.pixels, occluded=False)
+        return _coast(state, seconds, blocks=blocks, pixels=verdict.pixels, occluded=False)
 
     def _for_next(
         self, reduced: ReducedFrame, wanted: WantedCells, candidate: Rectangle, frame: Frame
