@@ -35,6 +35,7 @@ def test_without_a_length_it_is_full() -> None:
 def test_lines_lie_above_each_other() -> None:
     """It proves that a second target's strip leaves the first one's free, and the picture above."""
     first, second = (np.flatnonzero((drawn(4, line) != 255).any(axis=(1, 2))) for line in (0, 1))
-    assert first.tolist() == list(range(100 - MIN_HEIGHT, 100))
-    assert second.max() < first.min()
-    assert len(second) == MIN_HEIGHT
+    assert first.tolist() == list(range(100 - MIN_HEIGHT - 1, 100))
+    assert second.tolist() == list(range(100 - 2 * MIN_HEIGHT - 2, 100 - MIN_HEIGHT - 1))
+    for line in (0, 1):
+        assert not drawn(4, line)[100 - (line + 1) * (MIN_HEIGHT + 1)].any()  # a black line above each

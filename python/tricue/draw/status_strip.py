@@ -38,4 +38,5 @@ class StatusStrip:
         codes[: len(self._codes)] = np.frombuffer(self._codes, np.uint8)
         bottom = canvas.shape[0] - line * (height + 1)
         columns = np.arange(canvas.shape[1]) * count // canvas.shape[1]
+        canvas[max(bottom - height - 1, 0) : max(bottom, 0)] = 0  # a line between strips
         canvas[max(bottom - height, 0) : max(bottom, 0)] = _PALETTE[codes[columns]]
