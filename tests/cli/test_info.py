@@ -13,6 +13,7 @@ import pytest
 from tricue.cli import main
 from tricue.data.datasets import find_sequences
 from tricue.data.summary import MAX_SAMPLED_FRAMES
+from tricue.draw.video import OverlayWriter
 
 TOML = "[{channel}]\nfx = 50.0\nfy = 60.0\ncx = 31.5\ncy = 23.5\n"
 
@@ -158,6 +159,19 @@ def test_a_video_is_counted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
     assert found[3] == "  truth        1 boxes, 0 absent, 4 unknown"
     assert found[5] == "               2 rows more than there are frames"
     assert found[-1] == f"  note         true boxes found: {tmp_path / 'clip.csv'}"
+
+
+def test_progress_while_a_video_is_counted(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It proves that a video's progress is told on standard error, once, and with --json as well."""
+    monkeypatch.setattr("tricue.cli.progress._PLAIN_EVERY", 0.0)
+    with OverlayWriter(tmp_path / "v.avi", 10.0) as writer:
+        for _ in range(3):
+            writer.write(np.full((48, 64, 3), 99, np.uint8))
+    for words in ([], ["--json"]):
+        assert main(["info", str(writer.path), *words]) == 0
+        assert capsys.readouterr().err == "".join(f"{done}/3  reading color\n" for done in (1, 2, 3))
 
 
 def test_a_pair_lasts_as_long_as_its_shorter_video(

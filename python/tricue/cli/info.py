@@ -5,17 +5,20 @@ import argparse
 import json
 import warnings
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from tricue.cli.arguments import add_topics
+from tricue.cli.progress import Progress
 from tricue.cli.source_options import UNIT_HELP
 from tricue.data import layouts
 from tricue.data.datasets import find_sequences
 from tricue.data.live import LiveStream
 from tricue.data.open_source import Source, open_source
+from tricue.data.streams import Video
 from tricue.data.summary import (
     Summary,
     compute_duration,
@@ -90,7 +93,16 @@ def _open(options: argparse.Namespace) -> Source:
     return source
 
 
+def _read_videos(source: Source) -> None:
+    """Read the videos once, with progress, so that their frames are counted."""
+    for name, stream in source.channels.items():
+        if isinstance(stream, Video):
+            with Progress(stream.stated_length) as progress:
+                stream.count(partial(progress, note=f"reading {name}"))
+
+
 def _facts(source: Source, options: argparse.Namespace) -> Summary:
+    _read_videos(source)
     channels = {name: summarize_channel(stream) for name, stream in source.channels.items()}
     frames = min(each["frames"] for each in channels.values())
     unit = f"{source.format.split()[0]}'s format" if options.depth_scale is None else "--depth-scale"

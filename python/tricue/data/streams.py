@@ -9,7 +9,6 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, Protocol
@@ -184,6 +183,7 @@ class Video:
         if rate is None or rate > DOUBTED_FPS:
             rate = checked_fps(rate, [_told(capture) for _ in range(FIRST_FRAMES) if capture.read()[0]])
         self.fps, self.timed = rate or DEFAULT_FPS, rate is not None
+        self._times: Sequence[float] = ()  # until they are read
         self.stated_length = max(0, round(self._stated(capture)[0])) or None
         capture.release()
 
@@ -191,16 +191,23 @@ class Video:
     def size(self) -> tuple[int, int]:
         return _size(next(iter(self))[1])
 
-    @cached_property
+    @property
     def times(self) -> Sequence[float]:
         """The times of all frames, in seconds from the first; this reads the whole video.
 
         A warning tells of a video that is cut off.
         """
+        self.count()
+        return self._times
+
+    def _read_times(self, progress: Callable[[int], object]) -> Sequence[float]:
         capture, times = self._open(), FrameTimes(self.fps)
         stated = self._stated(capture)
+        found = []
         try:
-            found = [seconds for seconds, _ in self._grab(capture, times)]
+            for seconds, _ in self._grab(capture, times):
+                found.append(seconds)
+                progress(len(found))
         finally:
             capture.release()
         self._warn_of_cut(len(found), times, *stated)
@@ -253,9 +260,11 @@ class Video:
         finally:
             capture.release()
 
-    def count(self) -> int:
-        """The number of frames; this reads the whole video."""
-        return len(self.times)
+    def count(self, progress: Callable[[int], object] = lambda _: None) -> int:
+        """The number of frames; this reads the whole video. progress: called with the number read so far."""
+        if not self._times:
+            self._times = self._read_times(progress)
+        return len(self._times)
 
     def _stated(self, capture: cv2.VideoCapture) -> tuple[float, float]:
         """The number of frames and the frame rate that the container states."""
