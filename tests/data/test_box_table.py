@@ -100,6 +100,8 @@ def test_an_empty_table(tmp_path: Path) -> None:
         ("1,2,3,4\n1,2,3,4,5\n", "line 2: expected 4 values"),
         ("x,y,w,h\n1,two,3,4\n", "line 2: expected a number y, got 'two'"),
         ("1,2,3,4\n1,2,inf,4\n", "line 2: expected a number width, got 'inf'"),
+        ("1,2,3,4\n1,2,1e7,4\n", "line 2: expected at most a million pixels, got '1,2,1e7,4'"),
+        ("x,y,w,h,z_m\n1,2,3,4,1e300\n", "line 2: expected a number z_m, got '1e300'"),
         ("x,y,w,h,Z_m\n1,2,3,4,far\n", "line 2: expected a number z_m, got 'far'"),
         ("1,2,3,4,\n", "line 1: expected all of x, y, width, height or none, got no height"),
         ("0.5,1,2,3,4\n", "line 1: expected a frame's whole number from 0, got '0.5'"),

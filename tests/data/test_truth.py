@@ -105,6 +105,8 @@ def test_absent_targets_of_other_data_sets(tmp_path: Path, files: dict[str, str]
     ("name", "text", "message"),
     [
         (VOT_TRUTH, "1,2,3,4\n1,2,inf,4\n", "line 2: expected four numbers"),
+        (VOT_TRUTH, "1,2,3,4\n1,2,1e308,4\n", "line 2: expected at most a million pixels"),
+        (VOT_TRUTH, "-1e308,0,1e308,0,1,1", "line 1: expected at most a million pixels"),
         (
             VOT_TRUTH,
             "1,2,3,4\n1,2,-3,4\n",
@@ -116,6 +118,7 @@ def test_absent_targets_of_other_data_sets(tmp_path: Path, files: dict[str, str]
         ("out_of_view.txt", "0,1,,0\n", "line 1: expected 0, or 1 for an absent target, got ''"),
         ("position_z_mm.txt", "1\n-5\n", "line 2: expected a depth in millimeters, 0 if unknown, got '-5'"),
         ("position_z_mm.txt", "1\ninf\n", "line 2: expected a depth"),
+        ("position_z_mm.txt", "1\n1e300\n", "line 2: expected a depth"),
         ("position_z_mm.txt", "1\n\n5\n", "line 2: expected a depth"),
         ("position_z_mm.txt", "1 2\n", "line 1: expected a depth"),
     ],

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.data.truth import MAX_FRAME_NUMBER, Truth, check_sizes, read_lines, truth_from_rows
+from tricue.data.truth import MAX_FRAME_NUMBER, MAX_VALUE, Truth, check_sizes, read_lines, truth_from_rows
 
 BOX_TABLE = "boxes.csv"
 _BOX_COLUMNS = ("x", "y", "width", "height")
@@ -37,7 +37,7 @@ class _Row(NamedTuple):
             value = float(text) if text else math.nan
         except ValueError:
             value = math.inf
-        if math.isinf(value):
+        if math.isinf(value) or (column in _POSITION_COLUMNS and abs(value) > MAX_VALUE):
             raise ValueError(f"{self.place}: expected a number {column}, got {text!r:.60}")
         return value
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from tricue.camera.calibration_formats import read_kitti_offset
 from tricue.data.files import image_paths
 from tricue.data.streams import Images, Stream
-from tricue.data.truth import MAX_FRAME_NUMBER, Truth, truth_from_rows
+from tricue.data.truth import MAX_FRAME_NUMBER, MAX_VALUE, Truth, truth_from_rows
 
 RIGHT_FOLDERS = {
     "image_02": "image_03",
@@ -26,7 +26,6 @@ RIGHT_FOLDERS = {
 """The right images' folder by the left images'; if a folder has several of these, the first is read."""
 LABEL_WORDS = 17  # in a line of a tracking label
 IGNORED_TYPE = "DontCare"
-MAX_LABEL_VALUE = 1e9  # pixels or meters, above which a value is invalid
 
 
 class LabeledTarget(NamedTuple):
@@ -101,9 +100,7 @@ def _line(line: str) -> _Line | None:
         return None
     if len(values) != LABEL_WORDS - 5 or not 0 <= frame < MAX_FRAME_NUMBER:
         return None
-    return (
-        _Line(frame, track, kind, values) if all(abs(value) < MAX_LABEL_VALUE for value in values) else None
-    )
+    return _Line(frame, track, kind, values) if all(abs(value) < MAX_VALUE for value in values) else None
 
 
 def _label(name: str, rows: dict[int, list[float]]) -> LabeledTarget:

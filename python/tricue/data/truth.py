@@ -14,11 +14,14 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tricue.camera.box import MAX_COORDINATE
+
 OTB_TRUTH, VOT_TRUTH, PRINCETON_FIRST_BOX = "groundtruth_rect.txt", "groundtruth.txt", "init.txt"
 ABSENT_TAGS = ("absent.tag", "absence.label", "full_occlusion.txt", "out_of_view.txt")
 """Files of VOT, GOT-10k and LaSOT (the last two): a number per frame, 1 where the target can't be seen."""
 _WHOLE_TAGS = ABSENT_TAGS[1:]  # have a number per box; in VOT's, a missing number means 0
 MAX_FRAME_NUMBER = 10_000_000  # a day at 100 frames per second; larger numbers are refused
+MAX_VALUE = 1e9  # pixels, meters or millimeters; larger values are refused
 DEPTHS_FILE = (
     "position_z_mm.txt"  # one line per frame: the target's median depth in millimeters, 0 or NaN if unknown
 )
@@ -165,9 +168,15 @@ def _true_box(line: str, place: str, count: int | None) -> tuple[float, ...]:
 
 
 def check_sizes(box: Box, place: str, line: str) -> Box:
-    """The box x, y, width, height of a line; ValueError for a negative width or height without NaN."""
-    if min(box[2:]) < 0 and not np.isnan(box).any():
+    """The box x, y, width, height of a line; unless it has NaN, ValueError for a negative width or height and
+    for numbers beyond a million pixels.
+    """
+    if np.isnan(box).any():
+        return box
+    if min(box[2:]) < 0:
         raise ValueError(f"{place}: expected a width and height of 0 or more, got {line.strip()!r:.60}")
+    if max(map(abs, box)) > MAX_COORDINATE:
+        raise ValueError(f"{place}: expected at most a million pixels, got {line.strip()!r:.60}")
     return box
 
 
@@ -202,7 +211,7 @@ def _read_depths(path: Path) -> NDArray[np.float64]:
             depth = float(line)
         except ValueError:
             depth = -1.0
-        if depth < 0 or np.isinf(depth):
+        if depth < 0 or depth > MAX_VALUE:
             raise ValueError(
                 f"{path}, line {number}: expected a depth in millimeters, 0 if unknown, got {line!r:.60}"
             )

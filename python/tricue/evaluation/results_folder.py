@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.arrays import Floats
+from tricue.camera.box import MAX_COORDINATE
 from tricue.data.otb import has_otb_truth
 from tricue.data.truth import read_box, read_lines
 from tricue.evaluation.dataset import Entry, OpenedSequence
@@ -264,7 +265,8 @@ def _read_box(line: str, path: Path, number: int) -> Sequence[float]:
         box = read_box(line, f"{path.name}, line {number}")
     except ValueError as error:
         raise ResultError(str(error)) from None
-    return box if box[2] > 0 and box[3] > 0 else (np.nan,) * 4
+    is_box = box[2] > 0 and box[3] > 0 and max(map(abs, box)) <= MAX_COORDINATE
+    return box if is_box else (np.nan,) * 4
 
 
 def _first_pixel(spec: ResultsSpec, opened: OpenedSequence, boxes: Floats) -> float:
