@@ -108,6 +108,20 @@ def test_frames_by_time(server: Server, open_tab: Callable[..., Tab]) -> None:
     assert found == [0, 0, 0, 1, 1, 2, 3]
 
 
+def test_the_clock_has_hours(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """As in tricue track's report, and only where there are any; the ruler's marks have fewer decimals."""
+    found = open_tab(server.url).page.evaluate(
+        """async () => {
+          const { clock } = await import("./page/model.js");
+          const times = [0, 59.999, 62.35, 3599.99, 3599.999, 3661.5, 36000];
+          const others = [clock(3725, 0), clock(0.7, 1), clock(-1), clock(59.96, 1)];
+          return [times.map((time) => clock(time)), ...others];
+        }"""
+    )
+    times = ["0:00.00", "1:00.00", "1:02.35", "59:59.99", "1:00:00.00", "1:01:01.50", "10:00:00.00"]
+    assert found == [times, "1:02:05", "0:00.7", "0:00.00", "1:00.0"]
+
+
 def test_pictures_are_kept_within_bounds(server: Server, open_tab: Callable[..., Tab]) -> None:
     """Of large ones few are kept; the others give their memory back, but for the one that is shown."""
     found = open_tab(server.url).page.evaluate(

@@ -4,6 +4,7 @@
 import { LiveModel } from "./live_model.js";
 import { commonKeys, leaveKeys, listenToKeys } from "./keys.js";
 import { command, listen } from "./link.js";
+import { clock } from "./model.js";
 import { Stage } from "./stage.js";
 import { listTargets } from "./target_list.js";
 import { LOST, NONE, STATUS_NAMES } from "./targets.js";
@@ -99,7 +100,7 @@ function hearHealth({ dropped, reopened, trouble, rate, recorded }) {
   get("rate").textContent = words.join(", ");
   get("trouble").hidden = !trouble;
   get("trouble-what").textContent = trouble ? `${model.state?.name ?? ""}: ${trouble}` : "";
-  get("recorded-for").textContent = recorded === null ? "" : `${Math.floor(recorded / 60)}:${String(recorded % 60).padStart(2, "0")}`;
+  get("recorded-for").textContent = recorded === null ? "" : clock(recorded, 0);
 }
 
 // The page's parts

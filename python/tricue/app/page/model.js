@@ -111,9 +111,12 @@ export class Model extends Targets {
   }
 }
 
-/** Seconds as 1:02.35. */
-export function clock(seconds) {
-  const whole = Math.max(0, Math.round(seconds * 100));
-  const minutes = Math.floor(whole / 6000), rest = whole % 6000;
-  return `${minutes}:${String(Math.floor(rest / 100)).padStart(2, "0")}.${String(rest % 100).padStart(2, "0")}`;
+/** Seconds as 1:02.35, or 1:01:02.35 from an hour on; with so many decimals. */
+export function clock(seconds, decimals = 2) {
+  const unit = 10 ** decimals, whole = Math.max(0, Math.round(seconds * unit));
+  const minutes = Math.floor(whole / unit / 60) % 60, hours = Math.floor(whole / unit / 3600);
+  const two = (value) => String(value).padStart(2, "0");
+  const head = hours ? `${hours}:${two(minutes)}` : minutes;
+  const rest = decimals ? `.${String(whole % unit).padStart(decimals, "0")}` : "";
+  return `${head}:${two(Math.floor(whole / unit) % 60)}${rest}`;
 }

@@ -98,8 +98,7 @@ export class Timeline {
       const end = frame + 1 < frames ? model.seconds(frame + 1) : whole;
       const at = ((frame + Math.min((time - begin) / (end - begin), 1)) / frames) * width;
       pen.fillRect(at, 10, 1, RULER - 12);
-      const minutes = Math.floor(time / 60 + 1e-9), rest = time - 60 * minutes;
-      const text = `${minutes}:${rest.toFixed(step < 1 ? 1 : 0).padStart(step < 1 ? 4 : 2, "0")}`;
+      const text = clock(time, step < 1 ? 1 : 0);
       const right = at + pen.measureText(text).width + 6;
       if (at < free || right >= width) continue;
       pen.fillText(text, at + 4, 8);
