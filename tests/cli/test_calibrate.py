@@ -298,13 +298,14 @@ def test_a_stereo_pair_is_never_overwritten(still, tmp_path, capsys):
 
 @pytest.mark.filterwarnings("default")  # they are to be printed
 def test_a_pair_without_a_rig_is_told_of_options_that_there_are(still, tmp_path, capsys):
-    """The advice doesn't name an option that only ``tricue track`` has."""
+    """The advice names no option that only ``tricue track`` has, and no tracks, of which there are none."""
     folder = write_pair(still, tmp_path / "pair")
     (folder / "rig.toml").unlink()
     box = ",".join(map(str, still.boxes[0]))
     main(["calibrate", "stereo-noise", str(folder), "--box", box, "--output", str(tmp_path / "o.toml")])
     error = capsys.readouterr().err
-    assert error.count("give --calibration FILE") == 1
+    assert error.count("the head's place won't be measured in meters; give --calibration FILE") == 1
+    assert "tracks" not in error
     assert "--assume-fov" not in error
 
 

@@ -152,7 +152,7 @@ def _stereo_noise(options: argparse.Namespace, params: Any) -> dict[str, Any]:
     places = [Path(place) for place in (options.input, options.right) if place]
     given = [*places, options.calibration] if options.calibration else places
     _check_output(options.output, chain(given, input_files(source, *places)))
-    found = find_calibration(options, source)
+    found = find_calibration(options, source, without="the head's place won't be measured in meters")
     head = options.box or source.first_box
     if head is None:
         raise ValueError(f"{source.name}: expected a box; give --box x,y,width,height")

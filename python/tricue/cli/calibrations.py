@@ -58,18 +58,20 @@ class Calibration(NamedTuple):
         return replace(source, register=self.register, truth=truth)
 
 
-def find_calibration(options: Namespace, source: Source) -> Calibration:
+def find_calibration(
+    options: Namespace, source: Source, without: str = "tracks will have no position in meters"
+) -> Calibration:
     """The calibration of --calibration, --fov or --assume-fov; without them, of the file beside the sequence.
 
     ValueError for an option that the tracker doesn't use, and for a file for another image size. Such a file
     beside the sequence is ignored, with a note. Warns (UserWarning) if positions will be missing, and of
-    distortion that isn't corrected.
+    distortion that isn't corrected. without: what a missing calibration of a stereo pair means.
     """
     cameras = traits(options.tracker).camera
     if getattr(options, "assume_fov", None):  # not every command has it
         return _assume(options, source, cameras)
     if _takes_rig(source, cameras):
-        return _find_stereo(options, source)
+        return _find_stereo(options, source, without)
     for option, value in (("--rectify", options.rectify), ("--unit", options.unit is not None)):
         if value:
             missing = "a stereo pair" if "rig" in cameras else "a tracker that takes a stereo pair"
@@ -102,7 +104,7 @@ def _takes_rig(source: Source, cameras: Collection[str]) -> bool:
     return "rig" in cameras and ("right" in source.channels or "intrinsics" not in cameras)
 
 
-def _find_stereo(options: Namespace, source: Source) -> Calibration:
+def _find_stereo(options: Namespace, source: Source, without: str) -> Calibration:
     """The stereo rig; with --rectify, from the raw cameras of the same file.
 
     Warns (UserWarning) if it is unknown: the tracker then assumes a default stereo pair or gives no
@@ -121,7 +123,7 @@ def _find_stereo(options: Namespace, source: Source) -> Calibration:
         rig = read_rig(options.calibration, source.size, options.unit, source.kitti_cameras)
         _check_focal_length(rig, source)
         return Calibration(rig=rig)
-    return _find_rig(source, _advice(STEREO_FILE, options))
+    return _find_rig(source, f"{without}; {_advice(STEREO_FILE, options)}")
 
 
 def _check_focal_length(rig: StereoRig, source: Source) -> None:
@@ -137,10 +139,10 @@ def _check_focal_length(rig: StereoRig, source: Source) -> None:
         )
 
 
-def _find_rig(source: Source, give: str) -> Calibration:
+def _find_rig(source: Source, otherwise: str) -> Calibration:
     """The rig of the file beside the images. The user didn't ask for it, so an unusable file isn't an error.
 
-    give: how the user can give one.
+    otherwise: what it means that there is none, and how the user can give one.
     """
     reason = "the pair's calibration isn't known"
     if source.calibration is not None:
@@ -153,7 +155,7 @@ def _find_rig(source: Source, give: str) -> Calibration:
     elif isinstance(source.camera, StereoRig):
         return Calibration(rig=source.camera, note=OWN_CALIBRATION)
     if "right" in source.channels:  # otherwise the missing right images are reported first
-        warnings.warn(f"{reason}; tracks will have no position in meters; {give}", stacklevel=2)
+        warnings.warn(f"{reason}; {otherwise}", stacklevel=2)
     return Calibration()
 
 
