@@ -51,7 +51,7 @@ def error_curves(figure: Any, curves: Sequence[ColorCurve], scenes: Mapping[str,
         axes.set(yscale="log", ylim=(0.3, 400), xlim=(0, errors.shape[1] - 1))
     for axes in panels.flat[len(models) :]:
         axes.set_visible(False)
-    bottom.supxlabel(f"frame ({len(stacked(curves, models[0], 'errors'))} runs per model)")
+    bottom.supxlabel(f"frame ({_runs(len(stacked(curves, models[0], 'errors')))})")
     bottom.supylabel("center error, px: mean, 10-90 %; dotted: lost")
 
 
@@ -76,7 +76,7 @@ def overlap_curves(figure: Any, curves: Sequence[ColorCurve], scenes: Mapping[st
         axes.annotate(" light changes", (change, 1.02), annotation_clip=False)
     runs, frames = stacked(curves, models[0], "overlaps").shape
     axes.set(
-        xlabel=f"frame ({runs} runs per model); pictures: boxes of the first run, the true one dashed",
+        xlabel=f"frame ({_runs(runs)}); pictures: boxes of the first run, the true one dashed",
         ylabel="IoU: mean, 10-90 %",
         ylim=(0, 1),
         xlim=(0, frames - 1),
@@ -133,8 +133,13 @@ def _plot_overlaps(
     shade_hidden(axes, shown)
     count = sum(run.model == runs[0].model for run in runs)
     note = f"; shaded: {shade}" if shown.min() < 1 else ""
-    axes.set(xlabel=f"{name}: frame ({count} runs per model{note})", ylim=(0, 1))
+    axes.set(xlabel=f"{name}: frame ({_runs(count)}{note})", ylim=(0, 1))
     axes.set_ylabel("IoU: median, quartiles")
+
+
+def _runs(count: int) -> str:
+    """How many runs each model has, in words."""
+    return f"{count} run{'' if count == 1 else 's'} per model"
 
 
 def _marked(models: Sequence[str]) -> dict[str, str]:
