@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from tricue.camera.calibration_formats import read_kitti_offset
 from tricue.camera.frame import Frame
 from tricue.camera.read_calibration import read_rig
 from tricue.camera.rig import StereoRig
@@ -77,12 +78,15 @@ def _targets(source: Source, labels: Path) -> Iterator[StereoSequence]:
     """The targets that are labeled in enough frames in a row and large enough in the first of them."""
     if source.calibration is None:
         raise ValueError(f"{labels}: expected calibration beside the images")
-    frames, rig = tuple(source), read_rig(source.calibration, source.size)
+    frames, cameras = tuple(source), source.kitti_cameras
+    rig = read_rig(source.calibration, source.size, kitti_cameras=cameras)
+    offset = read_kitti_offset(source.calibration, camera=cameras[0])
     for label in kitti.read_labels(labels):
         first, last = int(label.frames[0]), int(label.frames[-1])
         gaps = len(label.frames) <= last - first
         if gaps or len(label.frames) < MIN_KITTI_FRAMES or label.boxes[0, 2:].min() < MIN_KITTI_SIDE:
             continue
-        disparities = rig.intrinsics.fx * rig.baseline / label.front_depths
+        # labels are in camera 0's frame
+        disparities = rig.intrinsics.fx * rig.baseline / (label.front_depths + offset[2])
         name = f"{source.name} {label.name}"
         yield StereoSequence(name, frames[first : last + 1], label.boxes, disparities, rig)

@@ -134,6 +134,23 @@ def test_labels_are_read_by_target(tmp_path):
     np.testing.assert_allclose(van.front_depths, [20 - 2.25])
 
 
+def test_disparities_of_labels_are_those_of_the_left_camera(tmp_path):
+    """Which stands a meter behind camera 0, in whose frame the labels are."""
+    for folder in ("image_02", "image_03"):
+        (tmp_path / folder / "0000").mkdir(parents=True)
+        for frame in range(10):
+            cv2.imwrite(str(tmp_path / folder / "0000" / f"{frame:06}.png"), np.zeros((90, 150, 3), np.uint8))
+    for name in ("calib", "label_02"):
+        (tmp_path / name).mkdir()
+    offsets = {"P2": 70 * 1, "P3": -100 * 0.5 + 70 * 1}  # fx x + cx z
+    projections = [f"{name}: 100 0 70 {value} 0 100 40 40 0 0 1 1\n" for name, value in offsets.items()]
+    (tmp_path / "calib" / "0000.txt").write_text("".join(projections))
+    (tmp_path / "label_02" / "0000.txt").write_text("".join(_label(frame, 1) for frame in range(10)))
+    (found,) = stereo_sequences.load(tmp_path)
+    assert found.rig.baseline == pytest.approx(0.5)
+    np.testing.assert_allclose(found.disparities, 100 * 0.5 / (20 - 0.8 + 1))
+
+
 @pytest.mark.parametrize("line", ["0 1 Car 0 0\n", _label(0, 1).replace("100", "x")])
 def test_a_line_that_is_no_label_is_named(tmp_path, line):
     """The file and the line's number are in the error."""
