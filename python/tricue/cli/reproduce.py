@@ -37,7 +37,10 @@ def add_options(command: argparse.ArgumentParser) -> None:
     """Add the command's options to its parser."""
     command.add_argument("experiment", metavar="EXPERIMENT", help=", ".join(NAMES))
     command.add_argument(
-        "--seeds", type=count, default=20, help="runs of each model on each scene, default %(default)s"
+        "--seeds",
+        type=count,
+        default=20,
+        help="runs of each model on each scene; sabeti-roc: rendered images; default %(default)s",
     )
     command.add_argument("--jobs", type=count, default=1, help="processes, default %(default)s")
     command.add_argument(
