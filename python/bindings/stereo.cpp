@@ -111,15 +111,16 @@ std::tuple<Array<std::uint16_t>, Bytes> head_cells_arrays(const Bytes& left, con
 }
 
 std::tuple<double, int, int> ellipse_disparity_arrays(const Bytes& left, const Bytes& right,
-                                                      const RegionTuple& region, int first, int last,
+                                                      const Array<double>& ellipse, int first, int last,
                                                       int window, int uniqueness, bool prefilter,
                                                       bool subpixel, bool median, double tolerance) {
     const auto view = any_image(left, "left"), other = any_image(right, "right");
-    const Region part = region_of(region);
+    const auto where = vector(ellipse, "ellipse");
     const StereoMatching matching{window, uniqueness, prefilter, -1};
     const DisparityStatistic statistic{subpixel, median, static_cast<float>(tolerance)};
-    const auto found = unlocked(work_in(part), [&] {
-        return ellipse_disparity(view, other, part, {first, last}, matching, statistic);
+    const bool known = where.size() == 4 && where.allFinite();
+    const auto found = unlocked(known ? work_of(2 * where[2], 2 * where[3]) : 0, [&] {
+        return ellipse_disparity(view, other, where, {first, last}, matching, statistic);
     });
     return {found.disparity, found.matched, found.near};
 }
@@ -146,9 +147,10 @@ void define_stereo(py::module_& m) {
           py::arg("step"), py::arg("bins"), py::arg("chroma"), py::arg("gains"), py::arg("expected"),
           py::arg("tolerance"), py::arg("fill"), py::arg("first"), py::arg("last"), py::arg("window"),
           py::arg("uniqueness"), py::arg("prefilter"), docs::head_cells);
-    m.def("ellipse_disparity", ellipse_disparity_arrays, py::arg("left"), py::arg("right"), py::arg("region"),
-          py::arg("first"), py::arg("last"), py::arg("window"), py::arg("uniqueness"), py::arg("prefilter"),
-          py::arg("subpixel"), py::arg("median"), py::arg("tolerance"), docs::ellipse_disparity);
+    m.def("ellipse_disparity", ellipse_disparity_arrays, py::arg("left"), py::arg("right"),
+          py::arg("ellipse"), py::arg("first"), py::arg("last"), py::arg("window"), py::arg("uniqueness"),
+          py::arg("prefilter"), py::arg("subpixel"), py::arg("median"), py::arg("tolerance"),
+          docs::ellipse_disparity);
 }
 
 }  // namespace tricue::bindings

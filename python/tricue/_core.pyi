@@ -934,7 +934,7 @@ def divide_depth(
 def ellipse_disparity(
     left: numpy.typing.NDArray[numpy.uint8],
     right: numpy.typing.NDArray[numpy.uint8],
-    region: tuple[int, int, int, int],
+    ellipse: numpy.typing.NDArray[numpy.float64],
     first: int,
     last: int,
     window: int,
@@ -945,16 +945,17 @@ def ellipse_disparity(
     tolerance: float,
 ) -> tuple[float, int, int]:
     """
-    The disparity of the ellipse inscribed in a rectangle: the median or the mean (5) of its pixels'
-    disparities.
+    The disparity of an ellipse: the median or the mean (5) of its pixels' disparities.
 
-    Pixels are matched by sad_disparity in the images, which are first turned gray. Of an even number of
+    A pixel is inside if its center (column + 0.5, row + 0.5) is, as in ellipse_search. Pixels are
+    matched by sad_disparity in the images, which are first turned gray. Of an even number of
     disparities the median is the mean of the middle two.
 
     Args:
         left: uint8 (H, W, 3) BGR, rectified, at least one pixel
         right: uint8 (H, W, 3) BGR, or gray (H, W), of the same size
-        region: (x0, y0, x1, y1), pixels, sides of 1 to 16384; may extend beyond the image
+        ellipse: float64 (4,): center x, y, semi-axes along x (minor) and y (major), pixels of the left
+            image, finite, axes above 0 and at most 4096; may extend beyond the image
         first, last: range of disparities, both included, at most 4096 of them; first may be negative
         window: side, pixels, odd: 1 to 31 with the prefilter, 1 to 15 without, so that sums fit 16 bits
         uniqueness: percent, 0 to 100; 0 rejects nothing
@@ -1430,8 +1431,8 @@ def head_cells(
     Raises:
         ValueError: on images of different sizes, or values out of range
 
-    Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, sections 3.1 and 3.2, which don't define
-    their pixels of coherent depth: the definition is ours.
+    Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, sections 3.1 (colors) and 3.2 (disparities).
+    Which cells are at the head's depth is ours; the paper searches by colors alone.
     """
 
 def histogram_mean(
@@ -3739,7 +3740,7 @@ class Kernels(Protocol):
         self,
         left: numpy.typing.NDArray[numpy.uint8],
         right: numpy.typing.NDArray[numpy.uint8],
-        region: tuple[int, int, int, int],
+        ellipse: numpy.typing.NDArray[numpy.float64],
         first: int,
         last: int,
         window: int,

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/check.hpp"
+#include "base/ellipse_shape.hpp"
 #include "base/simd.hpp"
-#include "cues/color/detail/ellipse_shape.hpp"
 
 namespace tricue {
 namespace {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/check.hpp"
+#include "base/ellipse_shape.hpp"
 #include "base/simd.hpp"
 #include "cues/stereo/detail/cell_disparities.hpp"
 
@@ -75,14 +76,18 @@ int count_near(const float* values, std::size_t n, float disparity, float tolera
 
 }  // namespace
 
-EllipseDisparity ellipse_disparity(const ImageView& left, const ImageView& right, const Region& region,
+EllipseDisparity ellipse_disparity(const ImageView& left, const ImageView& right, VectorRef ellipse,
                                    const DisparityRange& range, const StereoMatching& matching,
                                    const DisparityStatistic& statistic) {
     if (!(statistic.tolerance >= 0.0F)) refuse("tolerance", "0 or more", statistic.tolerance);
-    Floats found = cell_disparities({left, right, 1}, {region, true}, range, matching);
+    require_ellipse(ellipse);
+    const EllipseShape shape(ellipse.data(), 1.0);
+    constexpr EllipseDisparity kNothing{std::numeric_limits<double>::quiet_NaN(), 0, 0};
+    if (shape.area == 0) return kNothing;
+    Floats found = cell_disparities({left, right, 1}, shape, CenterPixel(ellipse.data()), range, matching);
     const std::size_t count =
         pick_matched(found.data(), static_cast<std::size_t>(found.size()), statistic.subpixel);
-    if (count == 0) return {std::numeric_limits<double>::quiet_NaN(), 0, 0};
+    if (count == 0) return kNothing;
     const Values matched{found.data(), count};
     const double disparity = statistic.median ? take_median(matched, static_cast<float>(range.first) - 1.0F,
                                                             static_cast<float>(range.last) + 1.0F)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "base/arrays.hpp"
 #include "base/image_view.hpp"
-#include "base/region.hpp"
 #include "cues/stereo/sad_disparity.hpp"
 
 namespace tricue {
@@ -21,18 +21,19 @@ struct EllipseDisparity {
     int near;          ///< of these, pixels that differ from it by at most the tolerance
 };
 
-/// The disparity of the ellipse inscribed in a rectangle: the median or the mean (5) of its pixels' disparities.
+/// The disparity of an ellipse: the median or the mean (5) of its pixels' disparities.
 ///
-/// Pixels are matched by sad_disparity in the images, which are first turned gray. Of an even number of disparities the median is
-/// the mean of the middle two.
+/// A pixel is inside if its center (column + 0.5, row + 0.5) is, as in ellipse_search. Pixels are matched by sad_disparity in the
+/// images, which are first turned gray. Of an even number of disparities the median is the mean of the middle two.
 ///
 /// @param left uint8 (H, W, 3) BGR, rectified, at least one pixel
 /// @param right uint8 (H, W, 3) BGR, or gray (H, W), of the same size
-/// @param region (x0, y0, x1, y1), pixels, sides of 1 to 16384; may extend beyond the image
+/// @param ellipse float64 (4,): center x, y, semi-axes along x (minor) and y (major), pixels of the left image, finite, axes above 0
+///     and at most 4096; may extend beyond the image
 /// @param tolerance a pixel is near that disparity if it differs by at most this, pixels, 0 or more
 /// @throws std::invalid_argument on images of different sizes, or values out of range
 /// Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.2, equations (3) to (5); the median is ours.
-EllipseDisparity ellipse_disparity(const ImageView& left, const ImageView& right, const Region& region,
+EllipseDisparity ellipse_disparity(const ImageView& left, const ImageView& right, VectorRef ellipse,
                                    const DisparityRange& range, const StereoMatching& matching,
                                    const DisparityStatistic& statistic);
 

@@ -41,8 +41,8 @@ struct HeadCells {
 /// @param first, last range of disparities, cells, both included, at most 4096 of them
 /// @param window side of the matching window, cells, as sad_disparity takes it
 /// @throws std::invalid_argument on images of different sizes, or values out of range
-/// Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, sections 3.1 and 3.2, which don't define their pixels of coherent
-/// depth: the definition is ours.
+/// Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, sections 3.1 (colors) and 3.2 (disparities). Which cells are at the head's
+/// depth is ours; the paper searches by colors alone.
 HeadCells head_cells(const ImageView& left, const ImageView& right, const Region& region, int step,
                      const ColorSpace& space, const std::array<double, 3>* gains, const HeadDepth& depth,
                      const DisparityRange& range, const StereoMatching& matching);

@@ -11,7 +11,8 @@ from numpy.testing import assert_array_equal
 from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
-from tricue.reference.cues.color.detail.ellipse_shape import count, mask_of
+from tricue.reference.base.ellipse_shape import mask_of
+from tricue.reference.cues.color.detail.ellipse_counts import count
 
 SIZE = 12
 NO_BIN = 65535

@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
-from tricue.reference.cues.color.detail.ellipse_shape import count, masks_of
+from tricue.reference.cues.color.detail.ellipse_counts import count, masks_of
 
 Bins = NDArray[np.uint16]
 Floats = NDArray[np.float64]

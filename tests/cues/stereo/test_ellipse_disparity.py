@@ -11,13 +11,14 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
+from tricue.reference.base.ellipse_shape import mask_of
 
 Image = NDArray[np.uint8]
 SEARCH = ("first", "last", "window", "uniqueness", "prefilter")
 
 
 def case(seed: int) -> dict[str, Any]:
-    """Arguments: pairs of noise, shifted or unlike, color and gray, with regions over their edges."""
+    """Arguments: pairs of noise, shifted or unlike, color and gray, with ellipses over their edges."""
     rng = np.random.default_rng(seed)
     shape = int(rng.integers(1, 50)), int(rng.integers(1, 90))
     left, right = rng.integers(0, 256, (2, *shape, 3)).astype(np.uint8)
@@ -29,11 +30,11 @@ def case(seed: int) -> dict[str, Any]:
         right = np.ascontiguousarray(right[..., 1])
     if rng.random() < 0.3:
         left = np.ascontiguousarray(left[..., 1])
-    x, y, first = (int(each) for each in rng.integers((-12, -12, -6), (80, 40, 7)))
+    first = int(rng.integers(-6, 7))
     return {
         "left": left,
         "right": right,
-        "region": (x, y, x + int(rng.integers(1, 60)), y + int(rng.integers(1, 50))),
+        "ellipse": rng.uniform((-12, -12, 0.2, 0.2), (100, 60, 30, 25)).round(int(rng.integers(0, 3))) + 1e-3,
         "first": first,
         "last": first + int(rng.integers(0, 40)),
         "window": int(rng.choice([1, 3, 5, 11])),
@@ -62,8 +63,11 @@ def test_agrees_with_numpy_on_the_whole_images(seed: int) -> None:
     """
     arguments = case(seed)
     gray = [_core.reduce_gray(arguments[name], 1) for name in ("left", "right")]
-    found = _core.sad_disparity(*gray, arguments["region"], True, *(arguments[name] for name in SEARCH))
-    matched = found[np.isfinite(found)]
+    height, width = gray[0].shape
+    found = _core.sad_disparity(*gray, (0, 0, width, height), False, *(arguments[name] for name in SEARCH))
+    x, y, minor, major = arguments["ellipse"]
+    row, column = np.mgrid[:height, :width] + 0.5
+    matched = found[(((column - x) / minor) ** 2 + ((row - y) / major) ** 2 <= 1) & np.isfinite(found)]
     if not arguments["subpixel"]:
         matched = np.ceil(matched - np.float32(0.5))
     disparity, count, near = _core.ellipse_disparity(**arguments)
@@ -83,11 +87,11 @@ def test_agrees_with_numpy_on_the_whole_images(seed: int) -> None:
 @pytest.mark.parametrize("median", [True, False])
 @pytest.mark.parametrize("disparity", [0, 7, 40, -3])
 def test_a_shifted_picture_has_that_disparity(kernels: Kernels, disparity: int, median: bool) -> None:
-    """What lies at one disparity has it, and all pixels are near it."""
+    """What lies at one disparity has it, and all pixels of the ellipse are near it."""
     left = np.random.default_rng(2).integers(0, 256, (60, 160, 3)).astype(np.uint8)
     found = kernels.ellipse_disparity(
-        left, np.roll(left, -disparity, 1), (70, 20, 90, 44), disparity - 5, disparity + 6, 5, 5, True, False,
-        median, 0.0,
+        left, np.roll(left, -disparity, 1), np.array([80.0, 32, 10, 12]), disparity - 5, disparity + 6, 5, 5,
+        True, False, median, 0.0,
     )  # fmt: skip
     assert found[0] == disparity
     assert found[1] == found[2]
@@ -99,7 +103,7 @@ def test_the_median_leaves_out_what_is_behind(kernels: Kernels) -> None:
     left = np.random.default_rng(3).integers(0, 256, (60, 160, 3)).astype(np.uint8)
     right = np.roll(left, -10, 1)
     right[:27] = np.roll(left, -4, 1)[:27]
-    arguments = (left, right, (60, 20, 90, 44), 0, 14, 5, 5, True, False)
+    arguments = (left, right, np.array([75.0, 32, 15, 12]), 0, 14, 5, 5, True, False)
     median, _, near = kernels.ellipse_disparity(*arguments, True, 0.5)
     mean, count, _ = kernels.ellipse_disparity(*arguments, False, 0.5)
     assert median == 10
@@ -107,11 +111,37 @@ def test_the_median_leaves_out_what_is_behind(kernels: Kernels) -> None:
     assert 0.6 < near / count < 0.8
 
 
+@given(st.integers(0, 2**32))
+def test_the_pixels_are_those_of_the_color_search(seed: int) -> None:
+    """The ellipse has the pixels whose colors ellipse_search counts: wherever it lies, one disparity for the
+    whole image matches as many.
+    """
+    rng = np.random.default_rng(seed)
+    ellipse = rng.uniform((0, 0, 0.2, 0.2), (60, 40, 9, 9))
+    image = np.zeros((40, 60), np.uint8)
+    _, count, near = _core.ellipse_disparity(image, image, ellipse, 0, 0, 1, 0, False, True, False, 0.0)
+    assert count == near == mask_of(ellipse, image.shape).sum()
+
+
+@pytest.mark.parametrize("place", [(-300.0, 20.0), (20.0, 1e300), (-(2.0**31), 2.0**31)])
+def test_an_ellipse_outside_or_between_pixels_has_none(kernels: Kernels, place: tuple[float, float]) -> None:
+    """Far from the image, or so small that it contains no pixel's center, it has no disparity."""
+    image = np.zeros((40, 60, 3), np.uint8)
+    rest = (0, 4, 5, 0, False, True, False, 0.0)
+    for ellipse in (np.array([*place, 5, 6]), np.array([20.0, 20.0, 0.4, 0.4])):
+        disparity, count, near = kernels.ellipse_disparity(image, image, ellipse, *rest)
+        assert math.isnan(disparity)
+        assert (count, near) == (0, 0)
+
+
 BAD: list[tuple[dict[str, Any], str]] = [
     ({"tolerance": -1.0}, "tolerance: expected 0 or more"),
     ({"tolerance": np.nan}, "tolerance: expected 0 or more"),
     ({"right": np.zeros((12, 15, 3), np.uint8)}, "right: expected the left image's shape"),
-    ({"region": (0, 0, 0, 4)}, "region: expected a width and height"),
+    ({"ellipse": np.array([2.0, 2, 0, 4])}, "ellipse: expected semi-axes above 0"),
+    ({"ellipse": np.array([2.0, 2, 3, 4097])}, "ellipse: expected semi-axes of at most 4096 pixels, got"),
+    ({"ellipse": np.array([2.0, np.nan, 3, 4])}, "ellipse: expected finite numbers"),
+    ({"ellipse": np.ones(3)}, r"ellipse: expected shape \(4,\)"),
     ({"last": -1}, "last: expected at least first"),
     ({"window": 4}, "window: expected an odd number"),
     ({"uniqueness": 101}, "uniqueness: expected 0 to 100"),
@@ -122,6 +152,7 @@ BAD: list[tuple[dict[str, Any], str]] = [
 def test_bad_values_are_refused(kernels: Kernels, changes: dict[str, Any], text: str) -> None:
     """Errors name the argument, what was expected and what came."""
     image = np.zeros((12, 16, 3), np.uint8)
-    arguments = case(0) | {"left": image, "right": image, "region": (0, 0, 4, 5), "first": 0, "last": 4}
+    ellipse = np.array([3.0, 3, 2, 2.5])
+    arguments = case(0) | {"left": image, "right": image, "ellipse": ellipse, "first": 0, "last": 4}
     with pytest.raises(ValueError, match=text):
         kernels.ellipse_disparity(**arguments | changes)

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/ellipse_shape.hpp"
 #include "cues/color/detail/compact_bins.hpp"
-#include "cues/color/detail/ellipse_shape.hpp"
 
 namespace tricue {
 

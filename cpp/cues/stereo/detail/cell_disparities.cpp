@@ -48,7 +48,7 @@ struct EllipseRows {
     }
 };
 
-void require_arguments(const CellPair& pair, const StereoRegion& region, const DisparityRange& range,
+void require_arguments(const CellPair& pair, const Region& place, const DisparityRange& range,
                        const StereoMatching& matching) {
     const auto& [left, right, step] = pair;
     const auto size = [](const ImageView& image) { return shape_text(image.rows, image.cols); };
@@ -56,7 +56,7 @@ void require_arguments(const CellPair& pair, const StereoRegion& region, const D
     if (size(left) != size(right)) refuse("right", "the left image's shape " + size(left), size(right));
     if (step < 1 || step > std::min(left.rows, left.cols))
         refuse("step", "1 to the image's smaller side", step);
-    const auto [x0, y0, x1, y1] = region.place;
+    const auto [x0, y0, x1, y1] = place;
     const auto width = std::int64_t{x1} - x0, height = std::int64_t{y1} - y0;
     if (std::min(width, height) < 1 || std::max(width, height) > kMaxSide)
         refuse("region", "a width and height of 1 to 16384",
@@ -154,16 +154,14 @@ private:
     Costs costs_;  ///< the rows of Matches
 };
 
-}  // namespace
-
-Floats cell_disparities(const CellPair& pair, const StereoRegion& region, const DisparityRange& range,
-                        const StereoMatching& matching) {
-    require_arguments(pair, region, range, matching);
+/// span(y) gives the columns [begin, end) of row y that are matched.
+template <typename Span>
+Floats match_rows(const CellPair& pair, const Region& place, const DisparityRange& range,
+                  const StereoMatching& matching, const Span& span) {
+    require_arguments(pair, place, range, matching);
     const GrayCells left(pair.left, pair.step), right(pair.right, pair.step);
-    const auto [left_end, top, right_end, bottom] = region.place;
-    const int width = right_end - left_end, height = bottom - top;
-    Floats disparity = Floats::Constant(height, width, kNone);
-    const Region visible = region.place.clipped({nullptr, left.rows(), left.cols(), 1, 0});
+    Floats disparity = Floats::Constant(place.y1 - place.y0, place.x1 - place.x0, kNone);
+    const Region visible = place.clipped({nullptr, left.rows(), left.cols(), 1, 0});
     const auto in_view = [&](const Region& part) {
         return DisparityRange{std::max(range.first, part.x0 - (left.cols() - 1)),
                               std::min(range.last, part.x1 - 1)};
@@ -172,11 +170,6 @@ Floats cell_disparities(const CellPair& pair, const StereoRegion& region, const 
     if (visible.x0 >= visible.x1 || visible.y0 >= visible.y1 || visible_range.first > visible_range.last)
         return disparity;
 
-    const EllipseRows ellipse{width, height};
-    const auto span = [&](int y) {
-        const int margin = region.ellipse ? ellipse.margin(y - region.place.y0) : 0;
-        return std::pair(region.place.x0 + margin, region.place.x1 - margin);
-    };
     const auto uniqueness = static_cast<unsigned>(matching.uniqueness);
     const auto match = [&](const Region& part) {
         const DisparityRange within = in_view(part);
@@ -186,7 +179,7 @@ Floats cell_disparities(const CellPair& pair, const StereoRegion& region, const 
         std::optional<LeftRightCheck> left_right;
         if (matching.tolerance >= 0) left_right.emplace(part.x0 - within.last, part.x1 - within.first);
         matcher.run(uniqueness > 0, span, [&](int y, int x0, int x1, const Matches& matches) {
-            float* row = &disparity(y - region.place.y0, x0 - region.place.x0);
+            float* row = &disparity(y - place.y0, x0 - place.x0);
             refine_matches(matches, x1 - x0, within.first, candidates, uniqueness, row);
             if (left_right) left_right->check(matches, x0, x1, within.first, matching.tolerance, row);
         });
@@ -197,6 +190,29 @@ Floats cell_disparities(const CellPair& pair, const StereoRegion& region, const 
     for (int x = visible.x0; x < visible.x1; x += strip)
         match({x, visible.y0, std::min(x + strip, visible.x1), visible.y1});
     return disparity;
+}
+
+}  // namespace
+
+Floats cell_disparities(const CellPair& pair, const StereoRegion& region, const DisparityRange& range,
+                        const StereoMatching& matching) {
+    const Region& place = region.place;
+    return match_rows(pair, place, range, matching, [&](int y) {
+        const EllipseRows ellipse{place.x1 - place.x0, place.y1 - place.y0};
+        const int margin = region.ellipse ? ellipse.margin(y - place.y0) : 0;
+        return std::pair(place.x0 + margin, place.x1 - margin);
+    });
+}
+
+Floats cell_disparities(const CellPair& pair, const EllipseShape& shape, const CenterPixel& center,
+                        const DisparityRange& range, const StereoMatching& matching) {
+    const auto [begin, end] = shape.column_range();
+    const int top = center.y + shape.top;
+    const Region place{center.x + begin, top, center.x + end, center.y + shape.bottom()};
+    return match_rows(pair, place, range, matching, [&](int y) {
+        const EllipseShape::Run& run = shape.runs[static_cast<std::size_t>(y - top)];
+        return std::pair(center.x + run.begin, center.x + run.end);
+    });
 }
 
 }  // namespace tricue

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/arrays.hpp"
+#include "base/ellipse_shape.hpp"
 #include "base/image_view.hpp"
 #include "cues/stereo/sad_disparity.hpp"
 
@@ -18,5 +19,9 @@ struct CellPair {
 /// Throws std::invalid_argument like these two kernels.
 Floats cell_disparities(const CellPair& pair, const StereoRegion& region, const DisparityRange& range,
                         const StereoMatching& matching);
+
+/// The same for the cells of a shape, not empty, around a cell; NaN for the others of the rectangle around it.
+Floats cell_disparities(const CellPair& pair, const EllipseShape& shape, const CenterPixel& center,
+                        const DisparityRange& range, const StereoMatching& matching);
 
 }  // namespace tricue

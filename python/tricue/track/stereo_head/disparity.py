@@ -13,6 +13,7 @@ from tricue.track.stereo_head.prepared_pair import Disparities, Ellipse, Prepare
 from tricue.track.stereo_head.stereo_geometry import StereoGeometry
 
 MIN_MATCHED_PIXELS = 8  # of an ellipse
+MIN_SEMI_AXIS = 1.75  # pixels, of an ellipse without its margin: enough of its pixels are left
 MAX_CANDIDATE_DISPARITIES = 4000  # per search
 
 
@@ -31,12 +32,12 @@ def measure_disparity(
     limits: lowest and highest disparity, pixels, inclusive. None if too few pixels are matched.
     """
     (first, last), window = limits, pair.pixel_window(p)
-    region, area = _inner_region(ellipse, window, p)
+    inner = _without_margin(ellipse, window, p)
     disparity, matched, near = k.ellipse_disparity(
-        pair.left, pair.right, region, first, last, window, p.uniqueness, p.prefilter,
+        pair.left, pair.right, np.array(inner), first, last, window, p.uniqueness, p.prefilter,
         p.subpixel, p.disparity_statistic == "median", p.disparity_tolerance * pair.step,
     )  # fmt: skip
-    return None if matched < MIN_MATCHED_PIXELS else EllipseDisparity(disparity, near / area)
+    return None if matched < MIN_MATCHED_PIXELS else EllipseDisparity(disparity, near / _area(inner))
 
 
 def find_initial_disparity(
@@ -81,20 +82,23 @@ def _match(
     k: Kernels, pair: PreparedPair, ellipse: Ellipse, limits: tuple[int, int], p: StereoHeadParams
 ) -> tuple[Disparities, float]:
     """The disparities (N,) found in an ellipse without its margin, and that ellipse's number of pixels."""
-    region, area = _inner_region(ellipse, pair.pixel_window(p), p)
+    x, y, minor, major = inner = _without_margin(ellipse, pair.pixel_window(p), p)
+    region = (math.floor(x - minor), math.floor(y - major), math.ceil(x + minor), math.ceil(y + major))
     disparities = pair.disparities(k, region, limits, p, ellipse=True, cells=False)
     matched = disparities[np.isfinite(disparities)]
     if not p.subpixel:
         matched = np.ceil(matched - np.float32(0.5))  # of two equal costs the smaller disparity, as in (3)
-    return matched, area
+    return matched, _area(inner)
 
 
-def _inner_region(
-    ellipse: Ellipse, window: int, p: StereoHeadParams
-) -> tuple[tuple[int, int, int, int], float]:
-    """The rectangle, pixels, around an ellipse without its margin, and that ellipse's number of pixels."""
+def _without_margin(ellipse: Ellipse, window: int, p: StereoHeadParams) -> Ellipse:
+    """The ellipse without its margin, which takes at most half of each semi-axis, and less of short ones."""
     margin = p.ellipse_margin * window
-    x, y, minor, major = ellipse
-    minor, major = max(minor - margin, minor / 2), max(major - margin, major / 2)
-    region = (math.floor(x - minor), math.floor(y - major), math.ceil(x + minor), math.ceil(y + major))
-    return region, math.pi * minor * major
+    x, y, *axes = ellipse
+    minor, major = (max(axis - margin, axis / 2, min(axis, MIN_SEMI_AXIS)) for axis in axes)
+    return x, y, minor, major
+
+
+def _area(ellipse: Ellipse) -> float:
+    """The number of pixels in an ellipse."""
+    return math.pi * ellipse[2] * ellipse[3]

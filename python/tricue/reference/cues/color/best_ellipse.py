@@ -6,7 +6,8 @@ from numpy.typing import NDArray
 
 from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse
-from tricue.reference.cues.color.detail.ellipse_shape import count, mask_of
+from tricue.reference.base.ellipse_shape import mask_of
+from tricue.reference.cues.color.detail.ellipse_counts import count
 from tricue.reference.cues.color.detail.search_grid import Grid, places
 from tricue.reference.cues.color.ellipse_search import ellipse_search
 

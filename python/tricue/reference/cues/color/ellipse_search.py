@@ -6,13 +6,8 @@ from numpy.typing import NDArray
 
 from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse, require_finite
-from tricue.reference.cues.color.detail.ellipse_shape import (
-    NO_BIN,
-    count,
-    masks_of,
-    require_bins,
-    require_ellipse,
-)
+from tricue.reference.base.ellipse_shape import require_ellipse
+from tricue.reference.cues.color.detail.ellipse_counts import NO_BIN, count, masks_of, require_bins
 from tricue.reference.cues.color.detail.search_grid import Grid, places, require_grid
 
 Bins = NDArray[np.uint16]

@@ -5,15 +5,18 @@ import math
 
 import numpy as np
 
-from tricue.reference.base.arrays import Image
+from tricue.reference.base.arrays import Floats, Image
 from tricue.reference.base.checks import refuse
+from tricue.reference.base.ellipse_shape import mask_of, require_ellipse
 from tricue.reference.cues.stereo.detail.cell_disparities import cell_disparities
+
+FARTHEST = 2**30  # pixels, beyond any image
 
 
 def ellipse_disparity(
     left: Image,
     right: Image,
-    region: tuple[int, int, int, int],
+    ellipse: Floats,
     first: int,
     last: int,
     window: int,
@@ -23,11 +26,19 @@ def ellipse_disparity(
     median: bool,
     tolerance: float,
 ) -> tuple[float, int, int]:
-    """Computes the median or the mean of all disparities found, and counts those near it."""
+    """Matches the rectangle around the ellipse, then computes the median or the mean inside."""
     if not tolerance >= 0:
         refuse("tolerance", "0 or more", float(tolerance))
-    found = cell_disparities(left, right, 1, region, True, first, last, window, uniqueness, prefilter)
-    matched = found[np.isfinite(found)]
+    require_ellipse(ellipse)
+    ellipse = np.append(np.clip(ellipse[:2], -FARTHEST, FARTHEST), ellipse[2:])
+    x0, y0 = np.floor(ellipse[:2] - ellipse[2:]).astype(int).tolist()
+    x1, y1 = np.ceil(ellipse[:2] + ellipse[2:]).astype(int).tolist()
+    inside = mask_of(ellipse, (y1 - y0, x1 - x0), (x0, y0))
+    if not inside.any():
+        return math.nan, 0, 0
+    around = (x0, y0, x1, y1)
+    found = cell_disparities(left, right, 1, around, False, first, last, window, uniqueness, prefilter)
+    matched = found[inside & np.isfinite(found)]
     if matched.size == 0:
         return math.nan, 0, 0
     if not subpixel:

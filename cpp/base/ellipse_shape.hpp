@@ -36,6 +36,6 @@ struct EllipseShape {
 };
 
 /// Throws std::invalid_argument unless an ellipse (4,) is finite, with semi-axes in (0, 4096 / margin], and margin is in [1, 16].
-void require_ellipse(VectorRef ellipse, double margin);
+void require_ellipse(VectorRef ellipse, double margin = 1.0);
 
 }  // namespace tricue

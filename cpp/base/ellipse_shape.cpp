@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "cues/color/detail/ellipse_shape.hpp"
+#include "base/ellipse_shape.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "base/check.hpp"
 
@@ -56,7 +57,9 @@ void require_ellipse(VectorRef ellipse, double margin) {
     const auto [least, most] = std::minmax({ellipse[2], ellipse[3]});
     if (!(least > 0.0)) refuse("ellipse", "semi-axes above 0", least);
     if (margin * most > kMaxSemiAxis)
-        refuse("ellipse", "semi-axes of at most 4096 pixels with the margin", margin * most);
+        refuse("ellipse",
+               std::string("semi-axes of at most 4096 pixels") + (margin > 1.0 ? " with the margin" : ""),
+               margin * most);
 }
 
 }  // namespace tricue
