@@ -155,12 +155,28 @@ TRICUE_INLINE double sum(const Pack<double, 4>& lanes) {
     return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
-/// Which of eight bytes aren't 0: bit i for byte i. All machines that tricue is built for are little-endian.
-TRICUE_INLINE std::uint64_t nonzero_bytes(std::uint64_t bytes) {
+/// Which of 64 bytes aren't 0: bit i for byte i. All machines that tricue is built for are little-endian.
+TRICUE_INLINE std::uint64_t nonzero_bytes(const std::uint8_t* bytes) {
+    std::uint64_t bits = 0;
+#if defined(__SSE2__)
+    for (int i = 0; i < 64; i += 16) {
+        Pack<char, 16> some;
+        load(bytes + i, some);
+        const Pack<char, 16> zero = some == 0;
+        const auto none = static_cast<std::uint16_t>(__builtin_ia32_pmovmskb128(zero));
+        bits |= std::uint64_t{static_cast<std::uint16_t>(~none)} << i;
+    }
+#else
     constexpr std::uint64_t kLow = 0x7F7F7F7F7F7F7F7F, kOnes = 0x0101010101010101,
                             kGather = 0x0102040810204080;
-    const std::uint64_t ones = ((((bytes & kLow) + kLow) | bytes) >> 7) & kOnes;
-    return (ones * kGather) >> 56;
+    for (int i = 0; i < 64; i += 8) {
+        std::uint64_t eight;
+        load(bytes + i, eight);
+        const std::uint64_t ones = ((((eight & kLow) + kLow) | eight) >> 7) & kOnes;
+        bits |= (ones * kGather) >> 56 << i;
+    }
+#endif
+    return bits;
 }
 
 /// The index of the lowest set bit; at least one must be set.

@@ -41,22 +41,21 @@ struct PaddedDepth {
     DepthView view() { return {row(0), rows, cols, std::ptrdiff_t{cols} + 2}; }
 };
 
-constexpr int kBlock = 64;  // pixels, so that loops over a row have no remainder
+constexpr int kWord = 64;  // pixels, a bit for each
 
-/// `known` has whole blocks and four more bytes, all 0 beyond the end of the row: pixels there count as not measured.
+/// Of a row. `known` has whole words and one more, all 0 beyond the end of the row: pixels there count as not measured.
 TRICUE_MULTIVERSION
 void count_gaps(const float* __restrict depth, int n, std::uint8_t* __restrict known, std::int32_t* measured,
                 std::int32_t* gaps) {
     for_overlapping_blocks(n, [=](std::ptrdiff_t x) { known[x] = has_depth(depth[x]); });
     std::int32_t all = 0, short_gaps = 0;
-    for (int first = 0; first < n; first += kBlock, known += kBlock) {
-        std::uint8_t here[kBlock], gap[kBlock];
-        for (int x = 0; x < kBlock; ++x) {
-            here[x] = known[x];
-            gap[x] = known[x] & (known[x + 1] ^ 1) & (known[x + 2] | known[x + 3] | known[x + 4]);
-        }
-        for (int x = 0; x < kBlock; ++x) all += here[x];
-        for (int x = 0; x < kBlock; ++x) short_gaps += gap[x];
+    std::uint64_t here = nonzero_bytes(known);
+    for (int first = 0; first < n; first += kWord) {
+        const std::uint64_t next = nonzero_bytes(known + first + kWord);
+        const auto ahead = [=](int pixels) { return here >> pixels | next << (kWord - pixels); };
+        all += count_bits(here);
+        short_gaps += count_bits(here & ~ahead(1) & (ahead(2) | ahead(3) | ahead(4)));
+        here = next;
     }
     *measured = all;
     *gaps = short_gaps;
@@ -114,8 +113,8 @@ void require_gaps(const Gaps& gaps) {
 }
 
 bool is_ragged(const DepthView& depth, double share) {
-    const int blocks = (depth.cols + kBlock - 1) / kBlock;
-    std::vector<std::uint8_t> known(static_cast<std::size_t>(blocks * kBlock) + 4);
+    const int words = (depth.cols + kWord - 1) / kWord + 1;
+    std::vector<std::uint8_t> known(static_cast<std::size_t>(words) * kWord);
     std::int64_t measured = 0, gaps = 0;
     for (int y = 0; y < depth.rows; ++y) {
         std::int32_t measured_here = 0, gaps_here = 0;

@@ -37,11 +37,11 @@ public:
     /// Sets the bits of the row's bytes that aren't 0.
     void read(int y, const std::uint8_t* bytes) {
         int i = 0;
-        for (; (i + 1) * kWord <= cols_; ++i) word(y, i) = read_word(bytes + i * kWord);
+        for (; (i + 1) * kWord <= cols_; ++i) word(y, i) = nonzero_bytes(bytes + i * kWord);
         if (i == words_) return;
         std::array<std::uint8_t, kWord> last{};
         std::copy(bytes + i * kWord, bytes + cols_, last.data());
-        word(y, i) = read_word(last.data());
+        word(y, i) = nonzero_bytes(last.data());
     }
 
     /// The set pixels of a word with a set pixel among their 8 neighbors.
@@ -59,16 +59,6 @@ private:
     /// Pixels with a set one to their left or right.
     TRICUE_INLINE static std::uint64_t beside(const std::uint64_t* word) {
         return word[0] << 1 | word[-1] >> 63 | word[0] >> 1 | word[1] << 63;
-    }
-
-    static std::uint64_t read_word(const std::uint8_t* bytes) {
-        std::uint64_t bits = 0;
-        for (int i = 0; i < kWord; i += 8) {
-            std::uint64_t eight;
-            std::memcpy(&eight, bytes + i, sizeof eight);
-            bits |= nonzero_bytes(eight) << i;
-        }
-        return bits;
     }
 
     int cols_, words_;
