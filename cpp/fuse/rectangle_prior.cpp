@@ -1,33 +1,85 @@
 // SPDX-License-Identifier: MIT
 #include "fuse/rectangle_prior.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
 #include <string>
 #include <utility>
 
 #include "base/check.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 namespace {
 
 using Index = Eigen::Index;
 
-double square(double x) {
-    return x * x;
+TRICUE_INLINE double as_double(std::uint64_t bits) {
+    double number;
+    std::memcpy(&number, &bits, sizeof number);
+    return number;
 }
 
-double log_size(const double* size, const MeanSize& mean) {
-    double sum = 0.0;
-    for (Index i = 0; i < 2; ++i) sum += square(std::log(size[i] / mean.size[i]) / mean.spread[i]);
-    return -0.5 * sum;
+/// Logarithms of normal numbers above 0, within an ulp, in place: those of fdlibm (Sun, 1993) for many numbers at once.
+///     x = 2^k (1 + f), 1 + f in [sqrt(1/2), sqrt(2)),  log(1 + f) = f - f²/2 + s (f²/2 + R(s²)),  s = f / (2 + f)
+TRICUE_MULTIVERSION
+void take_logs(double* __restrict numbers, std::ptrdiff_t n) {
+    constexpr std::uint64_t kOne = 0x3FF0000000000000, kRoot = 0x3FE6A09E00000000,
+                            kMantissa = 0xFFFFFFFFFFFFF, kTwo52 = 0x4330000000000000;
+    constexpr double kLog2High = 6.93147180369123816490e-01, kLog2Low = 1.90821492927058770002e-10;
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+        std::uint64_t bits;
+        std::memcpy(&bits, numbers + i, sizeof bits);
+        const std::uint64_t from_root = bits + (kOne - kRoot);
+        const double k = as_double(kTwo52 | from_root >> 52) - (4503599627370496.0 + 1023.0);
+        const double f = as_double((from_root & kMantissa) + kRoot) - 1.0, s = f / (2.0 + f), z = s * s,
+                     w = z * z, half = 0.5 * f * f;
+        const double even =
+            w * (3.999999999940941908e-01 + w * (2.222219843214978396e-01 + w * 1.531383769920937332e-01));
+        const double odd =
+            z *
+            (6.666666666666735130e-01 +
+             w * (2.857142874366239149e-01 + w * (1.818357216161805012e-01 + w * 1.479819860511658591e-01)));
+        numbers[i] = s * (half + (odd + even)) + k * kLog2Low - half + f + k * kLog2High;
+    }
 }
 
-double log_measured(const double* state, const MeasuredState& measured) {
-    double sum = 0.0;
-    for (Index i = 0; i < measured.state.size(); ++i)
-        sum += square((state[i] - measured.state[i]) / measured.deviation[i]);
-    return -std::min(0.5 * sum, measured.max_cost);
+/// Adds the squares of (x - middle) / deviation.
+TRICUE_MULTIVERSION
+void add_squares(const double* __restrict x, std::ptrdiff_t n, double middle, double deviation,
+                 double* __restrict sums) {
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+        const double off = (x[i] - middle) / deviation;
+        sums[i] += off * off;
+    }
+}
+
+/// One column of the states after the other, so that all of them are computed at once.
+Vector log_sizes(StatesRef states, const MeanSize& mean) {
+    constexpr double kLeast = std::numeric_limits<double>::min(), kMost = std::numeric_limits<double>::max();
+    const Index n = states.rows(), first = states.cols() - 2;
+    Vector sums = Vector::Zero(n), relative(n);
+    for (Index i = 0; i < 2; ++i) {
+        relative = states.col(first + i) / mean.size[i];
+        if ((relative >= kLeast && relative <= kMost).all())
+            take_logs(relative.data(), n);
+        else
+            for (double& each : relative) each = std::log(each);
+        add_squares(relative.data(), n, 0.0, mean.spread[i], sums.data());
+    }
+    return -0.5 * sums;
+}
+
+Vector log_measured(StatesRef states, const MeasuredState& measured) {
+    const Index n = states.rows();
+    Vector sums = Vector::Zero(n), numbers(n);
+    for (Index i = 0; i < measured.state.size(); ++i) {
+        numbers = states.col(i);
+        add_squares(numbers.data(), n, measured.state[i], measured.deviation[i], sums.data());
+    }
+    return -(0.5 * sums).min(measured.max_cost);
 }
 
 void require_positive(VectorRef values, const char* name) {
@@ -58,12 +110,7 @@ void require_arguments(StatesRef states, const MeanSize& mean, const MeasuredSta
 
 Vector rectangle_prior(StatesRef states, const MeanSize& mean, const MeasuredState& measured) {
     require_arguments(states, mean, measured);
-    Vector log_likelihood(states.rows());
-    for (Index i = 0; i < states.rows(); ++i) {
-        const double* state = states.row(i).data();
-        log_likelihood[i] = log_size(state + states.cols() - 2, mean) + log_measured(state, measured);
-    }
-    return log_likelihood;
+    return log_sizes(states, mean) + log_measured(states, measured);
 }
 
 }  // namespace tricue

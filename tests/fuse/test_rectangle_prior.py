@@ -59,6 +59,16 @@ def test_agrees_with_densities(kernels: Kernels) -> None:
     )
 
 
+@pytest.mark.parametrize(("least", "most"), [(-1e-9, 1e-9), (-1.0, 1.0), (-300.0, 300.0), (-323.0, 308.0)])
+def test_sizes_of_any_magnitude(kernels: Kernels, least: float, most: float) -> None:
+    """Logarithms are NumPy's to 4 ulps: of sizes next to the mean one, far from it, and subnormal."""
+    size = 10.0 ** np.linspace(least, most, 101)
+    states = np.column_stack([size, size])
+    nothing = {"state": np.zeros(2), "deviation": np.full(2, np.inf), "max_cost": 0.0}
+    found = kernels.rectangle_prior(states=states, size=np.ones(2), spread=np.ones(2), **nothing)
+    assert_allclose(found, -(np.log(size) ** 2), rtol=(2 * 4 + 3) * EPS)
+
+
 def test_example_by_hand(kernels: Kernels) -> None:
     """One deviation off costs half a nat, two cost two, of size or state, and a far state costs the most."""
     size, spread = np.array([0.5, 2.0]), np.array([0.25, 0.5])
