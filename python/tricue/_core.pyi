@@ -764,10 +764,10 @@ def depth_distance(
 
     Every rectangle is read at the same n places: pixel (floor(y + height / 2 v), floor(x + width / 2
     u)) for each (u, v) of the pattern, in float64; pixel (0, 0) covers [0, 1) x [0, 1). A depth counts
-    where its level floor(((depth - z) + reach) (L / (2 reach))), in float64, is in [0, L); a place
-    outside the image or without a measurement does not. The histogram h of the depths that count,
-    divided by their number, has the distance sqrt(Σ (h - m)²) / sqrt 2 from the model m: equation (38)
-    over its maximum.
+    where its level floor((depth - (z - reach)) (L / (2 reach))) is in [0, L), in float32, to which z -
+    reach and L / (2 reach) are rounded; a place outside the image or without a measurement does not.
+    The histogram h of the depths that count, divided by their number, has the distance sqrt(Σ (h -
+    m)²) / sqrt 2 from the model m: equation (38) over its maximum.
 
     Args:
         depth: float32 (H, W), meters; may be empty

@@ -5,6 +5,7 @@
 #include "cues/depth/depth_contrast.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -22,7 +23,7 @@ using Offsets = std::vector<double>;
 
 constexpr int kMaxSamples = 64;
 constexpr int kBlock = 16;  // places, so that loops over them have no remainder
-constexpr Eigen::Index kBatch =
+constexpr std::size_t kBatch =
     8;  // rectangles that take each step together: their samples and counts fit the L1 cache
 
 /// The centers of n equal parts of [-1, 1].
@@ -40,7 +41,7 @@ std::size_t places_around(const Places& places) {
     return 4 * static_cast<std::size_t>(places.along);
 }
 
-/// Depths, 0 outside the image, padded with zeros as RelativeHistogram needs it.
+/// Depths of the places in the image, padded with zeros as RelativeHistogram needs it.
 struct DepthSamples {
     explicit DepthSamples(const Places& places)
         : inside(RelativeHistogram::padded(places_inside(places))),
@@ -70,6 +71,20 @@ void find_pixels(const double* __restrict offsets, std::ptrdiff_t n, double cent
         }
 }
 
+/// Consecutive places in the image, along one axis.
+struct Pixels {
+    const std::int32_t *first, *last;
+
+    const std::int32_t* begin() const { return first; }
+    const std::int32_t* end() const { return last; }
+};
+
+/// Reads the depths of places on a line of pixels that are `step` apart. Returns the end of what is written.
+TRICUE_INLINE float* read_line(const float* line, std::ptrdiff_t step, const Pixels& places, float* depths) {
+    for (const std::int32_t pixel : places) *depths++ = line[pixel * step];
+    return depths;
+}
+
 /// The places along one axis of a rectangle: those inside, its sides, and those along a side.
 class Axis {
 public:
@@ -90,22 +105,17 @@ public:
     /// Whether all places are in the image: those of the sides are the outermost.
     bool is_inside() const { return (pixel_[inside_] >= 0) & (pixel_[inside_ + 1] >= 0); }
 
-    /// Places ascend or descend, so those in the image are consecutive: [begin, end).
-    struct Pixels {
-        const std::int32_t* pixel;
-        std::size_t size, begin, end;
-    };
-
     Pixels inside() const { return part(0, inside_); }
     Pixels sides() const { return part(inside_, 2); }
     Pixels along() const { return part(inside_ + 2, along_.size()); }
 
 private:
+    /// Places ascend or descend, so those in the image are consecutive.
     Pixels part(std::size_t first, std::size_t n) const {
-        Pixels pixels{pixel_.data() + first, n, 0, n};
+        Pixels pixels{pixel_.data() + first, pixel_.data() + first + n};
         if (is_inside()) return pixels;
-        while (pixels.begin < n && pixels.pixel[pixels.begin] < 0) ++pixels.begin;
-        while (pixels.end > pixels.begin && pixels.pixel[pixels.end - 1] < 0) --pixels.end;
+        while (pixels.first != pixels.last && *pixels.first < 0) ++pixels.first;
+        while (pixels.first != pixels.last && pixels.last[-1] < 0) --pixels.last;
         return pixels;
     }
 
@@ -125,31 +135,17 @@ public:
     void read(const Rectangle& rectangle, DepthSamples& samples) {
         x_.find(rectangle.x, rectangle.half_width, depth_.cols);
         y_.find(rectangle.y, rectangle.half_height, depth_.rows);
-        read_grid(x_.inside(), y_.inside(), samples.inside.data());
-        float* around = samples.around.data();
-        read_grid(x_.sides(), y_.along(), around);
-        read_grid(x_.along(), y_.sides(), around + 2 * y_.along().size);
+        const Pixels columns = x_.inside(), across = x_.along(), down = y_.along();
+        float *inside = samples.inside.data(), *around = samples.around.data();
+        for (const std::int32_t row : y_.inside()) inside = read_line(depth_.row(row), 1, columns, inside);
+        for (const std::int32_t row : y_.sides()) around = read_line(depth_.row(row), 1, across, around);
+        for (const std::int32_t column : x_.sides())
+            around = read_line(depth_.data + column, depth_.stride, down, around);
+        std::fill(inside, samples.inside.data() + samples.inside.size(), 0.0f);
+        std::fill(around, samples.around.data() + samples.around.size(), 0.0f);
     }
 
 private:
-    void read_grid(const Axis::Pixels& across, const Axis::Pixels& down, float* samples) const {
-        if (across.end - across.begin < across.size || down.end - down.begin < down.size)
-            std::fill_n(samples, across.size * down.size, 0.0f);
-        std::size_t v = down.begin;
-        for (; v + 4 <= down.end; v += 4) read_rows<4>(across, down.pixel + v, samples + v * across.size);
-        for (; v + 2 <= down.end; v += 2) read_rows<2>(across, down.pixel + v, samples + v * across.size);
-        if (v < down.end) read_rows<1>(across, down.pixel + v, samples + v * across.size);
-    }
-
-    /// A few rows at once: a column is looked up once for all of them.
-    template <std::size_t kRows>
-    void read_rows(const Axis::Pixels& across, const std::int32_t* row, float* samples) const {
-        const float* from[kRows];
-        for (std::size_t i = 0; i < kRows; ++i) from[i] = depth_.row(row[i]);
-        for (std::size_t u = across.begin; u < across.end; ++u)
-            for (std::size_t i = 0; i < kRows; ++i) samples[i * across.size + u] = from[i][across.pixel[u]];
-    }
-
     DepthView depth_;
     Axis x_, y_;
 };
@@ -200,20 +196,26 @@ States RectangleContrast::measure(StatesRef states, bool with_nearer) {
     require_states(states);
     auto& [reader, camera, model, nearer, inside, around, samples, histograms] = *parts_;
     States measured(states.rows(), 4);
-    for (Eigen::Index first = 0; first < states.rows(); first += kBatch) {
-        const auto n = static_cast<std::size_t>(std::min(kBatch, states.rows() - first));
+    for (Eigen::Index first = 0; first < states.rows(); first += Eigen::Index{kBatch}) {
+        const auto n = std::min(kBatch, static_cast<std::size_t>(states.rows() - first));
         const double* state = states.row(first).data();
         for (std::size_t i = 0; i < n; ++i) reader.read(project(camera, state + 5 * i), samples[i]);
         for (std::size_t i = 0; i < n; ++i) histograms[i].read(samples[i].inside.data(), state[5 * i + 2]);
         for (std::size_t i = 0; i + 1 < n; i += 2) histograms[i].count_beside(histograms[i + 1]);
         if (n % 2 == 1) histograms[n - 1].count();
+        std::array<double, kBatch> squares{}, totals{}, distances{};
         for (std::size_t i = 0; i < n; ++i) {
             histograms[i].finish();
+            squares[i] = histograms[i].squared_differences(model.histogram);
+            totals[i] = histograms[i].total();
+        }
+        find_distances(squares.data(), totals.data(), kBatch, distances.data());
+        for (std::size_t i = 0; i < n; ++i) {
             const auto& [within, beside] = samples[i];
             const double z = state[5 * i + 2];
             double* to = measured.row(first + static_cast<Eigen::Index>(i)).data();
-            to[0] = histograms[i].distance(model.histogram);
-            to[1] = histograms[i].total() / inside;
+            to[0] = distances[i];
+            to[1] = totals[i] / inside;
             to[2] = with_nearer ? count_below(within.data(), within.size(), z - nearer) / inside : 0.0;
             to[3] = count_within(beside.data(), beside.size(), z, model.reach) / around;
         }

@@ -20,17 +20,25 @@ constexpr std::size_t whole_blocks(std::size_t n) {
     return (n + kBlock - 1) / kBlock * kBlock;
 }
 
+/// The levels of depths from `near` on, `scale` for each meter.
+struct LevelScale {
+    float near, scale;
+
+    LevelScale(double z, double reach, int levels)
+        : near(static_cast<float>(z - reach)), scale(static_cast<float>(levels / (2.0 * reach))) {}
+};
+
 /// Counts the level of each depth, or `levels` if it doesn't count. Neighbors count in different tables of `size` counters.
 TRICUE_MULTIVERSION
-void find_levels(const float* __restrict depth, std::size_t n, double z, double reach, int levels,
+void find_levels(const float* __restrict depth, std::size_t n, const LevelScale& by, int levels,
                  std::int32_t size, std::int32_t* __restrict level) {
-    const double scale = levels / (2.0 * reach), end = levels;
+    const float near = by.near, scale = by.scale, end = static_cast<float>(levels);
     std::int32_t table[kBlock];
     for (std::size_t i = 0; i < kBlock; ++i) table[i] = static_cast<std::int32_t>(i % kLanes) * size;
     for (std::size_t first = 0; first < n; first += kBlock, depth += kBlock, level += kBlock)
         for (std::size_t i = 0; i < kBlock; ++i) {
-            const double at = ((static_cast<double>(depth[i]) - z) + reach) * scale;
-            const bool counts = has_depth(depth[i]) & (at >= 0.0) & (at < end);
+            const float at = (depth[i] - near) * scale;
+            const bool counts = has_depth(depth[i]) & (at >= 0.0f) & (at < end);
             level[i] = static_cast<std::int32_t>(counts ? at : end) + table[i];
         }
 }
@@ -47,18 +55,19 @@ void add_tables(std::int32_t* __restrict counts, std::size_t size) {
 TRICUE_MULTIVERSION
 double squared_distance(const std::int32_t* __restrict counts, double total, const double* __restrict model,
                         std::size_t levels) {
-    double sums[kLanes] = {};
+    constexpr std::size_t kSums = 8;
+    double sums[kSums] = {};
     std::size_t level = 0;
-    for (; level + kLanes <= levels; level += kLanes)
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            const double difference = counts[level + lane] - total * model[level + lane];
-            sums[lane] += difference * difference;
+    for (; level + kSums <= levels; level += kSums)
+        for (std::size_t i = 0; i < kSums; ++i) {
+            const double difference = counts[level + i] - total * model[level + i];
+            sums[i] += difference * difference;
         }
     for (; level < levels; ++level) {
         const double difference = counts[level] - total * model[level];
         sums[0] += difference * difference;
     }
-    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
 }
 
 }  // namespace
@@ -78,7 +87,8 @@ RelativeHistogram::RelativeHistogram(Eigen::Index levels, double reach, std::siz
 }
 
 void RelativeHistogram::read(const float* depths, double z) {
-    find_levels(depths, level_.size(), z, reach_, levels_, static_cast<std::int32_t>(table_), level_.data());
+    find_levels(depths, level_.size(), {z, reach_, levels_}, levels_, static_cast<std::int32_t>(table_),
+                level_.data());
 }
 
 void RelativeHistogram::count() {
@@ -119,11 +129,23 @@ Vector RelativeHistogram::shares() const {
 }
 
 double RelativeHistogram::distance(VectorRef model) const {
-    const double counted = total();
-    if (counted == 0.0) return 1.0;
-    const double square =
-        squared_distance(counts_.data(), counted, model.data(), static_cast<std::size_t>(model.size()));
-    return std::min(std::sqrt(0.5 * square) / counted, 1.0);
+    const double square = squared_differences(model), counted = total();
+    double distance;
+    find_distances(&square, &counted, 1, &distance);
+    return distance;
+}
+
+double RelativeHistogram::squared_differences(VectorRef model) const {
+    return squared_distance(counts_.data(), total(), model.data(), static_cast<std::size_t>(model.size()));
+}
+
+TRICUE_MULTIVERSION
+void find_distances(const double* __restrict squares, const double* __restrict totals, std::size_t n,
+                    double* __restrict distances) {
+    for (std::size_t i = 0; i < n; ++i) {
+        const double distance = std::sqrt(0.5 * squares[i]) / totals[i];
+        distances[i] = (totals[i] > 0.0) & (distance < 1.0) ? distance : 1.0;
+    }
 }
 
 namespace {
@@ -143,11 +165,12 @@ int count_below(const float* depth, std::size_t n, double limit) {
 
 TRICUE_MULTIVERSION
 int count_within(const float* __restrict depth, std::size_t n, double z, double reach) {
-    const double scale = 1.0 / (2.0 * reach);
+    const LevelScale by(z, reach, 1);
+    const float near = by.near, scale = by.scale;
     int within = 0;
     for (std::size_t k = 0; k < n; ++k) {
-        const double at = ((static_cast<double>(depth[k]) - z) + reach) * scale;
-        within += has_depth(depth[k]) & (at >= 0.0) & (at < 1.0);
+        const float at = (depth[k] - near) * scale;
+        within += has_depth(depth[k]) & (at >= 0.0f) & (at < 1.0f);
     }
     return within;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -10,7 +11,8 @@ namespace tricue {
 
 /// A histogram of depths relative to a depth z: L levels of [-reach, reach) meters.
 ///
-/// A measured depth counts if its level floor(((depth - z) + reach) (L / (2 reach))), in float64, is in [0, L).
+/// A measured depth counts if its level floor((depth - (z - reach)) (L / (2 reach))) is in [0, L). In float32, to which z - reach and
+/// L / (2 reach) are rounded.
 class RelativeHistogram {
 public:
     /// For `samples` depths at a time. @throws std::invalid_argument unless reach is finite and above 0
@@ -43,6 +45,9 @@ public:
     /// The distance of equation (38) between the normalized histogram and a model, divided by sqrt 2; 1 if nothing counts.
     double distance(VectorRef model) const;
 
+    /// The sum of squared differences between the counts and the model's share of their total, for find_distances.
+    double squared_differences(VectorRef model) const;
+
 private:
     double reach_;
     int levels_;
@@ -52,6 +57,10 @@ private:
     /// Counts of each level and of samples that don't count, padded to `table_`; then kLanes - 1 more such tables.
     std::vector<std::int32_t> counts_;
 };
+
+/// RelativeHistogram::distance of n histograms, from their squared_differences and totals: square roots and divisions of several at
+/// once take little longer than those of one.
+void find_distances(const double* squares, const double* totals, std::size_t n, double* distances);
 
 /// How many of n depths were measured and are below a limit.
 int count_below(const float* depth, std::size_t n, double limit);

@@ -9,7 +9,7 @@ from tricue.reference.base.checks import refuse, require_finite, require_shape
 from tricue.reference.base.depth_pixels import has_depth
 
 
-def read(depth: Depth, rectangle: Floats, pattern: Floats) -> Floats:
+def read(depth: Depth, rectangle: Floats, pattern: Floats) -> NDArray[np.float32]:
     """The measured depths at the pattern's places, of those inside the image.
 
     pattern: (N, 2) u, v from the rectangle's center, in halves of its width and height.
@@ -18,13 +18,13 @@ def read(depth: Depth, rectangle: Floats, pattern: Floats) -> Floats:
     columns, rows = np.floor(x + width / 2 * pattern[:, 0]), np.floor(y + height / 2 * pattern[:, 1])
     inside = (rows >= 0) & (rows < depth.shape[0]) & (columns >= 0) & (columns < depth.shape[1])
     seen = depth[rows[inside].astype(np.intp), columns[inside].astype(np.intp)]
-    measured: Floats = seen[has_depth(seen)].astype(np.float64)
+    measured: NDArray[np.float32] = seen[has_depth(seen)]
     return measured
 
 
-def count(seen: Floats, z: float, levels: int, reach: float) -> NDArray[np.intp]:
+def count(seen: NDArray[np.float32], z: float, levels: int, reach: float) -> NDArray[np.intp]:
     """(levels,) the number of depths in each level of [-reach, reach) around z."""
-    level = np.floor(((seen - z) + reach) * (levels / (2 * reach)))
+    level = np.floor((seen - np.float32(z - reach)) * np.float32(levels / (2 * reach)))
     level = level[(level >= 0) & (level < levels)]
     return np.bincount(level.astype(np.intp), minlength=levels)
 
