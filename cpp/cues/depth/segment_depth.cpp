@@ -64,12 +64,17 @@ void mark_row(const float* __restrict distance, const float* __restrict above, c
     });
 }
 
-/// Keeps only pixels that have changed.
+/// The same for those that have changed.
 TRICUE_MULTIVERSION
-void keep_changed(const float* __restrict depth, const float* __restrict before, int n, float noise,
-                  float slope, std::uint8_t* __restrict mask) {
-    for_overlapping_blocks(
-        n, [=](std::ptrdiff_t x) { mask[x] &= has_changed(depth[x], before[x], noise, slope); });
+void mark_changed_row(const float* __restrict distance, const float* __restrict above,
+                      const float* __restrict here, const float* __restrict below, int n, float gap,
+                      float slope, const float* __restrict depth, const float* __restrict before, float noise,
+                      float noise_slope, std::uint8_t* __restrict mask) {
+    for_overlapping_blocks(n, [=](std::ptrdiff_t x) {
+        const float z = distance[x], nearest = smaller(smaller(above[x], here[x]), below[x]);
+        mask[x] = has_depth(z) & !is_edge(z, nearest, gap, slope) &
+                  has_changed(depth[x], before[x], noise, noise_slope);
+    });
 }
 
 /// Reads a region of an image row by row: the distances of a row, and for each of three rows the nearest of each pixel and its
@@ -162,16 +167,19 @@ SearchedDistances find_distances(const DepthView& depth, const SearchedPixels& s
     if (x0 >= x1 || y0 >= y1) return found;
     DistanceRows rows(depth, {x0, y0, x1, y1}, std::move(ground));
     std::vector<std::uint8_t> mask(static_cast<std::size_t>(depth.cols));
+    const auto gap = static_cast<float>(divisions.gap), slope = static_cast<float>(divisions.slope),
+               noise = static_cast<float>(searched.noise),
+               noise_slope = static_cast<float>(searched.noise_slope);
     for (int y = y0; y < y1; ++y) {
         rows.next(y);
         if (!rows.is_measured(y)) continue;
-        mark_row(rows.distance(y) + x0, rows.nearest(y - 1) + x0, rows.nearest(y) + x0,
-                 rows.nearest(y + 1) + x0, x1 - x0, static_cast<float>(divisions.gap),
-                 static_cast<float>(divisions.slope), mask.data() + x0);
+        const float *distance = rows.distance(y) + x0, *above = rows.nearest(y - 1) + x0,
+                    *here = rows.nearest(y) + x0, *below = rows.nearest(y + 1) + x0;
         if (changing)
-            keep_changed(depth.row(y) + x0, searched.before.row(y) + x0, x1 - x0,
-                         static_cast<float>(searched.noise), static_cast<float>(searched.noise_slope),
-                         mask.data() + x0);
+            mark_changed_row(distance, above, here, below, x1 - x0, gap, slope, depth.row(y) + x0,
+                             searched.before.row(y) + x0, noise, noise_slope, mask.data() + x0);
+        else
+            mark_row(distance, above, here, below, x1 - x0, gap, slope, mask.data() + x0);
         found.add_row(y, rows.distance(y), mask.data());
     }
     return found;
