@@ -150,15 +150,16 @@ FilteredRectangles filter_rectangles(const DepthView& depth, VectorRef camera,
     const auto weigh = [&](const States& from, const Dynamics& moves, const Detection& seen) {
         const Vector logs = observer.log_likelihood(after.particles, mean_size, measured);
         after.weights = reweight(logs, after.particles, from, moves, seen).weights;
-        return summarize(after.particles, after.weights);
     };
     after.particles = propose(previous, dynamics, sampling(noise, 0), detection, bounds);
-    Summary summary = weigh(previous, dynamics, detection);
+    weigh(previous, dynamics, detection);
     if (noise.planes > 1) {
-        after.particles = draw_around(summary.mean, refinement, bounds.lower[2], sampling(noise, 1));
+        const Vector middle = weighted_mean(after.particles, after.weights);
+        after.particles = draw_around(middle, refinement, bounds.lower[2], sampling(noise, 1));
         const Vector still = Vector::Zero(kNumbers);
-        summary = weigh(after.particles, {still, refinement.scale}, {detection.mean, detection.root, 0.0});
+        weigh(after.particles, {still, refinement.scale}, {detection.mean, detection.root, 0.0});
     }
+    Summary summary = summarize(after.particles, after.weights);
     after.mean = std::move(summary.mean);
     after.covariance = std::move(summary.covariance);
     const Eigen::Map<const States> mean(after.mean.data(), 1, kNumbers);

@@ -19,4 +19,7 @@ struct Summary {
 /// Source: Sabeti, Parvizi, Wu 2008, section III.C (expected value); Kong, Liu, Wong 1994 (effective sample size).
 Summary summarize(StatesRef particles, VectorRef weights);
 
+/// The expected value (D,) alone.
+Vector weighted_mean(StatesRef particles, VectorRef weights);
+
 }  // namespace tricue

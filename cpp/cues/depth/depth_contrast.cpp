@@ -41,13 +41,21 @@ std::size_t places_around(const Places& places) {
     return 4 * static_cast<std::size_t>(places.along);
 }
 
-/// Depths of the places in the image, padded with zeros as RelativeHistogram needs it.
-struct DepthSamples {
+/// Depths of the places in the image, inside a rectangle and then around it; each padded with zeros as RelativeHistogram needs it.
+class DepthSamples {
+public:
     explicit DepthSamples(const Places& places)
-        : inside(RelativeHistogram::padded(places_inside(places))),
-          around(RelativeHistogram::padded(places_around(places))) {}
+        : inside_(RelativeHistogram::padded(places_inside(places))),
+          depths_(inside_ + RelativeHistogram::padded(places_around(places))) {}
 
-    std::vector<float> inside, around;
+    float* inside() { return depths_.data(); }
+    float* around() { return inside() + inside_; }
+    std::size_t inside_size() const { return inside_; }
+    std::size_t around_size() const { return depths_.size() - inside_; }
+
+private:
+    std::size_t inside_;
+    std::vector<float> depths_;
 };
 
 struct Rectangle {
@@ -136,13 +144,13 @@ public:
         x_.find(rectangle.x, rectangle.half_width, depth_.cols);
         y_.find(rectangle.y, rectangle.half_height, depth_.rows);
         const Pixels columns = x_.inside(), across = x_.along(), down = y_.along();
-        float *inside = samples.inside.data(), *around = samples.around.data();
+        float *inside = samples.inside(), *around = samples.around();
         for (const std::int32_t row : y_.inside()) inside = read_line(depth_.row(row), 1, columns, inside);
         for (const std::int32_t row : y_.sides()) around = read_line(depth_.row(row), 1, across, around);
         for (const std::int32_t column : x_.sides())
             around = read_line(depth_.data + column, depth_.stride, down, around);
-        std::fill(inside, samples.inside.data() + samples.inside.size(), 0.0f);
-        std::fill(around, samples.around.data() + samples.around.size(), 0.0f);
+        std::fill(inside, samples.around(), 0.0f);
+        std::fill(around, samples.around() + samples.around_size(), 0.0f);
     }
 
 private:
@@ -200,7 +208,7 @@ States RectangleContrast::measure(StatesRef states, bool with_nearer) {
         const auto n = std::min(kBatch, static_cast<std::size_t>(states.rows() - first));
         const double* state = states.row(first).data();
         for (std::size_t i = 0; i < n; ++i) reader.read(project(camera, state + 5 * i), samples[i]);
-        for (std::size_t i = 0; i < n; ++i) histograms[i].read(samples[i].inside.data(), state[5 * i + 2]);
+        for (std::size_t i = 0; i < n; ++i) histograms[i].read(samples[i].inside(), state[5 * i + 2]);
         for (std::size_t i = 0; i + 1 < n; i += 2) histograms[i].count_beside(histograms[i + 1]);
         if (n % 2 == 1) histograms[n - 1].count();
         std::array<double, kBatch> squares{}, totals{}, distances{};
@@ -211,13 +219,13 @@ States RectangleContrast::measure(StatesRef states, bool with_nearer) {
         }
         find_distances(squares.data(), totals.data(), kBatch, distances.data());
         for (std::size_t i = 0; i < n; ++i) {
-            const auto& [within, beside] = samples[i];
+            const float *within = samples[i].inside(), *beside = samples[i].around();
             const double z = state[5 * i + 2];
             double* to = measured.row(first + static_cast<Eigen::Index>(i)).data();
             to[0] = distances[i];
             to[1] = totals[i] / inside;
-            to[2] = with_nearer ? count_below(within.data(), within.size(), z - nearer) / inside : 0.0;
-            to[3] = count_within(beside.data(), beside.size(), z, model.reach) / around;
+            to[2] = with_nearer ? count_below(within, samples[i].inside_size(), z - nearer) / inside : 0.0;
+            to[3] = count_within(beside, samples[i].around_size(), z, model.reach) / around;
         }
     }
     return measured;
@@ -238,7 +246,7 @@ Vector depth_shares(const DepthView& depth, VectorRef camera, const double* stat
     DepthSamples samples(places);
     GridReader(depth, places).read(project(camera, state), samples);
     RelativeHistogram histogram(levels, reach, places_inside(places));
-    histogram.count(samples.inside.data(), z);
+    histogram.count(samples.inside(), z);
     return histogram.shares();
 }
 
