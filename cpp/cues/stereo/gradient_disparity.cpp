@@ -168,18 +168,19 @@ std::vector<Level> plan_levels(const Region& visible, int rows, int cols, double
     return levels;
 }
 
-/// One image's pyramid; the parts that filters read grow by the sources of the next coarser level.
+/// One image's pyramid. The parts that filters read grow by the sources of the next coarser level, which the second level reads in
+/// the image itself.
 void build_pyramid(const ImageView& image, std::vector<Level>& levels, Region LevelRegions::* part,
                    GrayPlane Level::* plane) {
     std::vector<Region> parts;
     for (const Level& level : levels) parts.push_back(level.parts.*part);
     const auto size = [](int full, std::size_t k) { return ((full - 1) >> k) + 1; };
-    for (std::size_t k = levels.size() - 1; k > 0; --k)
+    for (std::size_t k = levels.size() - 1; k > 1; --k)
         parts[k - 1] = bounding_region(
             parts[k - 1], downsample_source(parts[k], size(image.rows, k - 1), size(image.cols, k - 1)));
     levels[0].*plane = gray_plane(image, parts[0]);
     for (std::size_t k = 1; k < levels.size(); ++k)
-        levels[k].*plane = downsampled(levels[k - 1].*plane, parts[k]);
+        levels[k].*plane = k == 1 ? downsampled(image, parts[k]) : downsampled(levels[k - 1].*plane, parts[k]);
 }
 
 DisparityPrior prior_for(const Level& level, const Level* coarser, const GrayPlane& found) {

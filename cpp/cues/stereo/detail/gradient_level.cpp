@@ -122,6 +122,14 @@ Region expanded(const Region& region, int across, int down, int rows, int cols) 
             std::min(region.x1 + across, cols), std::min(region.y1 + down, rows)};
 }
 
+/// Numbers from one term to the next in a row. A row of terms may begin later than its windows' columns, and ends with a whole number
+/// of blocks.
+int stride_of(const LevelRegions& parts, int radius) {
+    const int windows = parts.wanted.x1 - parts.wanted.x0 + 2 * radius;
+    const int skipped = parts.pooled.x0 - (parts.wanted.x0 - radius);
+    return whole_blocks(std::max(windows, skipped + whole_blocks(parts.pooled.x1 - parts.pooled.x0)));
+}
+
 }  // namespace
 
 LevelRegions find_level_regions(const Region& wanted, int rows, int cols, int radius, int reach,
@@ -137,7 +145,6 @@ LevelRegions find_level_regions(const Region& wanted, int rows, int cols, int ra
     return parts;
 }
 
-// A row of terms may begin later than its windows' columns, and ends with a whole number of blocks.
 GradientLevel::GradientLevel(const GrayPlane& left, const GrayPlane& right, const LevelRegions& parts,
                              const GaussianDerivative& filter, int radius, const DisparityPrior& known,
                              bool finest)
@@ -146,7 +153,7 @@ GradientLevel::GradientLevel(const GrayPlane& left, const GrayPlane& right, cons
       count_(finest ? kTerms : 2),
       wanted_(parts.wanted),
       pooled_(parts.pooled),
-      stride_(whole_blocks(wanted_.x1 - wanted_.x0 + 2 * radius + kRowBlock - 1)),
+      stride_(stride_of(parts, radius)),
       left_(left, filter, std::max(pooled_.x0 - 1, 0), std::min(pooled_.x1 + 1, left.cols()), 1),
       right_(right, filter, std::max(parts.first - 1, 0), std::min(parts.last + 3, left.cols()), 2),
       warped_(known, pooled_.x0, pooled_.x1, parts.first, parts.last, left.cols(), kRowBatch + radius + 1),

@@ -41,6 +41,7 @@ GrayPlane gray_plane(const ImageView& image, const Region& part);
 
 /// `part` of the picture at half the size, ((rows + 1) / 2, (cols + 1) / 2), smoothed by 1, 3, 3, 1 along both axes: its (i, j)
 /// lies between 2 i and 2 i + 1. The border is replicated. It reads downsample_source(part, ...).
+GrayPlane downsampled(const ImageView& image, const Region& part);
 GrayPlane downsampled(const GrayPlane& picture, const Region& part);
 
 /// The region that downsampled() reads for a part, in a picture of that size.
