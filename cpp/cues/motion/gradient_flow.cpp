@@ -60,8 +60,9 @@ FlowPlanes gradient_flow(const ImageView& previous, const ImageView& current, do
     const auto min_angle = static_cast<float>(minima.angle);
     const auto min_contrast = static_cast<float>(minima.contrast);
     const auto max_flow = static_cast<float>(kMaxFlowSigmas * sigma);
-    ConstraintRows constraints(sigma, width);
-    const int radius = constraints.radius(), length = whole_blocks(width + 2 * radius);
+    const GaussianTaps taps(sigma);
+    ConstraintRows constraints(taps, width);
+    const int radius = taps.radius, length = whole_blocks(width + 2 * radius);
     FrameRows before(previous, x0 - radius, length), now(current, x0 - radius, length);
     std::vector<float> room(5 * static_cast<std::size_t>(whole_blocks(width)));
     const Constraints row{room.data(), whole_blocks(width)};

@@ -40,6 +40,17 @@ float rounding_noise(double sigma) {
     return static_cast<float>(1 / (48 * kPi * std::pow(sigma, 6)));
 }
 
+/// What is the same at every level: the filters of constraints, the windows' radius, and the damping of their equations.
+struct FlowFilters {
+    FlowFilters(double sigma, int windows) : taps(sigma), pool(windows), damping(rounding_noise(sigma)) {}
+
+    int margin() const { return taps.radius + pool; }  ///< pixels around an area that are read in it
+
+    GaussianTaps taps;
+    int pool;
+    float damping;
+};
+
 /// Solutions (u, v) of the damped normal equations.
 struct Step {
     float u, v, determinant;  ///< the determinant without damping
@@ -137,13 +148,13 @@ void finish_row(const StepRow& row, float damping, const Limits& limits, int n, 
 /// Calls done(y, row) for each row y of the guess's area, after compare(y, here, n, out) has compared row y of `now` with the
 /// previous frame.
 template <typename Compare, typename Done>
-void measure(const ImageView& now, double sigma, int pool, FlowGuess& guess, const Compare& compare,
+void measure(const ImageView& now, const FlowFilters& filters, FlowGuess& guess, const Compare& compare,
              const Done& done) {
     const auto [x0, y0, x1, y1] = guess.area();
     const int width = x1 - x0, height = y1 - y0;
-    ConstraintRows constraints(sigma, width + 2 * pool);
+    const int pool = filters.pool, radius = filters.taps.radius, margin = filters.margin();
+    ConstraintRows constraints(filters.taps, width + 2 * pool);
     NormalEquationRows equations(pool, width);
-    const int radius = constraints.radius(), margin = radius + pool;
     const int length = whole_blocks(width + 2 * margin);
     FrameRows here(now, x0 - margin, length);
     for (int y = -margin; y < height + margin; y += kRowBatch) {
@@ -168,13 +179,13 @@ void measure(const ImageView& now, double sigma, int pool, FlowGuess& guess, con
 
 /// The same at the coarsest level, where there is no flow yet.
 template <typename Done>
-void measure_still(const ImageView& before, const ImageView& now, double sigma, int pool, FlowGuess& guess,
+void measure_still(const ImageView& before, const ImageView& now, const FlowFilters& filters, FlowGuess& guess,
                    const Done& done) {
     const Region& area = guess.area();
-    const int margin = GaussianTaps(sigma).radius + pool;
+    const int margin = filters.margin();
     FrameRows there(before, area.x0 - margin, whole_blocks(area.x1 - area.x0 + 2 * margin));
     measure(
-        now, sigma, pool, guess,
+        now, filters, guess,
         [&](int y, const std::uint8_t* here, int n, const ComparedRow& out) {
             compare_rows(there.row(area.y0 + y), here, n, out);
         },
@@ -183,12 +194,12 @@ void measure_still(const ImageView& before, const ImageView& now, double sigma, 
 
 /// The same with `before` warped by the guess; it holds all pixels that the guess leads to.
 template <typename Done>
-void measure_warped(const QuadImage& before, const ImageView& now, double sigma, int pool, FlowGuess& guess,
+void measure_warped(const QuadImage& before, const ImageView& now, const FlowFilters& filters, FlowGuess& guess,
                     const Done& done) {
     const Region& area = guess.area();
-    const int margin = GaussianTaps(sigma).radius + pool;
+    const int margin = filters.margin();
     measure(
-        now, sigma, pool, guess,
+        now, filters, guess,
         [&](int y, const std::uint8_t* here, int n, const ComparedRow& out) {
             before.compare_row(area.y0 + y, area.x0 - margin, {guess.u(y), guess.v(y)}, here, n, out);
         },
@@ -234,25 +245,23 @@ PyramidPlan plan_levels(const ImageView& frame, int levels, int margin, const Re
 }
 
 /// The guess at the first level, from the coarser ones.
-FlowGuess coarse_guess(const ImageView& previous, const ImageView& current, double sigma,
-                       const FlowPyramid& pyramid, const PyramidPlan& plan) {
+FlowGuess coarse_guess(const ImageView& previous, const ImageView& current, const FlowFilters& filters,
+                       const PyramidPlan& plan) {
     const std::vector<Region>& areas = plan.areas;
     const std::vector<Region> coarser(plan.stored.begin() + 1, plan.stored.end());
     const auto before = coarser_levels(previous, coarser), now = coarser_levels(current, coarser);
-    const float damping = rounding_noise(sigma);
-    const int margin = GaussianTaps(sigma).radius + pyramid.pool;
-    FlowGuess guess(areas.back(), margin);
+    FlowGuess guess(areas.back(), filters.margin());
     for (std::size_t i = now.size(); i > 0; --i) {
         FlowField flow(areas[i]);
         const ImageView first = before[i - 1].view(), second = now[i - 1].view();
         const auto add = [&](int y, const StepRow& row) {
-            add_steps(row, damping, static_cast<int>(flow.u.cols()), &flow.u(y, 0), &flow.v(y, 0));
+            add_steps(row, filters.damping, whole_blocks(flow.u.cols), flow.u.row(y), flow.v.row(y));
         };
         if (i == now.size())
-            measure_still(first, second, sigma, pyramid.pool, guess, add);
+            measure_still(first, second, filters, guess, add);
         else
-            measure_warped(QuadImage(first, plan.warped[i]), second, sigma, pyramid.pool, guess, add);
-        guess = FlowGuess(flow, areas[i - 1], margin);
+            measure_warped(QuadImage(first, plan.warped[i]), second, filters, guess, add);
+        guess = FlowGuess(flow, areas[i - 1], filters.margin());
     }
     return guess;
 }
@@ -272,13 +281,12 @@ FlowPlanes pyramid_flow(const ImageView& previous, const ImageView& current, dou
     const Limits limits{static_cast<float>(minima.angle),
                         std::max(static_cast<float>(minima.contrast), kRoundingContrast),
                         static_cast<float>(pyramid.max_step)};
-    const float damping = rounding_noise(sigma);
-    const int margin = GaussianTaps(sigma).radius + pyramid.pool;
-    const PyramidPlan plan = plan_levels(current, pyramid.levels, margin, area);
-    FlowGuess guess = coarse_guess(previous, current, sigma, pyramid, plan);
-    measure_warped(QuadImage(previous, plan.warped[0]), current, sigma, pyramid.pool, guess,
+    const FlowFilters filters(sigma, pyramid.pool);
+    const PyramidPlan plan = plan_levels(current, pyramid.levels, filters.margin(), area);
+    FlowGuess guess = coarse_guess(previous, current, filters, plan);
+    measure_warped(QuadImage(previous, plan.warped[0]), current, filters, guess,
                    [&](int y, const StepRow& row) {
-                       finish_row(row, damping, limits, area.x1 - area.x0, result.row(y));
+                       finish_row(row, filters.damping, limits, area.x1 - area.x0, result.row(y));
                    });
     return result;
 }

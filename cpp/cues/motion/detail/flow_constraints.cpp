@@ -97,8 +97,8 @@ void write_row(const RowsAround& rows, const TapView& taps, int n, const Constra
 
 }  // namespace
 
-ConstraintRows::ConstraintRows(double sigma, int length)
-    : taps_(sigma),
+ConstraintRows::ConstraintRows(const GaussianTaps& taps, int length)
+    : taps_(taps),
       length_(length),
       compared_stride_(whole_blocks(length + 2 * taps_.radius)),
       filtered_stride_(whole_blocks(length)),

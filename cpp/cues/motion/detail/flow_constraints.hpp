@@ -24,8 +24,9 @@ struct NormalEquations {
 /// to a whole number of blocks.
 class ConstraintRows {
 public:
+    /// @param taps   are kept by reference
     /// @param length pixels of a row of constraints
-    ConstraintRows(double sigma, int length);
+    ConstraintRows(const GaussianTaps& taps, int length);
 
     int radius() const { return taps_.radius; }
 
@@ -45,7 +46,7 @@ public:
     void multiply(int y, int count, const NormalEquations* rows) const;
 
 private:
-    GaussianTaps taps_;
+    const GaussianTaps& taps_;
     int length_;
     int compared_stride_, filtered_stride_;  ///< numbers from one plane to the next in a row
     RowRingBuffer compared_;                 ///< mean and change

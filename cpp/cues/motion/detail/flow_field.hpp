@@ -5,33 +5,32 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/arrays.hpp"
 #include "base/region.hpp"
 #include "base/row_ring_buffer.hpp"
 
 namespace tricue {
 
-/// Flow of a nonempty area of one pyramid level, in that level's pixels. Rows have room for a whole number of blocks.
-struct FlowField {
-    explicit FlowField(const Region& part);
-
-    Region area;
-    Floats u, v;
-};
-
-/// The area of the next coarser level, with this size, whose pixels enclose an area.
-Region coarser_region(const Region& area, int rows, int cols);
-
-/// A plane whose rows have room for whole blocks and two more pixels; pixels beyond the plane repeat its edge.
+/// A plane with room for one more pixel around it. Rows have room for whole blocks.
 struct PaddedPlane {
     PaddedPlane(int height, int width);
 
-    float* row(int y) { return pixels.data() + std::ptrdiff_t{y} * stride; }
-    void repeat_end(int y, int end) { std::fill(row(y) + end, row(y) + stride, row(y)[end - 1]); }
+    float* row(int y) { return pixels.data() + std::ptrdiff_t{y + 1} * stride + 1; }
+    const float* row(int y) const { return pixels.data() + std::ptrdiff_t{y + 1} * stride + 1; }
 
     int rows, cols, stride;
     std::vector<float> pixels;
 };
+
+/// Flow of a nonempty area of one pyramid level, in that level's pixels.
+struct FlowField {
+    explicit FlowField(const Region& part);
+
+    Region area;
+    PaddedPlane u, v;
+};
+
+/// The area of the next coarser level, with this size, whose pixels enclose an area.
+Region coarser_region(const Region& area, int rows, int cols);
 
 /// The initial flow of an area and of a margin around it, which repeats the area's edge: from the next coarser level,
 /// median-filtered (3x3), upsampled linearly, and doubled. Zero without a coarser level. It holds the rows of a margin and of a
@@ -39,7 +38,7 @@ struct PaddedPlane {
 class FlowGuess {
 public:
     FlowGuess(const Region& area, int margin);
-    FlowGuess(const FlowField& coarse, const Region& area, int margin);
+    FlowGuess(FlowField& coarse, const Region& area, int margin);
 
     const Region& area() const { return area_; }
 
@@ -52,8 +51,6 @@ public:
     const float* v(int y) { return v_rows_.row(std::clamp(y, 0, newest_)); }
 
 private:
-    void upsample(PaddedPlane& coarse, float* row);
-
     Region area_;
     int margin_, newest_ = -1;
     int x0_ = 0, y0_ = 0;  ///< of the coarse planes, in pixels of the finer level

@@ -21,27 +21,60 @@ void smooth_down(const std::array<const std::uint8_t*, 5>& rows, int n, std::uin
     });
 }
 
-/// Every second pixel of `in`, which has two more pixels on each side. `sums` of all pixels are computed first, because loading
-/// neighbors is faster than loading every second pixel.
+/// Every second pixel of `in`, which has two more pixels on each side, for a whole number of blocks. Two neighbors are read as one
+/// number, the first of them in its lower half.
 TRICUE_MULTIVERSION
-void smooth_across(const std::uint16_t* __restrict in, int n, std::uint16_t* __restrict sums,
-                   std::uint8_t* __restrict out) {
-    for_overlapping_blocks<32>(2 * n - 1, [=](std::ptrdiff_t x) {
-        const std::uint16_t* p = in + x;
-        sums[x] = static_cast<std::uint16_t>(p[0] + p[4] + 4 * (p[1] + p[3]) + 6 * p[2] + 128);
-    });
-    for_overlapping_blocks<16>(
-        n, [=](std::ptrdiff_t x) { out[x] = static_cast<std::uint8_t>(sums[2 * x] >> 8); });
+void smooth_across(const std::uint16_t* __restrict in, int n, std::uint8_t* __restrict out) {
+    using Pairs = Pack<std::uint32_t, kRowBlock>;
+    for (int x = 0; x < n; x += kRowBlock) {
+        Pairs before, here, after;
+        load(in + 2 * x, before);
+        load(in + 2 * x + 2, here);
+        load(in + 2 * x + 4, after);
+        const Pairs outer = (before & 0xFFFF) + (after & 0xFFFF), inner = (before >> 16) + (here >> 16),
+                    middle = here & 0xFFFF;
+        const Pairs sum = outer + (inner << 2) + (middle << 2) + (middle << 1) + 128;
+        Pack<std::uint16_t, kRowBlock> levels;
+        Pack<std::uint8_t, kRowBlock> bytes;
+        convert(sum, levels);
+        levels >>= 8;
+        convert(levels, bytes);
+        store(bytes, out + x);
+    }
 }
 
-/// Packs the quads of n + 1 pixels of two rows.
+/// Each pixel of a block, and in the next higher byte its right neighbor.
+TRICUE_INLINE void pair_neighbors(const std::uint8_t* row, Pack<std::uint32_t, kRowBlock>& pairs) {
+    Pack<std::uint8_t, kRowBlock> bytes, next_bytes;
+    Pack<std::uint16_t, kRowBlock> here, next;
+    load(row, bytes);
+    load(row + 1, next_bytes);
+    convert(bytes, here);
+    convert(next_bytes, next);
+    const Pack<std::uint16_t, kRowBlock> both = here | next << 8;
+    convert(both, pairs);
+}
+
+TRICUE_INLINE void pack_block(const std::uint8_t* upper, const std::uint8_t* lower, std::uint32_t* quads) {
+    Pack<std::uint32_t, kRowBlock> above, below;
+    pair_neighbors(upper, above);
+    pair_neighbors(lower, below);
+    store(above | below << 16, quads);
+}
+
+/// Packs the quads of n pixels of two rows, which have one more. The last block may begin earlier.
 TRICUE_MULTIVERSION
 void pack(const std::uint8_t* __restrict upper, const std::uint8_t* __restrict lower, int n,
           std::uint32_t* __restrict quads) {
-    for_overlapping_blocks<16>(n, [=](std::ptrdiff_t x) {
-        quads[x] = std::uint32_t{upper[x]} | std::uint32_t{upper[x + 1]} << 8 |
-                   std::uint32_t{lower[x]} << 16 | std::uint32_t{lower[x + 1]} << 24;
-    });
+    if (n >= kRowBlock)
+        for (int x = 0; x < n; x += kRowBlock) {
+            const int begin = std::min(x, n - kRowBlock);
+            pack_block(upper + begin, lower + begin, quads + begin);
+        }
+    else
+        for (int x = 0; x < n; ++x)
+            quads[x] = std::uint32_t{upper[x]} | std::uint32_t{upper[x + 1]} << 8 |
+                       std::uint32_t{lower[x]} << 16 | std::uint32_t{lower[x + 1]} << 24;
 }
 
 /// The pixels that the quads cover, and the last column and row of the whole image.
@@ -50,14 +83,13 @@ struct QuadPlace {
     int last_column, last_row;
 };
 
-/// The quads in the previous frame for the block that starts at column x0, and its weights between their pixels.
+/// The weights of a block between the pixels of its quads in the previous frame.
 struct WarpedBlock {
-    std::int32_t at[kRowBlock];
     float right[kRowBlock], down[kRowBlock];
 };
 
 TRICUE_INLINE void warp_block(const QuadPlace& place, float x0, float y, const float* u, const float* v,
-                              WarpedBlock& out) {
+                              std::int32_t* at, WarpedBlock& out) {
     constexpr float kColumns[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     static_assert(std::size(kColumns) == kRowBlock);
     const auto last = static_cast<float>(place.last_column), bottom = static_cast<float>(place.last_row);
@@ -74,12 +106,12 @@ TRICUE_INLINE void warp_block(const QuadPlace& place, float x0, float y, const f
         out.down[i] = down - static_cast<float>(top);
         const int j = std::min(std::max(left - first_column, 0), columns);
         const int k = std::min(std::max(top - first_row, 0), rows);
-        out.at[i] = k * cols + j;
+        at[i] = k * cols + j;
     }
 }
 
 /// Interpolates between the four pixels of each quad, and compares the result with this frame's pixels.
-TRICUE_INLINE void interpolate_block(const std::int32_t* quads, const WarpedBlock& warped,
+TRICUE_INLINE void interpolate_block(const std::uint32_t* quads, const WarpedBlock& warped,
                                      const std::uint8_t* now, float* means, float* changes) {
     // A separate loop: with bytes in it, the compiler would give the other loop only four lanes.
     float after[kRowBlock];
@@ -89,7 +121,7 @@ TRICUE_INLINE void interpolate_block(const std::int32_t* quads, const WarpedBloc
     // the rows don't overlap
     TRICUE_INDEPENDENT
     for (int i = 0; i < kRowBlock; ++i) {
-        const std::int32_t quad = quads[i];
+        const auto quad = static_cast<std::int32_t>(quads[i]);
         const auto p = static_cast<float>(quad & 255), q = static_cast<float>(quad >> 8 & 255);
         const auto r = static_cast<float>(quad >> 16 & 255), s = static_cast<float>(quad >> 24 & 255);
         const float upper = p + warped.right[i] * (q - p), lower = r + warped.right[i] * (s - r);
@@ -102,7 +134,7 @@ TRICUE_INLINE void interpolate_block(const std::int32_t* quads, const WarpedBloc
 /// Blocks that take each step together, because data just stored can't be loaded at once.
 constexpr int kTogether = 4;
 
-/// n is a whole number of blocks. The quads are loaded one by one, which is faster than gathering them.
+/// n is a whole number of blocks.
 TRICUE_MULTIVERSION
 void compare(const std::uint32_t* __restrict all, const QuadPlace& all_place, int x0, int y,
              const FlowPointers& flow, const std::uint8_t* __restrict now, int n, const ComparedRow& out) {
@@ -111,16 +143,16 @@ void compare(const std::uint32_t* __restrict all, const QuadPlace& all_place, in
     float *means = out.mean, *changes = out.change;
     const auto row = static_cast<float>(y);
     WarpedBlock warped[kTogether];
-    std::int32_t quads[kTogether * kRowBlock];
+    std::int32_t places[kTogether * kRowBlock];
+    std::uint32_t quads[kTogether * kRowBlock];
     for (int x = 0; x < n; x += kTogether * kRowBlock) {
         const int count = std::min((n - x) / kRowBlock, kTogether);
         for (int k = 0; k < count; ++k) {
             const int at = x + k * kRowBlock;
-            warp_block(place, static_cast<float>(x0 + at), row, u + at, v + at, warped[k]);
+            warp_block(place, static_cast<float>(x0 + at), row, u + at, v + at, places + k * kRowBlock,
+                       warped[k]);
         }
-        for (int k = 0; k < count; ++k)
-            for (int i = 0; i < kRowBlock; ++i)
-                std::memcpy(quads + k * kRowBlock + i, all + warped[k].at[i], sizeof *quads);
+        pick<kRowBlock>(all, places, count * kRowBlock, quads);
         for (int k = 0; k < count; ++k) {
             const int at = x + k * kRowBlock;
             interpolate_block(quads + k * kRowBlock, warped[k], now + at, means + at, changes + at);
@@ -134,16 +166,17 @@ GrayLevel downsampled(const ImageView& image, const Region& part) {
     half.pixels.resize(static_cast<std::size_t>(height) * static_cast<std::size_t>(width) + kRowBlock);
     const int first = 2 * part.x0 - 2;
     const Region source = finer_source(part, image.rows, image.cols);
-    std::vector<std::uint16_t> smooth(2 * static_cast<std::size_t>(width) + 3), sums(smooth.size());
-    const auto begin = smooth.begin() + (source.x0 - first), end = smooth.begin() + (source.x1 - first);
+    std::vector<std::uint16_t> smooth(2 * static_cast<std::size_t>(whole_blocks(width)) + 4);
+    const auto begin = smooth.begin() + (source.x0 - first), end = smooth.begin() + (source.x1 - first),
+               last = smooth.begin() + 2 * width + 3;
     std::array<const std::uint8_t*, 5> rows{};
     for (int y = 0; y < height; ++y) {
         int at = 2 * (part.y0 + y) - 2;
         for (auto& row : rows) row = image.row(std::clamp(at++, 0, image.rows - 1)) + source.x0;
         smooth_down(rows, source.x1 - source.x0, &*begin);
         std::fill(smooth.begin(), begin, *begin);
-        std::fill(end, smooth.end(), *(end - 1));
-        smooth_across(smooth.data(), width, sums.data(), half.pixels.data() + std::ptrdiff_t{y} * width);
+        std::fill(end, last, *(end - 1));
+        smooth_across(smooth.data(), whole_blocks(width), half.pixels.data() + std::ptrdiff_t{y} * width);
     }
     return half;
 }
