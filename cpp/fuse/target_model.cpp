@@ -2,6 +2,7 @@
 #include "fuse/target_model.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -9,6 +10,7 @@
 
 #include "base/check.hpp"
 #include "base/overlapping_blocks.hpp"
+#include "base/row_block.hpp"
 #include "base/simd.hpp"
 #include "fuse/detail/rectangle_pixels.hpp"
 #include "fuse/detail/value_bins.hpp"
@@ -19,8 +21,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr std::size_t kTables = 4;  // as in weighted_histogram, because neighbors mostly share a bin
-using Lanes = Pack<double, kTables>;
+constexpr std::size_t kMaxMaps = 3;
+constexpr std::size_t kTables = 4;    // as in weighted_histogram, because neighbors mostly share a bin
 constexpr float kMaxReading = 1e6F;   // of readings in the sum of all weights; above any in an image
 constexpr double kLeastSum = 1e-300;  // keeps a density of zeros from a division by 0
 constexpr float kMaxFloat = std::numeric_limits<float>::max();
@@ -39,7 +41,7 @@ void require_former(const FormerModel& before, std::size_t count, int bins) {
 void require_arguments(const std::vector<CueMap>& maps, const std::vector<ExpectedPeak>& expected,
                        const std::optional<TargetBlocks>& blocks, const std::optional<FormerModel>& before,
                        const HistogramRules& rules) {
-    if (maps.empty() || maps.size() > 3) refuse("maps", "1 to 3", std::to_string(maps.size()));
+    if (maps.empty() || maps.size() > kMaxMaps) refuse("maps", "1 to 3", std::to_string(maps.size()));
     if (expected.size() != maps.size())
         refuse("expected", std::to_string(maps.size()) + ", as many as maps",
                std::to_string(expected.size()));
@@ -62,15 +64,15 @@ void require_arguments(const std::vector<CueMap>& maps, const std::vector<Expect
     if (before) require_former(*before, maps.size(), rules.bins);
 }
 
-/// (H, W) 1 at the target's pixels.
+/// (H, W) 1 at the target's pixels; rows are padded to whole blocks.
 Labels target_mask(const std::optional<TargetBlocks>& blocks, int rows, int cols) {
-    if (!blocks) return Labels::Ones(rows, cols);
+    if (!blocks) return Labels::Ones(rows, whole_blocks(cols));
     const auto& [grid, states, trusted] = *blocks;
     const std::vector<Region> all = block_pixels(grid, rows, cols);
     std::vector<Region> mine;
     for (Index i = 0; i < states.size(); ++i)
         if (states[i] == 1 && trusted[i] > 0) mine.push_back(all[static_cast<std::size_t>(i)]);
-    return mask_regions(mine, rows, cols);
+    return mask_regions(mine, rows, whole_blocks(cols));
 }
 
 TRICUE_MULTIVERSION
@@ -80,10 +82,11 @@ void mark_near(const float* __restrict readings, float disparity, float toleranc
         n, [=](std::ptrdiff_t x) { near[x] = !(std::abs(readings[x] - disparity) > tolerance); });
 }
 
-/// (H, W) 1 where flow counts: at the target's depth, or where no depth is known.
+/// (H, W) 1 where flow counts: at the target's depth, or where no depth is known; padded as well.
 Labels depth_mask(const std::optional<DepthLimit>& depth, const PlaneView& disparity) {
-    if (!depth) return Labels::Ones(disparity.rows, disparity.cols);
-    Labels near(disparity.rows, disparity.cols);
+    const int padded = whole_blocks(disparity.cols);
+    if (!depth) return Labels::Ones(disparity.rows, padded);
+    Labels near(disparity.rows, padded);
     const auto middle = static_cast<float>(depth->disparity),
                tolerance = static_cast<float>(depth->tolerance);
     for (int y = 0; y < disparity.rows; ++y)
@@ -91,102 +94,114 @@ Labels depth_mask(const std::optional<DepthLimit>& depth, const PlaneView& dispa
     return near;
 }
 
-/// A row of an observation: the bins of its readings, and which of its pixels are the target's and count for the target.
-struct HistogramRow {
-    const float *readings, *weights;
-    const std::int32_t* bin;
-    const std::uint8_t *target, *counted;
+/// Of the pixels of a row, the same for all observations: the first place of each one's table; all ones where it is outside the
+/// target; and where its weight counts, in histograms of flow and of disparity.
+struct PixelRow {
+    std::int32_t *table, *outside, *near, *counted;
 };
 
-/// The destination of each weight: `slot` in the tables of the target, or those of its surround behind them; and the weights that
-/// count in all of the surround.
+/// Of the columns, the same for all rows: the first place of their tables for the target's pixels and for its surround; and all ones in
+/// the columns of the window.
+struct ColumnTables {
+    std::int32_t *own, *other, *inside;
+};
+
+using Block = Pack<std::int32_t, kRowBlock>;
+
+/// All ones where a label is 1, else 0.
+TRICUE_INLINE void load_mask(const std::uint8_t* labels, Block& mask) {
+    Pack<std::uint8_t, kRowBlock> bytes;
+    Pack<std::uint16_t, kRowBlock> words;
+    load(labels, bytes);
+    convert(bytes, words);
+    convert(words, mask);
+    mask = -mask;
+}
+
+/// n is a whole number of blocks.
+TRICUE_MULTIVERSION
+void choose_tables(const std::uint8_t* target, const std::uint8_t* near, int n, const ColumnTables& columns,
+                   bool inside_row, const PixelRow& out) {
+    const std::int32_t row = inside_row ? -1 : 0;
+    for (int x = 0; x < n; x += kRowBlock) {
+        Block mine, close, own, other, inside;
+        load_mask(target + x, mine);
+        load_mask(near + x, close);
+        load(columns.own + x, own);
+        load(columns.other + x, other);
+        load(columns.inside + x, inside);
+        const Block outside = ~mine, counted = outside | (inside & row);
+        store((mine & own) | (outside & other), out.table + x);
+        store(outside, out.outside + x);
+        store(counted & (outside | close), out.near + x);
+        store(counted, out.counted + x);
+    }
+}
+
+/// A row of an observation, and the mask where its weights count.
+struct MapRow {
+    const float *readings, *weights;
+    const std::int32_t* counted;
+};
+
+/// The place of each weight in the tables, with the weight if it counts, else 0; and the weights that count in all of the surround,
+/// with zeros up to a whole number of blocks.
 struct WeightRow {
     std::int32_t* slot;
     float *kept, *around;
 };
 
-/// The columns where the weights of a row count for the target: begin <= x < end.
-struct CountedColumns {
-    int begin, end;
+/// Column by column of a block, because a sum in order would have to wait for each addition.
+struct BlockSums {
+    Pack<double, 8> left, right;
 };
 
-using Floats4 = Pack<float, kTables>;
-using Ints4 = Pack<std::int32_t, kTables>;
-
-/// The numbers where the mask is all ones, 0 where it is 0.
-TRICUE_INLINE void keep_where(const Ints4& mask, const Floats4& numbers, float* out) {
-    Ints4 bits;
-    load(&numbers, bits);
-    bits &= mask;
-    store(bits, out);
-}
-
-TRICUE_INLINE void load_labels(const std::uint8_t* labels, Ints4& set) {
-    Pack<std::uint8_t, kTables> bytes;
-    load(labels, bytes);
-    convert(bytes, set);
-    set = set != 0;
-}
-
-/// The places of the bins of four pixels from column x on in all tables: those of the target by their columns, counted from `begin`.
-TRICUE_INLINE void place_four(const HistogramRow& row, int x, const CountedColumns& counted,
-                              std::int32_t size, const WeightRow& to) {
-    Floats4 readings, weights;
-    Ints4 bins, target, counts;
-    load(row.readings + x, readings);
-    load(row.weights + x, weights);
-    load(row.bin + x, bins);
-    load_labels(row.target + x, target);
-    load_labels(row.counted + x, counts);
-    const Ints4 columns = x + Ints4{0, 1, 2, 3},
-                inside = (columns >= counted.begin) & (columns < counted.end);
-    const Ints4 valid = (weights > 0.0F) & (weights <= kMaxFloat);
-    const Ints4 known = (readings >= -kMaxReading) & (readings < kMaxReading);
-    const Ints4 table = (target & ((columns - counted.begin) & 3)) | (~target & (4 + (columns & 3)));
-    store(bins + table * size, to.slot + x);
-    keep_where(valid & (~target | (inside & counts)), weights, to.kept + x);
-    keep_where(valid & known & ~target, weights, to.around + x);
-}
-
-/// The same for fewer than four, which are copied to a place with room for reading four.
-TRICUE_INLINE void place_few(const HistogramRow& row, int n, const CountedColumns& counted, std::int32_t size,
-                             const WeightRow& to) {
-    float readings[kTables] = {}, weights[kTables] = {};
-    std::int32_t bins[kTables] = {};
-    std::uint8_t target[kTables] = {}, counts[kTables] = {};
-    std::copy_n(row.readings, n, readings);
-    std::copy_n(row.weights, n, weights);
-    std::copy_n(row.bin, n, bins);
-    std::copy_n(row.target, n, target);
-    std::copy_n(row.counted, n, counts);
-    place_four({readings, weights, bins, target, counts}, 0, counted, size, to);
-}
-
-/// n pixels; the last four may begin earlier. The results have room for a multiple of four.
+/// Adds the weights in all of the surround to `totals`.
 TRICUE_MULTIVERSION
-void place_weights(const HistogramRow& row, int n, const CountedColumns& counted, std::int32_t size,
-                   const WeightRow& to) {
-    constexpr int kFour = kTables;
-    const HistogramRow from = row;
+void place_weights(const MapRow& row, const PixelRow& pixels, int n, const FloatRange& range,
+                   const WeightRow& to, BlockSums& totals) {
+    const MapRow from = row;
+    const PixelRow at = pixels;
+    const FloatRange bins = range;
     const WeightRow out = to;
-    const CountedColumns columns = counted;
-    if (n < 1) return;  // the results have no room then
-    if (n < kFour) return place_few(from, n, columns, size, out);
-    for (int x = 0; x < n; x += kFour) place_four(from, std::min(x, n - kFour), columns, size, out);
-}
-
-/// Adds a row to totals, four columns at a time; n is a multiple of four.
-TRICUE_MULTIVERSION
-void add_row(const float* numbers, std::size_t n, Lanes& totals) {
-    Lanes sums = totals;
-    for (std::size_t x = 0; x < n; x += kTables) {
-        Floats4 four;
-        Lanes wide;
-        load(numbers + x, four);
-        convert(four, wide);
-        sums += wide;
+    const auto place = [=](std::ptrdiff_t x) {
+        const float reading = from.readings[x], weight = from.weights[x];
+        const bool valid = (weight > 0.0F) & (weight <= kMaxFloat);
+        const bool known = (reading >= -kMaxReading) & (reading < kMaxReading);
+        out.slot[x] = value_bin(reading, bins) + at.table[x];
+        out.kept[x] = valid & (from.counted[x] != 0) ? weight : 0.0F;
+        out.around[x] = valid & known & (at.outside[x] != 0) ? weight : 0.0F;
+    };
+    if (n < kRowBlock)
+        for (int x = 0; x < n; ++x) place(x);
+    else
+        for (int begin = 0; begin < n; begin += kRowBlock) {
+            const int first = std::min(begin, n - kRowBlock);
+            // the rows don't overlap
+            TRICUE_INDEPENDENT
+            for (int x = first; x < first + kRowBlock; ++x) place(x);
+        }
+    BlockSums sums = totals;
+    for (int x = 0; x < n; x += kRowBlock) {
+        Pack<float, 8> left, right;
+        Pack<double, 8> wide;
+        load(out.around + x, left);
+        load(out.around + x + 8, right);
+        convert(left, wide);
+        sums.left += wide;
+        convert(right, wide);
+        sums.right += wide;
     }
     totals = sums;
+}
+
+/// Adds the weights of n pixels of kMaps observations to their tables. All at once, because neighbors mostly share a bin, and each
+/// addition has to wait for the one before in the same place.
+template <std::size_t kMaps>
+void add_weights(const WeightRow* rows, double* const* tables, int n) {
+    for (int x = 0; x < n; ++x)
+        for (std::size_t k = 0; k < kMaps; ++k)
+            tables[k][rows[k].slot[x]] += static_cast<double>(rows[k].kept[x]);
 }
 
 /// Sums of weights: in each bin of the target's window and of its surround, and in all of the surround.
@@ -195,35 +210,74 @@ struct Histograms {
     double total;
 };
 
-/// Both histograms of an observation in one pass, each as weighted_histogram sums it.
-Histograms histograms(const CueMap& map, const ValueRange& range, const Region& window, const Labels& target,
-                      const Labels& counted) {
-    const int cols = map.readings.cols;
-    const auto size = static_cast<std::size_t>(range.bins) + 1;
-    const auto padded = (static_cast<std::size_t>(cols) + kTables - 1) / kTables * kTables;
-    std::vector<std::int32_t> bin(static_cast<std::size_t>(cols)), slot(padded, range.bins);
-    std::vector<float> kept(padded), around(padded);
-    std::vector<double> sums(2 * kTables * size);
-    Lanes totals{};
-    for (int y = 0; y < map.readings.rows; ++y) {
-        const float* readings = map.readings.row(y);
-        find_value_bins(readings, cols, range, bin.data());
-        const bool inside = y >= window.y0 && y < window.y1;
-        place_weights({readings, map.weights.row(y), bin.data(), target.row(y).data(), counted.row(y).data()},
-                      cols, {window.x0, inside ? window.x1 : window.x0}, static_cast<std::int32_t>(size),
-                      {slot.data(), kept.data(), around.data()});
-        add_row(around.data(), padded, totals);
-        for (std::size_t x = 0; x < padded; ++x)
-            sums[static_cast<std::size_t>(slot[x])] += static_cast<double>(kept[x]);
+/// Room for a row of each observation, of a whole number of blocks.
+class HistogramRows {
+public:
+    HistogramRows(std::size_t maps, int cols)
+        : stride_(static_cast<std::size_t>(cols)), pixels_((7 + maps) * stride_), weights_(2 * maps * stride_) {}
+
+    PixelRow pixels() { return {number(0), number(1), number(2), number(3)}; }
+    ColumnTables columns() { return {number(4), number(5), number(6)}; }
+    WeightRow map(std::size_t k) { return {number(7 + k), weight(2 * k), weight(2 * k + 1)}; }
+
+private:
+    std::int32_t* number(std::size_t i) { return pixels_.data() + i * stride_; }
+    float* weight(std::size_t i) { return weights_.data() + i * stride_; }
+
+    std::size_t stride_;
+    std::vector<std::int32_t> pixels_;
+    std::vector<float> weights_;
+};
+
+/// Both histograms of each observation in one pass, each as weighted_histogram sums it. Labels have room for whole blocks.
+std::vector<Histograms> histograms(const std::vector<CueMap>& maps, const std::vector<ValueRange>& ranges,
+                                   const Region& window, const Labels& target, const Labels& near) {
+    const int rows = maps[0].readings.rows, cols = maps[0].readings.cols, bins = ranges[0].bins;
+    const std::size_t count = maps.size(), size = static_cast<std::size_t>(bins) + 1;
+    HistogramRows room(count, whole_blocks(cols));
+    const PixelRow pixels = room.pixels();
+    const ColumnTables columns = room.columns();
+    for (int x = 0; x < cols; ++x) {
+        columns.own[x] = ((x - window.x0) & 3) * (bins + 1);
+        columns.other[x] = (4 + (x & 3)) * (bins + 1);
+        columns.inside[x] = x >= window.x0 && x < window.x1 ? -1 : 0;
     }
-    Histograms found{Vector(range.bins), Vector(range.bins), sum(totals)};
-    for (std::size_t i = 0; i + 1 < size; ++i) {
-        const auto four = [&](std::size_t first) {
-            const double* table = sums.data() + first * size + i;
-            return (table[0] + table[size]) + (table[2 * size] + table[3 * size]);
-        };
-        found.target[static_cast<Index>(i)] = four(0);
-        found.surround[static_cast<Index>(i)] = four(kTables);
+    std::vector<double> sums(count * 2 * kTables * size);
+    std::array<double*, kMaxMaps> tables{};
+    std::array<WeightRow, kMaxMaps> weights{};
+    std::array<BlockSums, kMaxMaps> totals{};
+    std::vector<FloatRange> floats;
+    for (std::size_t k = 0; k < count; ++k) {
+        tables[k] = sums.data() + k * 2 * kTables * size;
+        weights[k] = room.map(k);
+        floats.emplace_back(ranges[k]);
+    }
+    const auto add = count == 1 ? add_weights<1> : count == 2 ? add_weights<2> : add_weights<3>;
+    for (int y = 0; y < rows; ++y) {
+        const bool inside = y >= window.y0 && y < window.y1;
+        choose_tables(target.row(y).data(), near.row(y).data(), whole_blocks(cols), columns, inside, pixels);
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::int32_t* counted = k + 1 < count ? pixels.near : pixels.counted;
+            place_weights({maps[k].readings.row(y), maps[k].weights.row(y), counted}, pixels, cols, floats[k],
+                          weights[k], totals[k]);
+        }
+        add(weights.data(), tables.data(), cols);
+    }
+    std::vector<Histograms> found;
+    for (std::size_t k = 0; k < count; ++k) {
+        const Pack<double, 8> both = totals[k].left + totals[k].right;
+        double total = 0.0;
+        for (int i = 0; i < 8; ++i) total += both[i];
+        Histograms each{Vector(bins), Vector(bins), total};
+        for (std::size_t i = 0; i + 1 < size; ++i) {
+            const auto four = [&](std::size_t first) {
+                const double* table = tables[k] + first * size + i;
+                return (table[0] + table[size]) + (table[2 * size] + table[3 * size]);
+            };
+            each.target[static_cast<Index>(i)] = four(0);
+            each.surround[static_cast<Index>(i)] = four(kTables);
+        }
+        found.push_back(std::move(each));
     }
     return found;
 }
@@ -244,26 +298,39 @@ Vector blended(const Vector& density, const double* before, double shift, double
     return both / std::max(both.sum(), kLeastSum);
 }
 
-/// The histogram smoothed by a Gaussian of sum 1; weight that is spread beyond the ends is lost.
-Vector smoothed(const Vector& histogram, double deviation) {
+/// A Gaussian of sum 1, cut off at ceil(3 deviation) bins.
+Vector gaussian_of(double deviation) {
     const auto radius = static_cast<Index>(std::ceil(3.0 * deviation));
     Vector gaussian(2 * radius + 1);
     for (Index j = -radius; j <= radius; ++j) {
         const double step = static_cast<double>(j) / deviation;
         gaussian[radius + j] = std::exp(-0.5 * (step * step));
     }
-    gaussian /= gaussian.sum();
+    return gaussian / gaussian.sum();
+}
+
+/// Smooths a histogram; weight that is spread beyond the ends is lost. From tap to tap, so that the compiler vectorizes.
+TRICUE_MULTIVERSION
+void smooth_by(const double* __restrict gaussian, std::ptrdiff_t radius, const double* __restrict histogram,
+               std::ptrdiff_t bins, double* __restrict smooth) {
+    const std::ptrdiff_t most = std::min(radius, bins - 1);
+    for (std::ptrdiff_t j = -most; j <= most; ++j) {
+        const double share = gaussian[radius - j];
+        const std::ptrdiff_t begin = std::max(-j, std::ptrdiff_t{0}), end = std::min(bins - j, bins);
+        for (std::ptrdiff_t i = begin; i < end; ++i) smooth[i] += histogram[i + j] * share;
+    }
+}
+
+Vector smoothed(const Vector& histogram, const Vector& gaussian) {
     Vector smooth = Vector::Zero(histogram.size());
-    for (Index i = 0; i < histogram.size(); ++i)
-        for (Index j = std::max(i - radius, Index{0}); j <= std::min(i + radius, histogram.size() - 1); ++j)
-            smooth[i] += histogram[j] * gaussian[radius + i - j];
+    smooth_by(gaussian.data(), gaussian.size() / 2, histogram.data(), histogram.size(), smooth.data());
     return smooth;
 }
 
-Vector alternative(const Histograms& found, const HistogramRules& rules) {
+Vector alternative(const Histograms& found, const Vector& gaussian, const HistogramRules& rules) {
     const double uniform = 1.0 / rules.bins;
     if (!(rules.surround > 0.0 && found.total > 0.0)) return Vector::Constant(rules.bins, uniform);
-    return rules.surround * smoothed(found.surround, rules.smoothing) / found.total +
+    return rules.surround * smoothed(found.surround, gaussian) / found.total +
            (1.0 - rules.surround) * uniform;
 }
 
@@ -277,16 +344,20 @@ TargetModel target_model(const std::vector<CueMap>& maps, const std::vector<Expe
     const PlaneView& last = maps.back().readings;
     const Region inside = rectangle_pixels(window, last.rows, last.cols, "window");
     const Labels target = target_mask(blocks, last.rows, last.cols);
-    const Labels all = Labels::Ones(last.rows, last.cols), near = depth_mask(depth, last);
+    const Labels near = depth_mask(depth, last);
     const auto count = static_cast<Index>(maps.size());
+    std::vector<ValueRange> ranges;
+    for (const ExpectedPeak& peak : expected) ranges.push_back(range_of(peak, rules.bins));
+    const std::vector<Histograms> all = histograms(maps, ranges, inside, target, near);
+    Vector gaussian;
     TargetModel model{States(count, rules.bins), States(count, rules.bins), Vector(count)};
     for (Index i = 0; i < count; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        const ValueRange range = range_of(expected[k], rules.bins);
         const double width = 2.0 * expected[k].half_range / rules.bins, middle = rules.bins / 2.0;
-        const Histograms found = histograms(maps[k], range, inside, target, i + 1 < count ? near : all);
+        const Histograms& found = all[k];
         auto [density, peak] = target_distribution(found.target, rules.smoothing, rules.ripple, middle,
                                                    expected[k].deviation / width);
+        if (i == 0) gaussian = gaussian_of(rules.smoothing);  // not before target_distribution has checked its size
         if (std::isnan(peak))
             peak = middle;
         else if (before && rules.memory > 0.0) {
@@ -294,8 +365,8 @@ TargetModel target_model(const std::vector<CueMap>& maps, const std::vector<Expe
             density = blended(density, before->densities.row(i).data(), former - peak, rules.memory);
         }
         model.densities.row(i) = density;
-        model.alternatives.row(i) = alternative(found, rules);
-        model.peaks[i] = range.low + peak * width;
+        model.alternatives.row(i) = alternative(found, gaussian, rules);
+        model.peaks[i] = ranges[k].low + peak * width;
     }
     return model;
 }

@@ -119,7 +119,11 @@ TargetPixels target_pixels(const std::vector<Cue>& cues, const TargetPlace& plac
         linear_prior(window.x0, window.x1, candidate.x0, candidate.x1, visible.x0, visible.x1);
     const auto rows = linear_prior(window.y0, window.y1, candidate.y0, candidate.y1, visible.y0, visible.y1);
     std::vector<Table> tables;
-    for (const Cue& cue : cues) tables.push_back(likelihood_ratios(cue));
+    std::vector<FloatRange> ranges;
+    for (const Cue& cue : cues) {
+        tables.push_back(likelihood_ratios(cue));
+        ranges.emplace_back(range_of(cue));
+    }
 
     TargetPixels target{Labels::Zero(first.rows, first.cols), Floats::Zero(first.rows, first.cols)};
     const int band = std::max(kBandPixels / std::max(first.cols, 1), 1);
@@ -132,7 +136,7 @@ TargetPixels target_pixels(const std::vector<Cue>& cues, const TargetPlace& plac
             const PlaneView& plane = cues[k].readings;
             const int together = plane.stride == plane.cols ? y1 - y0 : 1;  // contiguous rows
             for (int y = y0; y < y1; y += together)
-                find_value_bins(plane.row(y), together * plane.cols, range_of(cues[k]),
+                find_value_bins(plane.row(y), together * plane.cols, ranges[k],
                                 bin.data() + std::ptrdiff_t{y - y0} * plane.cols);
             multiply_ratios(bin.data(), (y1 - y0) * plane.cols, tables[k].data(), ratio.data());
         }

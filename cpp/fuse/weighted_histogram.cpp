@@ -55,8 +55,9 @@ Vector weighted_histogram(const PlaneView& values, const PlaneView& weights, con
     std::vector<std::int32_t> bin(padded, range.bins);
     std::vector<float> weight(padded);
     std::vector<double> sums(kTables * size);
+    const FloatRange bins(range);
     for (int y = visible.y0; y < visible.y1; ++y) {
-        find_value_bins(values.row(y) + visible.x0, cols, range, bin.data());
+        find_value_bins(values.row(y) + visible.x0, cols, bins, bin.data());
         keep_weights(weights.row(y) + visible.x0, mask.data == nullptr ? nullptr : mask.row(y) + visible.x0,
                      cols, weight.data());
         add_row(bin, weight, size, sums.data());

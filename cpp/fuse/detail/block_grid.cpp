@@ -16,7 +16,9 @@ namespace {
 /// aren't finite.
 TRICUE_MULTIVERSION
 int find_edges(const double* __restrict corners, const GridPlace& place, double rows, double cols, int n,
-               int* __restrict edges) {
+               Region* __restrict blocks) {
+    static_assert(sizeof(Region) == 4 * sizeof(int));  // x0, y0, x1, y1
+    int* __restrict edges = reinterpret_cast<int*>(blocks);
     constexpr double kMax = std::numeric_limits<double>::max();
     const double size = place.size, x = place.x, y = place.y, left = place.left, top = place.top;
     int strange = 0;
@@ -36,14 +38,14 @@ int find_edges(const double* __restrict corners, const GridPlace& place, double 
 std::vector<Region> block_pixels(const BlockGrid& grid, int rows, int cols) {
     require_shape(grid.corners, grid.corners.rows(), 4, "corners");
     const auto count = static_cast<int>(grid.corners.rows());
-    std::vector<int> edges(4 * static_cast<std::size_t>(count));
-    const int strange = find_edges(grid.corners.data(), grid.place, rows, cols, count, edges.data());
+    std::vector<Region> blocks(static_cast<std::size_t>(count));
+    const int strange = find_edges(grid.corners.data(), grid.place, rows, cols, count, blocks.data());
     if (strange > 0)
         refuse("corners", "finite numbers, where they are placed", std::to_string(strange) + " others");
-    std::vector<Region> blocks;
-    blocks.reserve(static_cast<std::size_t>(count));
-    for (const int* at = edges.data(); at < edges.data() + edges.size(); at += 4)
-        blocks.push_back({at[0], at[1], std::max(at[0], at[2]), std::max(at[1], at[3])});
+    for (Region& block : blocks) {
+        block.x1 = std::max(block.x0, block.x1);
+        block.y1 = std::max(block.y0, block.y1);
+    }
     return blocks;
 }
 

@@ -11,20 +11,19 @@
 
 namespace tricue {
 
+FloatRange::FloatRange(const ValueRange& range)
+    : least(round_up_to_float(range.low)),
+      end(round_up_to_float(range.high)),
+      low(static_cast<float>(range.low)),
+      scale(static_cast<float>(range.bins / (range.high - range.low))),
+      top(static_cast<float>(range.bins - 1)),
+      none(range.bins) {}
+
 TRICUE_MULTIVERSION
-void find_value_bins(const float* __restrict values, int n, const ValueRange& range,
+void find_value_bins(const float* __restrict values, int n, const FloatRange& range,
                      std::int32_t* __restrict bin) {
-    const float least = round_up_to_float(range.low), end = round_up_to_float(range.high);
-    const auto low = static_cast<float>(range.low);
-    const auto scale = static_cast<float>(range.bins / (range.high - range.low));
-    const auto top = static_cast<float>(range.bins - 1);
-    const std::int32_t none = range.bins;
-    for_overlapping_blocks<16>(n, [=](std::ptrdiff_t x) {
-        const float value = values[x], place = (value - low) * scale;
-        const bool counts = (value >= least) & (value < end);
-        const float within = counts & (place < top) ? place : top;
-        bin[x] = counts ? static_cast<std::int32_t>(within) : none;
-    });
+    const FloatRange bins = range;
+    for_overlapping_blocks<16>(n, [=](std::ptrdiff_t x) { bin[x] = value_bin(values[x], bins); });
 }
 
 void require_range(const ValueRange& range) {
