@@ -8,6 +8,7 @@
 
 #include "base/check.hpp"
 #include "base/overlapping_blocks.hpp"
+#include "base/row_block.hpp"
 #include "base/simd.hpp"
 #include "fuse/detail/rectangle_pixels.hpp"
 #include "fuse/detail/value_bins.hpp"
@@ -20,6 +21,8 @@ using Table = std::vector<float>;
 /// Rows whose ratios are looked up at once, because a small region's rows are too short for a loop each.
 constexpr int kBandPixels = 4096;
 
+constexpr std::size_t kMaxCues = 3;
+constexpr std::size_t kTableRoom = 64;  // numbers; tables of up to as many fit four registers of AVX-512
 constexpr double kSumTolerance = 1e-6;  // of the densities' sums
 constexpr double kMaxRatio = 1e12;      // the product of three fits a float
 
@@ -49,7 +52,7 @@ ValueRange range_of(const Cue& cue) {
 }
 
 void require_arguments(const std::vector<Cue>& cues, double threshold) {
-    if (cues.empty() || cues.size() > 3) refuse("planes", "1 to 3", std::to_string(cues.size()));
+    if (cues.empty() || cues.size() > kMaxCues) refuse("planes", "1 to 3", std::to_string(cues.size()));
     for (const Cue& cue : cues) require_same_shape(cue.readings, cues[0].readings, "planes");
     for (const Cue& cue : cues) {
         require_range(range_of(cue));
@@ -59,19 +62,19 @@ void require_arguments(const std::vector<Cue>& cues, double threshold) {
     if (!(threshold > 0.0 && threshold <= 1.0)) refuse("threshold", "a number in (0, 1]", threshold);
 }
 
-/// Likelihood ratios of each bin, target to alternative; 0 without a measurement.
+/// Likelihood ratios of each bin, target to alternative; 0 without a measurement, and up to kTableRoom.
 Table likelihood_ratios(const Cue& cue) {
     const Eigen::Index count = cue.density.size();
     const auto bins = static_cast<double>(count);
     Table table;
-    table.reserve(static_cast<std::size_t>(count) + 1);
+    table.reserve(std::max(static_cast<std::size_t>(count) + 1, kTableRoom));
     for (Eigen::Index i = 0; i < count; ++i) {
         const double share = cue.density[i];
         const double ratio =
             cue.alternative ? std::min(share / (*cue.alternative)[i], kMaxRatio) : share * bins;
         table.push_back(static_cast<float>(ratio));
     }
-    table.push_back(0.0f);
+    table.resize(std::max(table.size() + 1, kTableRoom));
     return table;
 }
 
@@ -90,11 +93,84 @@ std::vector<float> linear_prior(double inner, double inner_end, double outer, do
     return prior;
 }
 
-TRICUE_MULTIVERSION
-void multiply_ratios(const std::int32_t* __restrict bin, int n, const float* __restrict table,
-                     float* __restrict ratio) {
-    for (int x = 0; x < n; ++x) ratio[x] *= table[bin[x]];
+/// The readings of a cue in a row, or in some, and the ratio of each of their bins.
+struct CueRow {
+    const float* readings;
+    const FloatRange* range;
+    const float* table;
+};
+
+/// Pixels whose bins are found before the first ratio is looked up, because numbers just stored can't be loaded at once.
+constexpr std::ptrdiff_t kChunk = 256;
+
+/// The ratios of a block of bins; kWide: from a table in registers that are as wide as a block, else one by one.
+template <bool kWide>
+TRICUE_INLINE void find_ratios(const float* table, const std::int32_t* bins, RowBlock& ratios) {
+    if (!kWide) {
+        float picked[kRowBlock];
+        pick<kRowBlock>(table, bins, kRowBlock, picked);
+        return load(picked, ratios);
+    }
+    using Integers = Pack<std::int32_t, kRowBlock>;
+    RowBlock quarters[4], low, high;
+    Integers places, low_bits, high_bits;
+    load(bins, places);
+    for (int k = 0; k < 4; ++k) load(table + k * kRowBlock, quarters[k]);
+    look_up(quarters[0], quarters[1], places, low);
+    look_up(quarters[2], quarters[3], places, high);
+    load(&low, low_bits);
+    load(&high, high_bits);
+    const Integers upper = (places << 26) >> 31;  // all ones from 32 on; a comparison would be done one by one
+    low_bits = (high_bits & upper) | (low_bits & ~upper);
+    load(&low_bits, ratios);
 }
+
+template <bool kWide>
+TRICUE_INLINE void multiply_by(const CueRow* cues, std::size_t count, std::ptrdiff_t n, float* ratio) {
+    std::int32_t bins[kMaxCues][kChunk];
+    for (std::ptrdiff_t begin = 0; begin < n; begin += kChunk) {
+        const std::ptrdiff_t length = std::min(kChunk, n), first = std::min(begin, n - length);
+        for (std::size_t k = 0; k < count; ++k) {
+            const FloatRange range = *cues[k].range;
+            const float* readings = cues[k].readings + first;
+            std::int32_t* found = bins[k];
+            for_overlapping_blocks<kRowBlock>(
+                length, [=](std::ptrdiff_t x) { found[x] = value_bin(readings[x], range); });
+        }
+        for (std::ptrdiff_t x = 0; x < length; x += kRowBlock) {
+            const std::ptrdiff_t at = std::min(x, length - kRowBlock);
+            RowBlock product, ratios;
+            find_ratios<kWide>(cues[0].table, bins[0] + at, product);
+            for (std::size_t k = 1; k < count; ++k) {
+                find_ratios<kWide>(cues[k].table, bins[k] + at, ratios);
+                product *= ratios;
+            }
+            store(product, ratio + first + at);
+        }
+    }
+}
+
+template <int kBytes>
+TRICUE_INLINE void multiply_all(const CueRow* cues, std::size_t count, std::ptrdiff_t n, float* ratio) {
+    constexpr bool kWide = kBytes == kRowBlock * sizeof(float);
+    bool small = true;
+    for (std::size_t k = 0; k < count; ++k) small &= cues[k].range->none < static_cast<int>(kTableRoom);
+    if (n < kRowBlock)
+        for (std::ptrdiff_t x = 0; x < n; ++x) {
+            ratio[x] = 1.0F;
+            for (std::size_t k = 0; k < count; ++k)
+                ratio[x] *= cues[k].table[value_bin(cues[k].readings[x], *cues[k].range)];
+        }
+    else if (kWide && small)
+        multiply_by<kWide>(cues, count, n, ratio);
+    else
+        multiply_by<false>(cues, count, n, ratio);
+}
+
+/// The products of the cues' ratios for n pixels.
+TRICUE_MULTIWIDTH(multiply_ratios, multiply_all,
+                  (const CueRow* cues, std::size_t count, std::ptrdiff_t n, float* ratio),
+                  (cues, count, n, ratio))
 
 TRICUE_MULTIVERSION
 void apply_bayes(const float* __restrict ratio, const float* __restrict columns, float row, int n,
@@ -127,18 +203,17 @@ TargetPixels target_pixels(const std::vector<Cue>& cues, const TargetPlace& plac
 
     TargetPixels target{Labels::Zero(first.rows, first.cols), Floats::Zero(first.rows, first.cols)};
     const int band = std::max(kBandPixels / std::max(first.cols, 1), 1);
-    std::vector<std::int32_t> bin(static_cast<std::size_t>(band) * static_cast<std::size_t>(first.cols));
-    std::vector<float> ratio(bin.size());
+    std::vector<float> ratio(static_cast<std::size_t>(band) * static_cast<std::size_t>(first.cols));
+    const bool contiguous = std::all_of(
+        cues.begin(), cues.end(), [](const Cue& cue) { return cue.readings.stride == cue.readings.cols; });
+    std::vector<CueRow> inputs(cues.size());
     for (int y0 = visible.y0; y0 < visible.y1; y0 += band) {
-        const int y1 = std::min(y0 + band, visible.y1);
-        std::fill(ratio.begin(), ratio.end(), 1.0f);
-        for (std::size_t k = 0; k < cues.size(); ++k) {
-            const PlaneView& plane = cues[k].readings;
-            const int together = plane.stride == plane.cols ? y1 - y0 : 1;  // contiguous rows
-            for (int y = y0; y < y1; y += together)
-                find_value_bins(plane.row(y), together * plane.cols, ranges[k],
-                                bin.data() + std::ptrdiff_t{y - y0} * plane.cols);
-            multiply_ratios(bin.data(), (y1 - y0) * plane.cols, tables[k].data(), ratio.data());
+        const int y1 = std::min(y0 + band, visible.y1), together = contiguous ? y1 - y0 : 1;
+        for (int y = y0; y < y1; y += together) {
+            for (std::size_t k = 0; k < cues.size(); ++k)
+                inputs[k] = {cues[k].readings.row(y), &ranges[k], tables[k].data()};
+            multiply_ratios(inputs.data(), cues.size(), std::ptrdiff_t{together} * first.cols,
+                            ratio.data() + std::ptrdiff_t{y - y0} * first.cols);
         }
         for (int y = y0; y < y1; ++y)
             apply_bayes(ratio.data() + std::ptrdiff_t{y - y0} * first.cols + visible.x0, columns.data(),

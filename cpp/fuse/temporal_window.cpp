@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/bit_image.hpp"
 #include "base/check.hpp"
-#include "base/overlapping_blocks.hpp"
 #include "base/pixel_runs.hpp"
 #include "base/simd.hpp"
 
@@ -18,49 +18,52 @@ namespace {
 
 using Counts = std::vector<std::int64_t>;
 
-/// Calls body for n pixels in large blocks, or in small ones if a row is shorter than a large one.
-template <typename Body>
-TRICUE_INLINE void for_row(int n, Body body) {
-    constexpr int kLarge = 64, kSmall = 16;
-    if (n < kLarge)
-        for_overlapping_blocks<kSmall>(n, body);
-    else
-        for_overlapping_blocks<kLarge>(n, body);
+/// Adds up to three bits at each place of a word: the sums, and what is carried.
+struct AddedBits {
+    std::uint64_t sum, carry;
+};
+
+AddedBits add_bits(std::uint64_t a, std::uint64_t b, std::uint64_t c = 0) {
+    return {a ^ b ^ c, (a & b) | (c & (a ^ b))};
 }
 
-TRICUE_MULTIVERSION
-void mark_row(const std::uint8_t* __restrict mask, int n, std::uint8_t* __restrict set) {
-    for_row(n, [=](std::ptrdiff_t x) { set[x] = mask[x] != 0; });
-}
-
-/// Pixels [0, n) of `here`, 1 where set, that have enough neighbors; rows have one more pixel on either side.
-TRICUE_MULTIVERSION
-void keep_row(const std::uint8_t* __restrict above, const std::uint8_t* __restrict here,
-              const std::uint8_t* __restrict below, int n, std::uint8_t neighbors,
-              std::uint8_t* __restrict kept) {
-    for_row(n, [=](std::ptrdiff_t x) {
-        const auto count = static_cast<std::uint8_t>(above[x - 1] + above[x] + above[x + 1] + here[x - 1] +
-                                                     here[x + 1] + below[x - 1] + below[x] + below[x + 1]);
-        kept[x] = here[x] & static_cast<std::uint8_t>(count >= neighbors);
-    });
+/// The set pixels of a word with enough set neighbors, which are counted for all of them at once.
+std::uint64_t dense_pixels(const BitImage& mask, int y, int i, int enough) {
+    const auto around = mask.neighbors(y, i);
+    const AddedBits first = add_bits(around[0], around[1], around[2]),
+                    second = add_bits(around[3], around[4], around[5]), third = add_bits(around[6], around[7]),
+                    ones = add_bits(first.sum, second.sum, third.sum),
+                    pairs = add_bits(first.carry, second.carry, third.carry),
+                    twos = add_bits(pairs.sum, ones.carry), fours = add_bits(pairs.carry, twos.carry);
+    const std::uint64_t count[] = {ones.sum, twos.sum, fours.sum, fours.carry};
+    std::uint64_t more = 0, equal = ~std::uint64_t{0};
+    for (int k = 3; k >= 0; --k) {
+        const std::uint64_t wanted = enough >> k & 1 ? ~std::uint64_t{0} : 0;
+        more |= equal & count[k] & ~wanted;
+        equal &= ~(count[k] ^ wanted);
+    }
+    return mask.word(y, i) & (more | equal);
 }
 
 /// The runs of set pixels with enough neighbors.
 PixelRuns find_dense_runs(const ImageView& mask, int neighbors) {
-    const auto padded = static_cast<std::size_t>(mask.cols) + 2;
-    std::vector<std::uint8_t> rows[3], kept(static_cast<std::size_t>(mask.cols));
-    for (auto& row : rows) row.assign(padded, 0);
+    BitImage set(mask.rows, mask.cols);
+    for (int y = 0; y < mask.rows; ++y) set.read(y, mask.row(y));
     PixelRuns runs(mask.cols);
-    if (mask.rows > 0) mark_row(mask.row(0), mask.cols, rows[1].data() + 1);
     for (int y = 0; y < mask.rows; ++y) {
-        if (y + 1 < mask.rows)
-            mark_row(mask.row(y + 1), mask.cols, rows[2].data() + 1);
-        else
-            std::fill(rows[2].begin(), rows[2].end(), std::uint8_t{0});
-        keep_row(rows[0].data() + 1, rows[1].data() + 1, rows[2].data() + 1, mask.cols,
-                 static_cast<std::uint8_t>(neighbors), kept.data());
-        runs.add_row(kept.data());
-        std::rotate(rows, rows + 1, rows + 3);
+        int begin = -1;  // of a run that hasn't ended
+        std::uint64_t before = 0;
+        for (int i = 0; i < set.words(); ++i) {
+            const std::uint64_t kept = dense_pixels(set, y, i, neighbors);
+            for (std::uint64_t edges = kept ^ (kept << 1 | before >> 63); edges != 0; edges &= edges - 1) {
+                const int x = i * BitImage::kWord + lowest_bit(edges);
+                if (begin >= 0) runs.add(begin, x, 1);
+                begin = begin < 0 ? x : -1;
+            }
+            before = kept;
+        }
+        if (begin >= 0) runs.add(begin, mask.cols, 1);
+        runs.end_row();
     }
     return runs;
 }

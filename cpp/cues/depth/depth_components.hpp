@@ -7,7 +7,7 @@
 #include "base/depth_view.hpp"
 #include "base/image_view.hpp"
 #include "base/pixel_runs.hpp"
-#include "cues/depth/detail/bit_image.hpp"
+#include "base/bit_image.hpp"
 
 namespace tricue {
 

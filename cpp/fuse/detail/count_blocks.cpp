@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fuse/detail/count_blocks.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -12,14 +13,15 @@ namespace tricue {
 namespace {
 
 constexpr int kLanes = 4;  // floats in one register, on every machine
+constexpr int kColumns = 2 * kLanes;
 using Floats4 = Pack<float, kLanes>;
 using Ints4 = Pack<std::int32_t, kLanes>;
 using Doubles4 = Pack<double, kLanes>;
 
 constexpr float kMaxFloat = std::numeric_limits<float>::max();
-constexpr std::uint32_t kByteOnes = 0x01010101;  // in each byte
+constexpr std::uint64_t kByteOnes = 0x0101010101010101;  // in each byte
 
-/// The pixels of a block.
+/// The rows of a block, from the image's first column on.
 struct Pixels {
     const float* disparity;
     std::ptrdiff_t disparity_stride;
@@ -34,58 +36,62 @@ struct Totals {
     std::int64_t readings = 0, targets = 0, similar = 0;
 };
 
-/// 0xff in the first bytes of four, 0 in others, for any byte order.
-TRICUE_INLINE std::uint32_t first_bytes(int count) {
-    std::uint8_t bytes[kLanes] = {};
-    std::memset(bytes, 0xff, static_cast<std::size_t>(count));
-    std::uint32_t word;
-    std::memcpy(&word, bytes, sizeof word);
-    return word;
-}
-
-/// How many bytes of four aren't 0, without those that are skipped (0xff, else 0).
-TRICUE_INLINE std::uint32_t count_set(const std::uint8_t* mask, std::uint32_t skipped_bytes) {
-    std::uint32_t bytes;
-    std::memcpy(&bytes, mask, sizeof bytes);
-    bytes &= ~skipped_bytes;
-    const std::uint32_t set = (((bytes & ~(kByteOnes << 7)) + ~(kByteOnes << 7)) | bytes) >> 7 & kByteOnes;
-    return set * kByteOnes >> 24;
-}
-
-/// Adds four columns side by side, down the rows, without the first `skipped` of them.
-TRICUE_INLINE void add_columns(const Pixels& pixels, int x, int skipped, Totals& totals) {
-    Doubles4 sums = {};
+/// Sums down four columns.
+struct ColumnSums {
+    Doubles4 sum = {};
     Ints4 readings = {}, similar = {};
-    std::uint32_t targets = 0;  // not in `totals`, which would be stored at each row
-    const Ints4 counted = skipped <= Ints4{0, 1, 2, 3};
-    const std::uint32_t skipped_bytes = first_bytes(skipped);
+};
+
+TRICUE_INLINE void add_four(const float* disparity, const Pixels& pixels, const Ints4& counted,
+                            ColumnSums& sums) {
+    Floats4 values;
+    load(disparity, values);
+    const Ints4 finite = (values >= -kMaxFloat) & (values <= kMaxFloat) & counted;
+    sums.readings -= finite;
+    const Floats4 off = values - pixels.expected;
+    sums.similar -= (off < pixels.tolerance) & (off > -pixels.tolerance) & finite;
+    Ints4 bits;
+    load(&values, bits);
+    bits &= finite;
+    load(&bits, values);
+    Doubles4 wide;
+    convert(values, wide);
+    sums.sum += wide;
+}
+
+TRICUE_INLINE std::int64_t sum_of(const Ints4& counts) {
+    return counts[0] + counts[1] + counts[2] + counts[3];
+}
+
+/// Adds eight columns side by side, down the rows, of which those from `begin` to before `end` are counted.
+TRICUE_INLINE void add_columns(const Pixels& pixels, int x, int begin, int end, Totals& totals) {
+    constexpr Ints4 kLeft = {0, 1, 2, 3}, kRight = {4, 5, 6, 7};
+    const Ints4 left_counted = (kLeft >= begin) & (kLeft < end), right_counted = (kRight >= begin) & (kRight < end);
+    std::uint8_t counted[kColumns] = {};
+    std::memset(counted + begin, 1, static_cast<std::size_t>(end - begin));
+    std::uint64_t counted_ones;
+    std::memcpy(&counted_ones, counted, sizeof counted_ones);
+    ColumnSums left, right;
+    std::uint64_t targets = 0;  // not in `totals`, which would be stored at each row
     const float* disparity = pixels.disparity + x;
     const std::uint8_t* mask = pixels.mask + x;
     for (int y = 0; y < pixels.rows; ++y) {
-        Floats4 values;
-        load(disparity, values);
-        const Ints4 finite = (values >= -kMaxFloat) & (values <= kMaxFloat) & counted;
-        readings -= finite;
-        const Floats4 off = values - pixels.expected;
-        similar -= (off < pixels.tolerance) & (off > -pixels.tolerance) & finite;
-        Ints4 bits;
-        load(&values, bits);
-        bits &= finite;
-        load(&bits, values);
-        Doubles4 wide;
-        convert(values, wide);
-        sums += wide;
-        targets += count_set(mask, skipped_bytes);
+        add_four(disparity, pixels, left_counted, left);
+        add_four(disparity + kLanes, pixels, right_counted, right);
+        std::uint64_t bytes;
+        std::memcpy(&bytes, mask, sizeof bytes);
+        const std::uint64_t low = ~(kByteOnes << 7), set = (((bytes & low) + low) | bytes) >> 7 & counted_ones;
+        targets += set * kByteOnes >> 56;
         disparity += pixels.disparity_stride;
         mask += pixels.mask_stride;
     }
-    totals.sum += sum(sums);
-    totals.targets += targets;
-    totals.readings += readings[0] + readings[1] + readings[2] + readings[3];
-    totals.similar += similar[0] + similar[1] + similar[2] + similar[3];
+    totals.sum += sum(left.sum) + sum(right.sum);
+    totals.targets += static_cast<std::int64_t>(targets);
+    totals.readings += sum_of(left.readings) + sum_of(right.readings);
+    totals.similar += sum_of(left.similar) + sum_of(right.similar);
 }
 
-/// Adds columns one by one, if there are fewer than four.
+/// Adds a column, if the image has fewer than eight.
 inline void add_column(const Pixels& pixels, int x, Totals& totals) {
     for (int y = 0; y < pixels.rows; ++y) {
         const float value = pixels.disparity[y * pixels.disparity_stride + x];
@@ -97,15 +103,16 @@ inline void add_column(const Pixels& pixels, int x, Totals& totals) {
     }
 }
 
-/// The remainder is read as the last four columns, without those already counted.
+/// Columns [x0, x1) of an image of `cols`; eight of them may begin to the left of those that are counted.
 TRICUE_MULTIVERSION
-void add_block(const Pixels& pixels, int cols, Totals& totals) {
-    int x = 0;
-    for (; x + kLanes <= cols; x += kLanes) add_columns(pixels, x, 0, totals);
-    if (x < cols && cols >= kLanes)
-        add_columns(pixels, cols - kLanes, kLanes - (cols - x), totals);
+void add_block(const Pixels& pixels, int x0, int x1, int cols, Totals& totals) {
+    if (cols < kColumns)
+        for (int x = x0; x < x1; ++x) add_column(pixels, x, totals);
     else
-        for (; x < cols; ++x) add_column(pixels, x, totals);
+        for (int x = x0; x < x1; x += kColumns) {
+            const int first = std::min(x, cols - kColumns);
+            add_columns(pixels, first, x - first, std::min(x1 - first, kColumns), totals);
+        }
 }
 
 }  // namespace
@@ -119,9 +126,9 @@ BlockCounts count_blocks(const ImageView& mask, const PlaneView& disparity, cons
         const int rows = part.y1 - part.y0, cols = part.x1 - part.x0;
         Totals totals;
         if (rows > 0 && cols > 0)
-            add_block({disparity.row(part.y0) + part.x0, disparity.stride, mask.row(part.y0) + part.x0,
-                       mask.stride, rows, expected, tolerance},
-                      cols, totals);
+            add_block({disparity.row(part.y0), disparity.stride, mask.row(part.y0), mask.stride, rows, expected,
+                       tolerance},
+                      part.x0, part.x1, disparity.cols, totals);
         const auto readings = static_cast<double>(totals.readings);
         counts.pixels[i] = std::int64_t{rows} * cols;
         counts.targets[i] = totals.targets;

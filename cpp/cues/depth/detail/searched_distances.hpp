@@ -10,7 +10,7 @@
 #include "base/arrays.hpp"
 #include "base/pixel_runs.hpp"
 #include "cues/depth/depth_histogram.hpp"
-#include "cues/depth/detail/bit_image.hpp"
+#include "base/bit_image.hpp"
 
 namespace tricue {
 

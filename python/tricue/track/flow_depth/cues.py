@@ -86,9 +86,10 @@ def _measure_flow(
 def _is_uniform(gray: NDArray[np.uint8], region: Region) -> bool:
     """Whether a region has a single gray value, as in a black image."""
     x0, y0, x1, y1 = region
-    cells = gray[y0:y1, x0:x1]
-    first = cells[0, 0]
-    return bool(first == cells[-1, -1] and (cells == first).all())  # usually two corners decide
+    first = gray.item(y0, x0)
+    if first != gray.item(y1 - 1, x1 - 1):  # usually two corners decide
+        return False
+    return bool((gray[y0:y1, x0:x1] == first).all())
 
 
 def _no_measurements(region: Region) -> CueMap:

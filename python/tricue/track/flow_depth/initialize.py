@@ -41,6 +41,7 @@ def initialize(
         geometry=geometry,
         reduced=reduced,
         window=window,
+        shift=(0.0, 0.0),
         candidate=window,
         temporal_window=window,
         blocks=blocks,

@@ -30,6 +30,7 @@ class FlowDepthState(NamedTuple):
     geometry: DisparityGeometry
     reduced: ReducedFrame  # the newest frame
     window: Rectangle  # around the blocks, section 4.5
+    shift: Velocity  # expected until the next frame
     candidate: Rectangle  # where the target may be in the next frame, section 4.1
     temporal_window: Rectangle  # around the target pixels, section 4.3
     blocks: Blocks

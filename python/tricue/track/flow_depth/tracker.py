@@ -98,7 +98,8 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         geometry = self._geometry(checked.image.shape, checked.frame)
         reduced = reduce_frame(self._k, checked.frame, geometry, self.params)
         state = initialize(self._k, checked, reduced, geometry, target, self.params)
-        return self._keep(state._replace(candidate=_look_ahead(state, self.params)), frame)
+        shift, candidate = _look_ahead(state, self.params)
+        return self._keep(state._replace(shift=shift, candidate=candidate), frame)
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
@@ -110,7 +111,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         camera = self.rig or self.intrinsics
         checked = require_cue_channels(frame, self.params.cues, before.shape, camera)
         seconds = validation.elapsed(before.timestamp, checked.frame.timestamp, self.params.rate)
-        state = _predict(before, self.params)
+        state = _predict(before)
         expected = before.occluder_disparity if _waits(before) else before.disparity
         wanted = self._reach.wanted(state.candidate, expected, before.reduced.gray.shape)
         reduced = reduce_frame(self._k, checked.frame, before.geometry, self.params, wanted)
@@ -122,10 +123,11 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
             by_disparity = self.params.complete_occlusion == "disparity" and cues.disparity is not None
             follow = self._follow_by_disparity if by_disparity else self._follow
             state = follow(state, cues, seconds)
-        candidate = _look_ahead(state, self.params)
+        shift, candidate = _look_ahead(state, self.params)
         reduced = self._for_next(reduced, wanted, candidate, checked.frame)
         timestamp = checked.frame.timestamp
-        return self._keep(state._replace(reduced=reduced, candidate=candidate, timestamp=timestamp), frame)
+        state = state._replace(reduced=reduced, shift=shift, candidate=candidate, timestamp=timestamp)
+        return self._keep(state, frame)
 
     @property
     def mask(self) -> NDArray[np.uint8] | None:
@@ -270,9 +272,9 @@ def _shift(state: FlowDepthState, p: FlowDepthParams) -> Velocity:
     return min(max(x + right, 0.0), width) - x, min(max(y + down, 0.0), height) - y
 
 
-def _predict(state: FlowDepthState, p: FlowDepthParams) -> FlowDepthState:
+def _predict(state: FlowDepthState) -> FlowDepthState:
     """The state moved to where the target is expected in the next frame."""
-    right, down = _shift(state, p)
+    right, down = state.shift
     coasted = (state.coasted[0] + right, state.coasted[1] + down) if state.missed_seconds else (0.0, 0.0)
     return state._replace(
         window=moved(state.window, right, down),
@@ -282,9 +284,10 @@ def _predict(state: FlowDepthState, p: FlowDepthParams) -> FlowDepthState:
     )
 
 
-def _look_ahead(state: FlowDepthState, p: FlowDepthParams) -> Rectangle:
-    """The candidate region of the next frame."""
-    return candidate_region(moved(state.window, *_shift(state, p)), state, p)
+def _look_ahead(state: FlowDepthState, p: FlowDepthParams) -> tuple[Velocity, Rectangle]:
+    """The expected motion until the next frame, and its candidate region."""
+    shift = _shift(state, p)
+    return shift, candidate_region(moved(state.window, *shift), state, p)
 
 
 def _coast(state: FlowDepthState, seconds: float, **changes: Any) -> FlowDepthState:

@@ -50,16 +50,22 @@ public:
         return *here & (beside(here) | *above | beside(above) | *below | beside(below));
     }
 
+    /// The 8 neighbors of a word's pixels: bit x of each result is one of pixel x.
+    TRICUE_INLINE std::array<std::uint64_t, 8> neighbors(int y, int i) const {
+        const std::uint64_t *above = row(y - 1) + i, *here = row(y) + i, *below = row(y + 1) + i;
+        return {left(above), *above, right(above), left(here), right(here), left(below), *below, right(below)};
+    }
+
 private:
     TRICUE_INLINE const std::uint64_t* row(int y) const {
         return bits_.data() + static_cast<std::size_t>(y + 1) * stride_ + 1;
     }
     std::uint64_t* row(int y) { return bits_.data() + static_cast<std::size_t>(y + 1) * stride_ + 1; }
 
-    /// Pixels with a set one to their left or right.
-    TRICUE_INLINE static std::uint64_t beside(const std::uint64_t* word) {
-        return word[0] << 1 | word[-1] >> 63 | word[0] >> 1 | word[1] << 63;
-    }
+    /// Pixels with a set one to their left, to their right, and on either side.
+    TRICUE_INLINE static std::uint64_t left(const std::uint64_t* word) { return word[0] << 1 | word[-1] >> 63; }
+    TRICUE_INLINE static std::uint64_t right(const std::uint64_t* word) { return word[0] >> 1 | word[1] << 63; }
+    TRICUE_INLINE static std::uint64_t beside(const std::uint64_t* word) { return left(word) | right(word); }
 
     int cols_, words_;
     std::size_t stride_;
