@@ -16,12 +16,16 @@ constexpr int kRowsAhead = 6;        ///< whose pixels are loaded while a row is
 /// The weights are 128 `high` + `low`: both sums fit 16 bits, and a register holds twice as many 16-bit as 32-bit numbers.
 TRICUE_MULTIVERSION
 void turn_gray(const std::uint8_t* __restrict pixels, std::ptrdiff_t n, std::uint8_t* __restrict gray) {
-    for_overlapping_blocks<32>(n, [=](std::ptrdiff_t x) {
+    const auto turn = [=](std::ptrdiff_t x) {
         const std::uint16_t b = pixels[3 * x], g = pixels[3 * x + 1], r = pixels[3 * x + 2];
         const auto high = static_cast<std::uint16_t>(29 * b + 150 * g + 76 * r);
         const auto low = static_cast<std::uint16_t>(23 * b + 35 * g + 70 * r);
         gray[x] = static_cast<std::uint8_t>(static_cast<std::uint16_t>(high + (low >> 7) + 128) >> 8);
-    });
+    };
+    if (n < 64)
+        for_overlapping_blocks<32>(n, turn);
+    else
+        for_overlapping_blocks<64>(n, turn);
 }
 
 /// Converts as many rows as a cell has to gray levels.
