@@ -53,7 +53,8 @@ public:
     /// The 8 neighbors of a word's pixels: bit x of each result is one of pixel x.
     TRICUE_INLINE std::array<std::uint64_t, 8> neighbors(int y, int i) const {
         const std::uint64_t *above = row(y - 1) + i, *here = row(y) + i, *below = row(y + 1) + i;
-        return {left(above), *above, right(above), left(here), right(here), left(below), *below, right(below)};
+        return {left(above), *above,      right(above), left(here),
+                right(here), left(below), *below,       right(below)};
     }
 
 private:
@@ -63,8 +64,12 @@ private:
     std::uint64_t* row(int y) { return bits_.data() + static_cast<std::size_t>(y + 1) * stride_ + 1; }
 
     /// Pixels with a set one to their left, to their right, and on either side.
-    TRICUE_INLINE static std::uint64_t left(const std::uint64_t* word) { return word[0] << 1 | word[-1] >> 63; }
-    TRICUE_INLINE static std::uint64_t right(const std::uint64_t* word) { return word[0] >> 1 | word[1] << 63; }
+    TRICUE_INLINE static std::uint64_t left(const std::uint64_t* word) {
+        return word[0] << 1 | word[-1] >> 63;
+    }
+    TRICUE_INLINE static std::uint64_t right(const std::uint64_t* word) {
+        return word[0] >> 1 | word[1] << 63;
+    }
     TRICUE_INLINE static std::uint64_t beside(const std::uint64_t* word) { return left(word) | right(word); }
 
     int cols_, words_;

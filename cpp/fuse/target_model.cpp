@@ -214,7 +214,9 @@ struct Histograms {
 class HistogramRows {
 public:
     HistogramRows(std::size_t maps, int cols)
-        : stride_(static_cast<std::size_t>(cols)), pixels_((7 + maps) * stride_), weights_(2 * maps * stride_) {}
+        : stride_(static_cast<std::size_t>(cols)),
+          pixels_((7 + maps) * stride_),
+          weights_(2 * maps * stride_) {}
 
     PixelRow pixels() { return {number(0), number(1), number(2), number(3)}; }
     ColumnTables columns() { return {number(4), number(5), number(6)}; }
@@ -357,7 +359,8 @@ TargetModel target_model(const std::vector<CueMap>& maps, const std::vector<Expe
         const Histograms& found = all[k];
         auto [density, peak] = target_distribution(found.target, rules.smoothing, rules.ripple, middle,
                                                    expected[k].deviation / width);
-        if (i == 0) gaussian = gaussian_of(rules.smoothing);  // not before target_distribution has checked its size
+        if (i == 0)
+            gaussian = gaussian_of(rules.smoothing);  // not before target_distribution has checked its size
         if (std::isnan(peak))
             peak = middle;
         else if (before && rules.memory > 0.0) {

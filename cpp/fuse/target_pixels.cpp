@@ -120,7 +120,8 @@ TRICUE_INLINE void find_ratios(const float* table, const std::int32_t* bins, Row
     look_up(quarters[2], quarters[3], places, high);
     load(&low, low_bits);
     load(&high, high_bits);
-    const Integers upper = (places << 26) >> 31;  // all ones from 32 on; a comparison would be done one by one
+    const Integers upper =
+        (places << 26) >> 31;  // all ones from 32 on; a comparison would be done one by one
     low_bits = (high_bits & upper) | (low_bits & ~upper);
     load(&low_bits, ratios);
 }

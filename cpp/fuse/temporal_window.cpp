@@ -31,8 +31,8 @@ AddedBits add_bits(std::uint64_t a, std::uint64_t b, std::uint64_t c = 0) {
 std::uint64_t dense_pixels(const BitImage& mask, int y, int i, int enough) {
     const auto around = mask.neighbors(y, i);
     const AddedBits first = add_bits(around[0], around[1], around[2]),
-                    second = add_bits(around[3], around[4], around[5]), third = add_bits(around[6], around[7]),
-                    ones = add_bits(first.sum, second.sum, third.sum),
+                    second = add_bits(around[3], around[4], around[5]),
+                    third = add_bits(around[6], around[7]), ones = add_bits(first.sum, second.sum, third.sum),
                     pairs = add_bits(first.carry, second.carry, third.carry),
                     twos = add_bits(pairs.sum, ones.carry), fours = add_bits(pairs.carry, twos.carry);
     const std::uint64_t count[] = {ones.sum, twos.sum, fours.sum, fours.carry};

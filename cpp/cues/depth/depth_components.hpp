@@ -4,10 +4,10 @@
 #include <cstdint>
 
 #include "base/arrays.hpp"
+#include "base/bit_image.hpp"
 #include "base/depth_view.hpp"
 #include "base/image_view.hpp"
 #include "base/pixel_runs.hpp"
-#include "base/bit_image.hpp"
 
 namespace tricue {
 

@@ -71,10 +71,16 @@ struct StepRow {
     int side;
 };
 
+/// The destination of a row's flow at a coarse level.
+struct CoarseRow {
+    float *u, *v;
+};
+
 /// n is a number of blocks. kSide is the window's side, or 0 for any.
 template <int kSide>
-TRICUE_INLINE void add_steps_by(const StepRow& row, float damping, int n, float* us, float* vs) {
+TRICUE_INLINE void add_steps_by(const StepRow& row, float damping, int n, const CoarseRow& out) {
     const StepRow from = row;
+    float *us = out.u, *vs = out.v;
     for (int x0 = 0; x0 < n; x0 += kRowBlock) {
         MeanBlock sums;
         average_across(from.columns, kSide > 0 ? kSide : from.side, x0, sums);
@@ -91,12 +97,14 @@ TRICUE_INLINE void add_steps_by(const StepRow& row, float damping, int n, float*
     }
 }
 
+/// For `count` rows.
 TRICUE_MULTIVERSION
-void add_steps(const StepRow& row, float damping, int n, float* us, float* vs) {
-    if (row.side == kDefaultFlowSide)
-        add_steps_by<kDefaultFlowSide>(row, damping, n, us, vs);
-    else
-        add_steps_by<0>(row, damping, n, us, vs);
+void add_steps(const StepRow* rows, int count, float damping, int n, const CoarseRow* out) {
+    for (int i = 0; i < count; ++i)
+        if (rows[i].side == kDefaultFlowSide)
+            add_steps_by<kDefaultFlowSide>(rows[i], damping, n, out[i]);
+        else
+            add_steps_by<0>(rows[i], damping, n, out[i]);
 }
 
 /// The block from x0 on, of which `count` pixels are in the result.
@@ -137,16 +145,19 @@ TRICUE_INLINE void finish_row_by(const StepRow& row, float damping, const Limits
         finish_block<kSide>(from, damping, least, std::min(x, n - kRowBlock), kRowBlock, out);
 }
 
+/// For `count` rows.
 TRICUE_MULTIVERSION
-void finish_row(const StepRow& row, float damping, const Limits& limits, int n, const FlowRow& out) {
-    if (row.side == kDefaultFlowSide)
-        finish_row_by<kDefaultFlowSide>(row, damping, limits, n, out);
-    else
-        finish_row_by<0>(row, damping, limits, n, out);
+void finish_rows(const StepRow* rows, int count, float damping, const Limits& limits, int n,
+                 const FlowRow* out) {
+    for (int i = 0; i < count; ++i)
+        if (rows[i].side == kDefaultFlowSide)
+            finish_row_by<kDefaultFlowSide>(rows[i], damping, limits, n, out[i]);
+        else
+            finish_row_by<0>(rows[i], damping, limits, n, out[i]);
 }
 
-/// Calls done(y, row) for each row y of the guess's area, after compare(y, here, n, out) has compared row y of `now` with the
-/// previous frame.
+/// Calls done(y, rows, count) for `count` rows from y on, a batch or fewer, until all of the guess's area are done, after
+/// compare(y, here, n, out) has compared each row y of `now` with the previous frame.
 template <typename Compare, typename Done>
 void measure(const ImageView& now, const FlowFilters& filters, FlowGuess& guess, const Compare& compare,
              const Done& done) {
@@ -171,16 +182,18 @@ void measure(const ImageView& now, const FlowFilters& filters, FlowGuess& guess,
         constraints.multiply(first, end - radius - first, products.data());
         const int solved = std::max(y - margin, 0);
         equations.average_down(solved, end - margin);
+        std::array<StepRow, kRowBatch> steps;
         for (int row = solved; row < end - margin; ++row)
-            done(row, StepRow{equations.means_down(row), guess.u(row) + margin, guess.v(row) + margin,
-                              2 * pool + 1});
+            steps[static_cast<std::size_t>(row - solved)] = {equations.means_down(row), guess.u(row) + margin,
+                                                             guess.v(row) + margin, 2 * pool + 1};
+        if (solved < end - margin) done(solved, steps.data(), end - margin - solved);
     }
 }
 
 /// The same at the coarsest level, where there is no flow yet.
 template <typename Done>
-void measure_still(const ImageView& before, const ImageView& now, const FlowFilters& filters, FlowGuess& guess,
-                   const Done& done) {
+void measure_still(const ImageView& before, const ImageView& now, const FlowFilters& filters,
+                   FlowGuess& guess, const Done& done) {
     const Region& area = guess.area();
     const int margin = filters.margin();
     FrameRows there(before, area.x0 - margin, whole_blocks(area.x1 - area.x0 + 2 * margin));
@@ -194,8 +207,8 @@ void measure_still(const ImageView& before, const ImageView& now, const FlowFilt
 
 /// The same with `before` warped by the guess; it holds all pixels that the guess leads to.
 template <typename Done>
-void measure_warped(const QuadImage& before, const ImageView& now, const FlowFilters& filters, FlowGuess& guess,
-                    const Done& done) {
+void measure_warped(const QuadImage& before, const ImageView& now, const FlowFilters& filters,
+                    FlowGuess& guess, const Done& done) {
     const Region& area = guess.area();
     const int margin = filters.margin();
     measure(
@@ -254,8 +267,11 @@ FlowGuess coarse_guess(const ImageView& previous, const ImageView& current, cons
     for (std::size_t i = now.size(); i > 0; --i) {
         FlowField flow(areas[i]);
         const ImageView first = before[i - 1].view(), second = now[i - 1].view();
-        const auto add = [&](int y, const StepRow& row) {
-            add_steps(row, filters.damping, whole_blocks(flow.u.cols), flow.u.row(y), flow.v.row(y));
+        const auto add = [&](int y, const StepRow* rows, int count) {
+            std::array<CoarseRow, kRowBatch> out;
+            for (int k = 0; k < count; ++k)
+                out[static_cast<std::size_t>(k)] = {flow.u.row(y + k), flow.v.row(y + k)};
+            add_steps(rows, count, filters.damping, whole_blocks(flow.u.cols), out.data());
         };
         if (i == now.size())
             measure_still(first, second, filters, guess, add);
@@ -285,8 +301,10 @@ FlowPlanes pyramid_flow(const ImageView& previous, const ImageView& current, dou
     const PyramidPlan plan = plan_levels(current, pyramid.levels, filters.margin(), area);
     FlowGuess guess = coarse_guess(previous, current, filters, plan);
     measure_warped(QuadImage(previous, plan.warped[0]), current, filters, guess,
-                   [&](int y, const StepRow& row) {
-                       finish_row(row, filters.damping, limits, area.x1 - area.x0, result.row(y));
+                   [&](int y, const StepRow* rows, int count) {
+                       std::array<FlowRow, kRowBatch> out;
+                       for (int k = 0; k < count; ++k) out[static_cast<std::size_t>(k)] = result.row(y + k);
+                       finish_rows(rows, count, filters.damping, limits, area.x1 - area.x0, out.data());
                    });
     return result;
 }

@@ -2,6 +2,7 @@
 #include "cues/stereo/gradient_disparity.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -69,13 +70,14 @@ TRICUE_INLINE void refine_by(const WindowColumns& row, const float* __restrict o
     }
 }
 
-/// Adds the step of each pixel to its offset, at a coarse level.
+/// Adds the step of each pixel to its offset, at a coarse level, in `count` rows.
 TRICUE_MULTIVERSION
-void refine(const WindowColumns& columns, const float* offset, int n, float* next) {
-    if (columns.side == kDefaultDisparitySide)
-        refine_by<kDefaultDisparitySide>(columns, offset, n, next);
-    else
-        refine_by<0>(columns, offset, n, next);
+void refine(const LevelRow* rows, int count, int n, float* const* next) {
+    for (int i = 0; i < count; ++i)
+        if (rows[i].columns.side == kDefaultDisparitySide)
+            refine_by<kDefaultDisparitySide>(rows[i].columns, rows[i].known.offset, n, next[i]);
+        else
+            refine_by<0>(rows[i].columns, rows[i].known.offset, n, next[i]);
 }
 
 struct Limits {
@@ -126,13 +128,14 @@ TRICUE_INLINE void finalize_by(const WindowColumns& row, const WarpedRow& known,
         finalize_block<kSide>(columns, at, most, std::min(x, n - kRowBlock), kRowBlock, out);
 }
 
+/// For `count` rows.
 TRICUE_MULTIVERSION
-void finalize(const WindowColumns& columns, const WarpedRow& known, const Limits& limits, int n,
-              const ResultRow& out) {
-    if (columns.side == kDefaultDisparitySide)
-        finalize_by<kDefaultDisparitySide>(columns, known, limits, n, out);
-    else
-        finalize_by<0>(columns, known, limits, n, out);
+void finalize(const LevelRow* rows, int count, const Limits& limits, int n, const ResultRow* out) {
+    for (int i = 0; i < count; ++i)
+        if (rows[i].columns.side == kDefaultDisparitySide)
+            finalize_by<kDefaultDisparitySide>(rows[i].columns, rows[i].known, limits, n, out[i]);
+        else
+            finalize_by<0>(rows[i].columns, rows[i].known, limits, n, out[i]);
 }
 
 struct Level {
@@ -180,7 +183,8 @@ void build_pyramid(const ImageView& image, std::vector<Level>& levels, Region Le
             parts[k - 1], downsample_source(parts[k], size(image.rows, k - 1), size(image.cols, k - 1)));
     levels[0].*plane = gray_plane(image, parts[0]);
     for (std::size_t k = 1; k < levels.size(); ++k)
-        levels[k].*plane = k == 1 ? downsampled(image, parts[k]) : downsampled(levels[k - 1].*plane, parts[k]);
+        levels[k].*plane =
+            k == 1 ? downsampled(image, parts[k]) : downsampled(levels[k - 1].*plane, parts[k]);
 }
 
 DisparityPrior prior_for(const Level& level, const Level* coarser, const GrayPlane& found) {
@@ -213,15 +217,20 @@ void measure(const ImageView& left, const ImageView& right, double predicted,
                            prior_for(level, coarser, found), k == 0);
         if (k > 0) {
             GrayPlane next(wanted, level.left.rows(), level.left.cols());
-            rows.run([&](int y, const WindowColumns& columns, const WarpedRow& known) {
-                refine(columns, known.offset, whole_blocks(n), next.row(y) + wanted.x0);
+            rows.run([&](int y, const LevelRow* done, int count) {
+                std::array<float*, kRowBatch> out;
+                for (int i = 0; i < count; ++i)
+                    out[static_cast<std::size_t>(i)] = next.row(y + i) + wanted.x0;
+                refine(done, count, whole_blocks(n), out.data());
             });
             found = std::move(next);
             continue;
         }
         const Limits limits = limits_of(matching, level.base);
-        rows.run([&](int y, const WindowColumns& columns, const WarpedRow& known) {
-            finalize(columns, known, limits, n, result(y));
+        rows.run([&](int y, const LevelRow* done, int count) {
+            std::array<ResultRow, kRowBatch> out;
+            for (int i = 0; i < count; ++i) out[static_cast<std::size_t>(i)] = result(y + i);
+            finalize(done, count, limits, n, out.data());
         });
     }
 }

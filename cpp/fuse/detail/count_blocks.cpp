@@ -66,7 +66,8 @@ TRICUE_INLINE std::int64_t sum_of(const Ints4& counts) {
 /// Adds eight columns side by side, down the rows, of which those from `begin` to before `end` are counted.
 TRICUE_INLINE void add_columns(const Pixels& pixels, int x, int begin, int end, Totals& totals) {
     constexpr Ints4 kLeft = {0, 1, 2, 3}, kRight = {4, 5, 6, 7};
-    const Ints4 left_counted = (kLeft >= begin) & (kLeft < end), right_counted = (kRight >= begin) & (kRight < end);
+    const Ints4 left_counted = (kLeft >= begin) & (kLeft < end),
+                right_counted = (kRight >= begin) & (kRight < end);
     std::uint8_t counted[kColumns] = {};
     std::memset(counted + begin, 1, static_cast<std::size_t>(end - begin));
     std::uint64_t counted_ones;
@@ -80,7 +81,8 @@ TRICUE_INLINE void add_columns(const Pixels& pixels, int x, int begin, int end, 
         add_four(disparity + kLanes, pixels, right_counted, right);
         std::uint64_t bytes;
         std::memcpy(&bytes, mask, sizeof bytes);
-        const std::uint64_t low = ~(kByteOnes << 7), set = (((bytes & low) + low) | bytes) >> 7 & counted_ones;
+        const std::uint64_t low = ~(kByteOnes << 7),
+                            set = (((bytes & low) + low) | bytes) >> 7 & counted_ones;
         targets += set * kByteOnes >> 56;
         disparity += pixels.disparity_stride;
         mask += pixels.mask_stride;
@@ -126,8 +128,8 @@ BlockCounts count_blocks(const ImageView& mask, const PlaneView& disparity, cons
         const int rows = part.y1 - part.y0, cols = part.x1 - part.x0;
         Totals totals;
         if (rows > 0 && cols > 0)
-            add_block({disparity.row(part.y0), disparity.stride, mask.row(part.y0), mask.stride, rows, expected,
-                       tolerance},
+            add_block({disparity.row(part.y0), disparity.stride, mask.row(part.y0), mask.stride, rows,
+                       expected, tolerance},
                       part.x0, part.x1, disparity.cols, totals);
         const auto readings = static_cast<double>(totals.readings);
         counts.pixels[i] = std::int64_t{rows} * cols;

@@ -8,9 +8,9 @@
 #include <Eigen/Core>
 
 #include "base/arrays.hpp"
+#include "base/bit_image.hpp"
 #include "base/pixel_runs.hpp"
 #include "cues/depth/depth_histogram.hpp"
-#include "base/bit_image.hpp"
 
 namespace tricue {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -21,6 +22,12 @@ struct WindowColumns {
     const float* ss;
     int stride;
     int side;  ///< a window's width in pixels: this many columns are summed
+};
+
+/// A row of a level: its columns, and the expected disparities of its pixels.
+struct LevelRow {
+    WindowColumns columns;
+    WarpedRow known;
 };
 
 /// A block of windows' means.
@@ -65,7 +72,7 @@ public:
     GradientLevel(const GrayPlane& left, const GrayPlane& right, const LevelRegions& parts,
                   const GaussianDerivative& filter, int radius, const DisparityPrior& known, bool finest);
 
-    /// Calls done(y, columns, here) for each row; `here` are the expected disparities of its pixels.
+    /// Calls done(y, rows, count) for `count` rows from y on, a batch or fewer, until all are done.
     template <typename Done>
     void run(const Done& done) {
         for (int y = wanted_.y0 - radius_; y < wanted_.y1 + radius_; y += kRowBatch) {
@@ -73,7 +80,10 @@ public:
             add_rows(y, end);
             const int first = std::max(y - radius_, wanted_.y0);
             sum_columns(first, end - radius_);
-            for (int row = first; row < end - radius_; ++row) done(row, columns(row), known(row));
+            std::array<LevelRow, kRowBatch> rows;
+            for (int row = first; row < end - radius_; ++row)
+                rows[static_cast<std::size_t>(row - first)] = {columns(row), known(row)};
+            if (first < end - radius_) done(first, rows.data(), end - radius_ - first);
         }
     }
 
