@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from tricue.track.flow_depth.cues import POOLING_RADIUS
 from tricue.track.flow_depth.params import FlowDepthParams
-from tricue.track.flow_depth.rectangles import Rectangle, Region, cells_of, grown
+from tricue.track.flow_depth.rectangles import Rectangle, Region, cells_of, grown, whole
 from tricue.track.flow_depth.reduced_frame import WantedCells
 
 MAX_FLOW_STEP = 2  # cells of a level, by which a coarser level's flow may be off in pyramid_flow
@@ -18,7 +18,8 @@ class CueReach(NamedTuple):
     """How far around a region the cues' kernels read, cells; 0 for an unused cue.
 
     flow: in the frame and the previous one. left: for the disparity, in the left image. right: around the
-    region's place in the right image by the expected disparity.
+    region's place in the right image by the expected disparity. A region is first enlarged to whole cells: a
+    corner that is 1e-16 inside of a cell would be rounded to the cell's edge by the sum.
     """
 
     flow: int
@@ -33,17 +34,17 @@ class CueReach(NamedTuple):
 
     def before(self, region: Rectangle, shape: tuple[int, ...]) -> Region:
         """The cells of the previous frame that the flow of a region reads."""
-        return cells_of(grown(region, self.flow, self.flow), shape)
+        return cells_of(grown(whole(region), self.flow, self.flow), shape)
 
     def wanted(self, region: Rectangle, disparity: float, shape: tuple[int, ...]) -> WantedCells:
         """The cells that are read in this frame, given the expected disparity."""
         reach = max(self.flow, self.left)
-        left = cells_of(grown(region, reach, reach), shape)
+        left = cells_of(grown(whole(region), reach, reach), shape)
         return WantedCells(left, self._in_right(region, disparity, shape) if self.right else None)
 
     def _in_right(self, region: Rectangle, disparity: float, shape: tuple[int, ...]) -> Region:
         """The cells in the right image; if the region would be outside it, the cells at the edge."""
-        x0, y0, x1, y1 = region
+        x0, y0, x1, y1 = whole(region)
         last = shape[1] - 1
         left, right = min(max(x0 - disparity, 0), last), min(max(x1 - disparity, 0), last)
         return cells_of((left - self.right, y0 - self.left, right + self.right + 1, y1 + self.left), shape)

@@ -19,6 +19,12 @@ def grown(rectangle: Rectangle, across: float, along: float) -> Rectangle:
     return x0 - across, y0 - along, x1 + across, y1 + along
 
 
+def whole(rectangle: Rectangle) -> Rectangle:
+    """The rectangle, enlarged to whole cells."""
+    x0, y0, x1, y1 = rectangle
+    return math.floor(x0), math.floor(y0), math.ceil(x1), math.ceil(y1)
+
+
 def around(one: Rectangle, other: Rectangle) -> Rectangle:
     """The rectangle around both."""
     (x0, y0, x1, y1), (left, top, right, bottom) = one, other
