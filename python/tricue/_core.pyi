@@ -1257,14 +1257,16 @@ def gradient_disparity(
     With the images shifted by the disparity d0 known so far, each pixel gives one equation
         s (d - d0) = f_R(x - d0) - f_L(x),  s = (f_x^R(x - d0) + f_x^L(x)) / 2                     (7)
 
-    (as printed it equates slopes with slopes; the difference of brightness is meant), and the d of a
-    pixel is the least-squares solution in its window. f is the x-derivative of the Gaussian, which
-    lighting changes less than brightness; f_x its central difference. Between columns f is linear.
+    and the d of a pixel is the least-squares solution in its window. f is the image filtered by the
+    x-derivative of a Gaussian, which lighting changes less than brightness: so f_R - f_L is the
+    difference of slopes that is printed, and f_x, the central difference of f, is a second derivative
+    (printed as the slope of brightness, with which (7) would equate slopes with slopes). Between
+    columns f is linear.
 
     At the coarsest level of a pyramid d0 is the prediction, at the others the d of the coarser level;
     each level may change it by 1.5 of its own pixels. Three levels reach 9 pixels at most, and are
     accurate up to 6; one level 1 to 2. With little contrast in the window, d0 stays. levels = 1 with
-    radius = 0 is the paper's method.
+    radius = 0 is the paper's method, with this f.
 
     A pixel is NaN outside the left image, where x - d0 is not in the right one, and where it is
     rejected: by its last step, by the differences that remain with d in its window (occlusion, noise,

@@ -51,7 +51,7 @@ class FlowDepthParams(Params):
         0.05, unit="-", source="(5); " + OURS, low=0, high=1, doc="reliability of the flow"
     )
     min_contrast: float = parameter(
-        1.0, unit="levels²", source="(6); " + OURS, low=0, doc="reliability of the flow"
+        1.0, unit="(levels/cell²)²", source="(6); " + OURS, low=0, doc="reliability of the flow"
     )
     disparity_levels: int = parameter(
         3,
@@ -167,7 +167,7 @@ class FlowDepthParams(Params):
         low=0,
         high=2,
         doc="left and right margin of the candidate region around the window; above and below "
-        "it is half as large a share of the height",
+        "it is half as large a share of the height; at least 4 cells each",
     )
     prior_center: float = parameter(
         1.0,
@@ -409,30 +409,37 @@ class FlowDepthParams(Params):
         Where print is wrong:
 
         - (4) lacks the minus of (3); here it has it.
-        - (7) equates slopes with slopes; the difference of brightness is meant.
+        - (7) has a difference of slopes where a gradient method has one of images. The difference is taken as
+          printed, as if f had been filtered by g like the frames of (4); so the slopes in (7) and (9) are
+          those of this derivative along x, of a Gaussian of 1 cell, which a change of light hardly affects.
         - (8) lacks its parentheses and moves rows alone, so that one depth has other disparities in other
           columns. Rows and columns are rectified (the kernel rectify_verged).
 
-        Where it is changed: f in (7) and (9), the images in print, are their derivatives along x, which a
-        change of light hardly affects. So (9) has second derivatives.
-
         Where it is silent, and our choice:
 
-        - The filters g, h of (4): derivatives of a Gaussian along x and y. Flow beyond 2.2 of its deviations,
-          where it is ambiguous, isn't used.
-        - (7) reaches one or two pixels: the right image is shifted by the last disparity. A depth camera's
-          disparities all have the weight 1 in place of (9).
+        - The filters g, h of (4): derivatives of a Gaussian along x and y, of the mean of two frames; f_t is
+          their difference. Flow beyond 2.2 of the Gaussian's deviations, where it is ambiguous, isn't used.
+        - (7) reaches one or two pixels: the right image is shifted by the last disparity. Disparities more
+          than 100 cells from it aren't used. A depth camera's all have the weight 1 in place of (9).
         - (7) divides by the squared slope, which may be 0: 0.01 is added to it, so that the last disparity
           stays where there is hardly any contrast.
+        - In the first frame there is no flow: tracking begins in the second, with a target that stands still.
+          The first disparity is that of most of the box, by block matching or by the depth image.
         - The velocity without flow, ``cues=("disparity",)``: it changes by 0.3 of the distance between the
           target pixels' center and the predicted one.
-        - The first disparity: that of most of the box, by block matching or by the depth image.
-        - Histograms (section 4.2) are centered on the last peak.
+        - The candidate region (section 4.1) is at least 4 cells larger than the window on each side. The
+          prior falls to 0 at its edge. Target pixels may be anywhere in it (section 4.3: "in and around" the
+          temporal window).
+        - Histograms (section 4.2) are centered on the last peak. Peaks are those of the smoothed histograms,
+          between bins by a parabola.
         - P(F) in (11) is constant, and has no number. Here P(obj|F) is P(F|obj) P(obj) over itself plus even
           densities: a probability, and a threshold on it is one on P(F|obj) P(obj), as with a constant.
           A pixel needs a measurement of every cue.
-        - Votes and negative votes (section 4.4) add up over all frames in which a block has one state. A mean
-          disparity needs a fifth of the block's cells; without it a block isn't nearer.
+        - Votes and negative votes (section 4.4) add up over all frames in which a block has one state. A
+          target block with too few target pixels for a vote counts as one without. A mean disparity needs a
+          fifth of the block's cells; without it a block isn't nearer.
+        - "Much larger" (sections 4.4 and 4.5) is the same margin for blocks and for the whole target. Too few
+          target pixels are less than 0.2 of their running mean, or fewer than 8.
         - Too few target pixels and no occluded block (section 4.5): the target is missed, moves on at its
           last velocity as far as the image's edge. If something nearer hides it, it is never LOST, which
           isn't printed; otherwise it is LOST after a while.
