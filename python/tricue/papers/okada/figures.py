@@ -55,7 +55,11 @@ def frames_and_overlaps(figure: Any, curves: Sequence[WalkCurve], scenes: Mappin
     for axes, scene_name in zip(panels.flat, scenes, strict=False):
         _overlaps(axes, [curve for curve in curves if curve.scene == scene_name], models)
         axes.set_title(scene_name, loc="left")
-    top.suptitle(f"{name}, seed 0: tracker's box solid, true box dashed", fontsize=9)
+    top.suptitle(
+        f"{name}, seed 0: tracker's box solid, true box dashed; target pixels white, target blocks black, "
+        "occluded blocks black and crossed",
+        fontsize=9,
+    )
     runs = len({curve.seed for curve in curves})
     for axes in panels[-1]:
         axes.set_xlabel(f"frame (runs: {runs}; shaded: the target is less than half visible)")

@@ -24,7 +24,8 @@ def key_frames(frames: int) -> tuple[int, ...]:
 
 def frames_and_angles(figure: Any, curves: Sequence[FollowCurve], scenes: Mapping[str, PanTiltScene]) -> None:
     """Seed 0. Above, the camera's view in the second scene, a row per tracker: its box solid, the true one
-    dashed. Below, the pan angles of target and camera over time in each scene.
+    dashed, and lines around the middle third. Below, the pan angles of target and camera over time in each
+    scene.
     """
     models = models_of(curves)
     figure.set_size_inches(14, 1.75 * len(models) + 3.4)
@@ -39,12 +40,14 @@ def frames_and_angles(figure: Any, curves: Sequence[FollowCurve], scenes: Mappin
         row[0].set_ylabel(model, color=color)
     for axes, index in zip(rows[0], frames, strict=True):
         axes.set_title(f"{index / scenes[shown].rate:.1f} s", loc="left")
-    top.suptitle(f"{shown}: tracker's box solid, true box dashed", fontsize=9)
+    top.suptitle(
+        f"{shown}, seed 0: tracker's box solid, true box dashed; lines: the middle third", fontsize=9
+    )
     panels = bottom.subplots(1, len(scenes), sharey=True, squeeze=False)[0]
     for axes, (name, scene) in zip(panels, scenes.items(), strict=True):
         _angles(axes, first_runs(curves, name), models, scene)
         axes.set_title(name, loc="left")
-        axes.set_xlabel("s")
+        axes.set_xlabel("s (shaded: the target is less than half visible)")
     panels[0].set_ylabel("pan, degrees")
     handles, labels = panels[0].get_legend_handles_labels()
     bottom.legend(handles, labels, frameon=False, loc="outside lower center", ncols=len(labels))
