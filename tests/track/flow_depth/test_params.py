@@ -132,6 +132,23 @@ def test_the_paper_follows_until_the_overtaking(depth, overtakings, follow):
     assert np.mean(np.array(overlaps) > 0.5) > 0.9
 
 
+def test_the_papers_pixels_leave_out_the_feet(overtakings):
+    """Section 5: hardly any of the feet are extracted, because the velocity is taken to be uniform."""
+    scene = overtakings(3, 55)
+    tracker = FlowDepthTracker(PAPER, rig=scene.rig)
+    tracker.init(scene.frames[0], scene.boxes[0])
+    shares = []
+    for index in range(1, scene.events.hiding):
+        tracker.update(scene.frames[index])
+        _, y0, _, y1 = scene.boxes[index].xyxy
+        down = (np.arange(120)[:, None] + 0.5 - y0) / (y1 - y0)
+        target = scene.masks[index] > 0
+        shares.append([(tracker.mask[target & part] > 0).mean() for part in (down > 0.85, down < 0.55)])
+    feet, upper = np.mean(shares, axis=0)
+    assert feet < 0.1
+    assert upper > 3 * feet
+
+
 WITHOUT_EFFECT = {"resolution", "depth_camera_scale", "min_posterior_one_cue", "thickness", "lost_after"}
 """In a stereo pair of 160 columns, by both cues, nothing hidden for seconds, alone among the defaults."""
 
