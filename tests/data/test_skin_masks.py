@@ -77,6 +77,13 @@ def test_a_file_that_is_no_image_is_named(folder):
         find_masked_images(folder)[0].read()
 
 
+def test_a_gray_image_is_named(folder):
+    """It has no color to learn, and read as BGR would teach gray as the color of skin."""
+    cv2.imwrite(str(folder / "image" / "2.bmp"), np.full((4, 6), 50, np.uint8))
+    with pytest.raises(ValueError, match=r"image/2.bmp: expected a color image, got a gray one"):
+        find_masked_images(folder)[0].read()
+
+
 def test_a_folder_without_masks_is_named(folder):
     """Without the two folders, or without images, the folder is named."""
     (folder / "mask").rename(folder / "other")
