@@ -366,9 +366,27 @@ def test_a_broken_parameter_file_is_named(tmp_path, capsys):
     assert "given.toml: hair: unknown parameter" in failing(arguments, capsys)
 
 
+@pytest.mark.parametrize(
+    ("command", "option"),
+    [
+        (["skin-threshold", "skin"], "--false-positives"),
+        (["head-colors", "--skin", "skin", "--hair", "hair"], "--hair-weight"),
+    ],
+)
 @pytest.mark.parametrize("text", ["2", "-0.1", "nan", "few"])
-def test_a_share_is_from_0_to_1(text: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_share_is_from_0_to_1(
+    command: list[str], option: str, text: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     """It proves that the option is named, not what it is called inside."""
     with pytest.raises(SystemExit):
-        main(["calibrate", "skin-threshold", "skin", f"--false-positives={text}", "--output", "x.toml"])
-    assert f"--false-positives: expected a share, 0 to 1, got '{text}'" in capsys.readouterr().err
+        main(["calibrate", *command, f"{option}={text}", "--output", "x.toml"])
+    assert f"{option}: expected a share, 0 to 1, got '{text}'" in capsys.readouterr().err
+
+
+def test_one_camera_is_told_of_the_other_one(still, tmp_path, capsys):
+    """Without right images the error says which option gives them, and nothing is written."""
+    left, out = str(write_pair(still, tmp_path / "pair") / "left"), tmp_path / "o.toml"
+    line = failing(["stereo-noise", left, "--box", "60,30,25,33", "--output", str(out)], capsys)
+    assert "left: frame: expected the channel right" in line
+    assert line.endswith("give the right camera's images with --right PLACE")
+    assert not out.exists()

@@ -21,6 +21,7 @@ from tricue.data.input_files import input_files
 from tricue.data.open_source import open_source
 from tricue.data.skin_masks import find_masked_images, is_mask_folder
 from tricue.draw.writable import check_writable
+from tricue.errors import MissingChannelError
 from tricue.track.base.params import Params
 from tricue.track.base.registry import tracker_class
 
@@ -63,7 +64,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
         )
     head.add_argument(
         "--hair-weight",
-        type=float,
+        type=share,
         metavar="SHARE",
         help="share of hair in the model, default: parameter hair",
     )
@@ -161,7 +162,7 @@ def _stereo_noise(options: argparse.Namespace, params: Any) -> dict[str, Any]:
     try:
         static = measure_static_head(found.prepare(source), head, found.rig, params)
     except ValueError as error:
-        raise ValueError(f"{source.name}: {error}") from None
+        raise ValueError(f"{source.name}: {error}{_hint(error)}") from None
     if options.distance is not None:
         _check_distance(options.distance, float(static.positions[:, 2].mean()))
     if static.moves:
@@ -182,6 +183,12 @@ def _stereo_noise(options: argparse.Namespace, params: Any) -> dict[str, Any]:
         for axis, values in zip("XYZ", static.positions.T, strict=True):
             print(f"  {axis} {values.mean():8.3f} m ± {1000 * values.std(ddof=1):.1f} mm")
     return measured
+
+
+def _hint(error: ValueError) -> str:
+    """How to give the right images where there are none."""
+    missing = isinstance(error, MissingChannelError) and error.channel == "right"
+    return "; give the right camera's images with --right PLACE" if missing else ""
 
 
 def _check_distance(given: float, measured: float) -> None:
