@@ -8,6 +8,7 @@ from tricue import Status, Track
 from tricue.papers import reproduce
 from tricue.papers.experiment import Case
 from tricue.papers.moreno import experiments as stereo_experiments
+from tricue.papers.moreno import figures
 from tricue.papers.moreno.experiments import Trial
 from tricue.scenes import HEAD_KINDS
 from tricue.track.stereo_head.params import StereoHeadParams
@@ -104,6 +105,24 @@ def test_slow_scenes_run_from_fewer_seeds(tmp_path, monkeypatch):
     assert calls == [(done, 5) for done in range(1, 6)]
     ends = [line.split("|")[-2].strip() for line in report.summary.splitlines()[2:5]]
     assert ends == ["2", "2", "1"]
+
+
+def test_the_legend_hides_no_deviation():
+    """In (b) the legend lies below all curves."""
+    matplotlib = pytest.importorskip("matplotlib.figure")
+    trial = Trial.make(0, frames=40)
+    curves = [
+        stereo_experiments.measure(Case(model, scene, 0), EXPERIMENT.models[model], trial)
+        for scene in (figures.NORMAL, figures.NOISY)
+        for model in figures.MODEL_COLORS
+    ]
+    figure = matplotlib.Figure()
+    figures.paths(figure, curves, {figures.NORMAL: trial})
+    figure.draw_without_rendering()
+    (axes,) = (each for each in figure.axes if each.get_title("left").startswith("(b)"))
+    lowest = min(np.nanmin(line.get_ydata()) for line in axes.lines)
+    _, bottom = axes.transData.transform((0, lowest))
+    assert axes.get_legend().get_window_extent().y1 < bottom
 
 
 @pytest.mark.slow

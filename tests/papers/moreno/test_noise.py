@@ -104,6 +104,12 @@ def test_the_figure_is_drawn(tmp_path):
         (axes, line) for axes in figure.axes for line in axes.lines if line.get_label().startswith("a bin")
     ]
     assert len(dashed) == 3
+    figure.draw_without_rendering()
+    legends = [(axes.get_legend(), axes, line) for axes, line in dashed if axes.get_legend()]
+    assert legends
+    for legend, axes, line in legends:
+        _, height = axes.transData.transform((0, line.get_ydata()[0]))
+        assert height < legend.get_window_extent().y0
     for axes, line in dashed:
         bottom, top = axes.get_ylim()
         assert bottom == 0 < line.get_ydata()[0] < top

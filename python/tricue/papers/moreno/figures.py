@@ -12,7 +12,6 @@ from tricue.papers.moreno.curves import (
     FUSED,
     PRINTED,
     PRINTED_UNFUSED,
-    TIMED_MODULES,
     UNFUSED,
     StereoCurve,
     module_seconds,
@@ -27,6 +26,8 @@ MODEL_COLORS = {FUSED: COLORS[0], UNFUSED: COLORS[5], PRINTED: COLORS[1], PRINTE
 MOMENTS = (0.25, 0.55, 0.9)
 """The moments at which a scene is shown, as shares of its frames."""
 
+LEGEND_ROOM = 0.25
+"""Of (b), below the curves, as a share of their range in decades."""
 
 SHOWN = 0.6
 """Shown share of the image's width and height, around the head."""
@@ -130,9 +131,11 @@ def _deviations(axes: Any, first: Runs) -> None:
             off = 100 * np.linalg.norm(curve.positions - curve.truth, axis=1)
             style = {"color": MODEL_COLORS[model], "linewidth": 0.8, "linestyle": ":"}
             axes.plot(off, **style, label=f"true error, {label}")
-    axes.set(yscale="log", xlabel="frame", ylabel="standard deviation, cm")
+    axes.set(yscale="log", xlabel="frame", ylabel="standard deviation, true error, cm")
     if axes.lines:
-        axes.legend(frameon=False, fontsize=7)
+        low, high = axes.get_ylim()
+        axes.set_ylim(low * (low / high) ** LEGEND_ROOM, high)
+        axes.legend(frameon=False, fontsize=7, loc="lower right", ncols=2)
     axes.set_title(f"(b) root of the variance along the path: {NORMAL}", loc="left")
 
 
@@ -152,4 +155,4 @@ def _times(axes: Any, curves: Sequence[StereoCurve]) -> None:
     axes.invert_yaxis()
     axes.margins(x=0.2, y=0.3)
     axes.set_title(f"(d) time per module, {model}", loc="left")
-    axes.legend(frameon=False, ncols=len(TIMED_MODULES), loc="lower center", fontsize=7)
+    axes.legend(frameon=False, ncols=2, loc="lower center", fontsize=7)

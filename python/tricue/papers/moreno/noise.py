@@ -192,10 +192,12 @@ def draw(figure: Any, runs: Sequence[NoiseRun], _scenes: Mapping[str, StereoScen
             axes.set(xlabel="Z, m", title=f"{quantity.name}, {quantity.unit}")
     for axes, width in zip(rows[2, :3], bin_deviations(StereoHeadParams.paper()), strict=True):
         axes.axhline(width, color="0.5", linewidth=1, linestyle="--", label="a bin's width / √12")
-        axes.legend(frameon=False, fontsize=7)
     for axes in places[3:]:
         axes.set_ylim(0, None)  # last, so that it includes all lines
-    places[0].legend(frameon=False, fontsize=7)
+    first_drift = rows[2, 0]
+    first_drift.set_ylim(0, 1.3 * first_drift.get_ylim()[1])  # room for the legend
+    for axes in (places[0], first_drift):
+        axes.legend(frameon=False, fontsize=7)
     explained = {
         0: "Error of the position, root mean square\nover 60 frames of a head at rest, aside\nof the axis. "
         "Dots: one rig and head each.\nLines: polynomials of third order.\n\n"
