@@ -92,6 +92,21 @@ def test_a_wall_is_no_floor(kernels):
     assert np.isfinite(fg.depth).all()
 
 
+@pytest.mark.parametrize("noise", [0.003, 0.02])
+@pytest.mark.parametrize("distance", [0.7, 1.5, 3.0])
+def test_an_upright_target_alone_has_no_floor(distance, noise, kernels):
+    """Where depth ends behind the target, its lower part isn't taken for a floor: all of it stays."""
+    v, u = np.indices((144, 176))
+    across, along = (CAMERA.back_project(u, v, 1.0)[..., axis] * distance for axis in (0, 1))
+    bulge = 0.12 * np.sqrt(np.maximum(1 - (across / 0.2) ** 2, 0))
+    depth = distance - bulge + noise * np.random.default_rng(0).standard_normal(u.shape)
+    depth[(np.abs(across) > 0.2) | (np.abs(along) > 0.7)] = np.nan
+    for seed in range(5):
+        fg, plane = found(kernels, depth.astype(np.float32), seed=seed)
+        assert not plane.any()
+        np.testing.assert_array_equal(np.isfinite(fg.depth), np.isfinite(depth))
+
+
 @pytest.mark.parametrize(("columns", "is_floor"), [(6, False), (60, True)])
 def test_a_small_patch_is_no_floor(columns, is_floor, kernels):
     """A patch of under 6 % of what is measured is no floor, though all of it is flat and nothing is below; a
