@@ -32,7 +32,7 @@ struct VergedCamera {
 /// Pixels that only the verged camera sees lie left of column 0; a shift to the right keeps them. A shift of f tan a puts the
 /// axis of the turned camera at the principal point. Sampling is bilinear, places rounded to 1/2048 pixel, values half up.
 ///
-/// @param right uint8 (H, W) gray or (H, W, 3) BGR, at least one pixel
+/// @param right uint8 (H, W) gray or (H, W, 3) BGR, at least one pixel, at most 1,048,575 rows and columns
 /// @param center (cx, cy), the principal point, finite, pixels; (0, 0) is the center of the first pixel; None for the center of
 ///     the image
 /// @param shift pixels by which the image moves to the right, finite

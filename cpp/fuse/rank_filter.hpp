@@ -42,7 +42,7 @@ struct FilteredEllipses {
 /// a weight counting as at least 1e-300; reweight; summarize; and rank_likelihood and rank_window of the expected value. So
 /// particles stay in the cache between these steps.
 ///
-/// @param image uint8 (H, W, 3) BGR, at least one pixel
+/// @param image uint8 (H, W, 3) BGR, at least one pixel, 2 GB at most
 /// @param flat as in rank_window
 /// @throws std::invalid_argument as the kernels that it combines, and on a correlation outside [-1, 1]
 /// Source: Sabeti, Parvizi, Wu 2008, section III, equations (2), (30), (31).

@@ -1641,7 +1641,7 @@ def learn_contrast(
     the samples.
 
     Args:
-        image: uint8 (H, W, 3) BGR, at least one pixel
+        image: uint8 (H, W, 3) BGR, at least one pixel, 2 GB at most
         ellipse: float64 (4,): center x, y, semi-axes along x and y, pixels, finite
         inside: float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in sample_ellipses
         around: float64 (m, 2): places (u, v) around it
@@ -2362,7 +2362,7 @@ def rank_filter(
     steps.
 
     Args:
-        image: uint8 (H, W, 3) BGR, at least one pixel
+        image: uint8 (H, W, 3) BGR, at least one pixel, 2 GB at most
         particles: float64 (N, 4): ellipses, as in rank_likelihood, N at least 1
         weights: float64 (N,), finite, none negative, not all 0; need not sum to 1
         offset: offset of resample's comb, in [0, 1); None: particles aren't resampled, and their
@@ -2385,7 +2385,7 @@ def rank_filter(
             C++ M rows of 3 n
         shares: float64 (M,): weight of each map in the mean distance, finite
         nearest: whether to take the least distance; shares then only have to be valid
-        table: float32 (B, B, B): P(target | color), as color_lookup takes it
+        table: float32 (B, B, B), B a power of two up to 64: P(target | color)
         sharpness: nats, finite
         contrast_weight: nats, finite
         flat: as in rank_window
@@ -2427,7 +2427,7 @@ def rank_likelihood(
     sample_ellipses; one pass keeps them in the cache.
 
     Args:
-        image: uint8 (H, W, 3) BGR, at least one pixel
+        image: uint8 (H, W, 3) BGR, at least one pixel, 2 GB at most
         ellipses: float64 (N, 4): center x, y, semi-axes along x (minor) and y (major), pixels, finite
         inside: float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in sample_ellipses
         around: float64 (m, 2): places (u, v) around it
@@ -2435,7 +2435,7 @@ def rank_likelihood(
             C++ M rows of 3 n
         shares: float64 (M,): weight of each map in the mean distance, finite
         nearest: whether to take the least distance; shares then only have to be valid
-        table: float32 (B, B, B): P(target | color), as color_lookup takes it
+        table: float32 (B, B, B), B a power of two up to 64: P(target | color)
         sharpness: nats, finite
         contrast_weight: nats, finite
 
@@ -2492,7 +2492,7 @@ def rank_window(
     has no order: the correlation is 0.
 
     Args:
-        image: uint8 (H, W, 3) BGR, at least one pixel
+        image: uint8 (H, W, 3) BGR, at least one pixel, 2 GB at most
         ellipse: float64 (4,): center x, y, semi-axes along x and y, pixels, finite
         pattern: float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in sample_ellipses,
             n at least 1
@@ -2598,7 +2598,8 @@ def rectify_verged(
     places rounded to 1/2048 pixel, values half up.
 
     Args:
-        right: uint8 (H, W) gray or (H, W, 3) BGR, at least one pixel
+        right: uint8 (H, W) gray or (H, W, 3) BGR, at least one pixel, at most 1,048,575 rows and
+            columns
         angle: a, radians about y, above 0 where the camera is turned inwards, to the left; between
             -pi/2 and pi/2
         focal: f = fx, pixels, finite, above 0; fy cancels out

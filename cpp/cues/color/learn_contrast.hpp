@@ -20,7 +20,7 @@ struct ColorContrast {
 ///
 /// All in float32; in C++ a cube is B² rows (blue, green) of B reds. `seen` is the joint_histogram of the samples.
 ///
-/// @param image uint8 (H, W, 3) BGR, at least one pixel
+/// @param image uint8 (H, W, 3) BGR, at least one pixel, 2 GB at most
 /// @param ellipse float64 (4,): center x, y, semi-axes along x and y, pixels, finite
 /// @param target float32 (B, B, B), B a power of two up to 64: the target's histogram so far; zeros at first, with a rate of 1
 /// @param surround float32 (B, B, B): the surround's histogram so far

@@ -22,7 +22,7 @@ struct ColorLook {
         models;  ///< float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1; in C++ M rows of 3 n
     VectorRef shares;  ///< float64 (M,): weight of each map in the mean distance, finite
     bool nearest;      ///< whether to take the least distance; shares then only have to be valid
-    FloatsRef table;   ///< float32 (B, B, B): P(target | color), as color_lookup takes it
+    FloatsRef table;   ///< float32 (B, B, B), B a power of two up to 64: P(target | color)
 };
 
 /// How much a distance and a contrast count.
@@ -55,7 +55,7 @@ private:
 /// rank map; or the least of these distances. c is the mean of the table over the samples inside minus that over those around the
 /// ellipse. The samples are those of sample_ellipses; one pass keeps them in the cache.
 ///
-/// @param image uint8 (H, W, 3) BGR, at least one pixel
+/// @param image uint8 (H, W, 3) BGR, at least one pixel, 2 GB at most
 /// @param ellipses float64 (N, 4): center x, y, semi-axes along x (minor) and y (major), pixels, finite
 /// @returns float64 (N,)
 /// @throws std::invalid_argument as the kernels that it combines, on a pattern without places, or without maps

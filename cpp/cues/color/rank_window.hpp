@@ -17,7 +17,7 @@ struct RankWindow {
 /// The correlation is Spearman's, of all 3 n ranks; negative ones become 0. As the mean of a map is 1/2, it is (Σab − N/4) /
 /// √((Σa² − N/4) (Σb² − N/4)), N = 3 n. A window or a map that is nearly flat has no order: the correlation is 0.
 ///
-/// @param image uint8 (H, W, 3) BGR, at least one pixel
+/// @param image uint8 (H, W, 3) BGR, at least one pixel, 2 GB at most
 /// @param ellipse float64 (4,): center x, y, semi-axes along x and y, pixels, finite
 /// @param pattern float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in sample_ellipses, n at least 1
 /// @param models float32 (M, 3, n): rank maps in [0, 1]; in C++ M rows of 3 n
