@@ -25,8 +25,9 @@ class MaskedImage(NamedTuple):
     def read(self) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
         """The image, BGR (H, W, 3), and its mask (H, W), True where it is white.
 
-        ValueError or OSError names a file that can't be read, a gray image, a mask whose size isn't its image's,
-        or a mask that is gray but nowhere white, such as one of 0 and 1, in which all marks would be overlooked.
+        ValueError or OSError names a file that can't be read, a gray image, a mask whose size isn't its
+        image's, or a mask that is gray but nowhere white, such as one of 0 and 1, in which all marks would be
+        overlooked.
         """
         image: NDArray[np.uint8] = read_image(self.image, cv2.IMREAD_ANYCOLOR).astype(np.uint8, copy=False)
         if image.ndim != 3:
