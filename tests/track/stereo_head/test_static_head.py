@@ -54,6 +54,14 @@ def test_a_head_that_moves_is_told_from_a_noisy_one(seed):
     assert not any(measure_static_head(each.frames, each.boxes[0], each.rig).moves for each in still)
 
 
+def test_a_head_that_is_always_at_the_same_place_does_not_move(rendered):
+    """A pair repeated has one position, whose mean is rounded."""
+    scene = rendered(static_head, 4, 22)
+    found = measure_static_head([scene.frames[0]] * 20, scene.boxes[0], scene.rig)
+    assert (found.positions == found.positions[0]).all()
+    assert not found.moves
+
+
 def test_positions_are_those_of_the_head():
     """The mean position is within 2 % of the true one, and so is the disparity, by the rig."""
     scene = static_head(4, 20, distance=1.5, aside=(0.3, 0.1))

@@ -57,8 +57,9 @@ class StaticHead:
     @property
     def moves(self) -> bool:
         """Whether the head seems to move: its positions differ far more overall than from frame to frame."""
-        changes = np.mean(np.diff(self.positions, axis=0) ** 2, axis=0)
-        return bool((changes < MIN_REST_RATIO * self.positions.var(axis=0, ddof=1)).any())
+        off = self.positions - self.positions[0]  # exactly 0 where nothing moves
+        changes = np.mean(np.diff(off, axis=0) ** 2, axis=0)
+        return bool((changes < MIN_REST_RATIO * off.var(axis=0, ddof=1)).any())
 
     def disparity_noise(self, rig: StereoRig, distance: float) -> float:
         """The root mean square error, pixels, of the disparities of a head at a known distance, meters."""
