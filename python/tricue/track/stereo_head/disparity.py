@@ -92,11 +92,15 @@ def _match(
 
 
 def _without_margin(ellipse: Ellipse, window: int, p: StereoHeadParams) -> Ellipse:
-    """The ellipse without its margin, which takes at most half of each semi-axis, and less of short ones."""
+    """The ellipse without its margin."""
     margin = p.ellipse_margin * window
-    x, y, *axes = ellipse
-    minor, major = (max(axis - margin, axis / 2, min(axis, MIN_SEMI_AXIS)) for axis in axes)
-    return x, y, minor, major
+    x, y, minor, major = ellipse
+    return x, y, _shorten(minor, margin), _shorten(major, margin)
+
+
+def _shorten(axis: float, margin: float) -> float:
+    """A semi-axis without the margin, which takes at most half of it, and less of a short one."""
+    return max(axis - margin, axis / 2, min(axis, MIN_SEMI_AXIS))
 
 
 def _area(ellipse: Ellipse) -> float:
