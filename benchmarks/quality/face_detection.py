@@ -20,7 +20,7 @@ import math
 import sys
 from collections.abc import Callable, Iterator
 from functools import partial
-from itertools import chain
+from itertools import chain, groupby
 from pathlib import Path
 from time import process_time
 from typing import NamedTuple
@@ -107,24 +107,29 @@ def main() -> int:
     else:
         answers = [_answer(DETECTORS[options.detector], each) for each in cases]
     rows = [
-        _row(source, [each for each in answers if each.source == source])
+        _row(source, [each for each in answers if each.source == source], options.every)
         for source in dict.fromkeys(each.source for each in answers)
     ]
-    print(markdown(["frames", "number", "found", "elsewhere", "overlap", "ms a frame"], rows))
+    print(markdown(["frames", "number", "found", "elsewhere", "overlap", "wait", "ms a frame"], rows))
     return 0
 
 
-def _row(source: str, answers: list[Answer]) -> list[str]:
+def _row(source: str, answers: list[Answer], every: int) -> list[str]:
     time = f"{np.median([each.milliseconds for each in answers]):.0f}"
     overlaps = [each.overlap for each in answers if each.overlap is not None]
     if not overlaps:
         false = np.mean([each.found for each in answers])
-        return [source, str(len(answers)), "", f"{false:.1%}", "", time]
+        return [source, str(len(answers)), "", f"{false:.1%}", "", "", time]
     right = np.mean([overlap >= MIN_OVERLAP for overlap in overlaps])
     elsewhere = np.mean([each.found and each.overlap == 0 for each in answers])
     overlapping = [overlap for overlap in overlaps if overlap > 0 and source != PHOTOGRAPHS]
     median = f"{np.median(overlapping):.2f}" if overlapping else ""
-    return [source, str(len(answers)), f"{right:.1%}", f"{elsewhere:.1%}", median, time]
+    wait = "" if source == PHOTOGRAPHS else str(every * _longest_run([overlap == 0 for overlap in overlaps]))
+    return [source, str(len(answers)), f"{right:.1%}", f"{elsewhere:.1%}", median, wait, time]
+
+
+def _longest_run(missed: list[bool]) -> int:
+    return max(sum(1 for _ in run) if value else 0 for value, run in groupby(missed))
 
 
 def _answer(find: Callable[[Image], Box | None], case: Case) -> Answer:
