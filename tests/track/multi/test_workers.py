@@ -279,9 +279,11 @@ def test_an_answer_that_was_read_in_part_ends_its_worker(started, things, alone,
 
 
 @pytest.mark.parametrize("call", ["update", "add"])
-def test_a_worker_that_hangs_takes_one_interrupt(call, started, things, alone, monkeypatch):
+def test_a_worker_that_hangs_takes_one_interrupt(call, started, things, alone, monkeypatch, request):
     """Ctrl-C while it is waited for ends it after a moment, and is raised; the other targets go on."""
     monkeypatch.setattr(remote_targets, "PATIENCE", 0.5)
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
+    request.addfinalizer(lambda: signal.signal(signal.SIGINT, before))
     with started(FUSED[:3], workers=2) as several:
         process = process_of(several)
         os.kill(process, signal.SIGSTOP)
