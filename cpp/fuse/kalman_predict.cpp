@@ -12,9 +12,13 @@ Belief kalman_predict(VectorRef mean, StatesRef covariance, StatesRef transition
     require_finite(transition, "transition");
     require_covariance(noise, mean.size(), "noise");
 
-    const Matrix f = transition.matrix();
-    const Matrix p = covariance.matrix();
-    return {(f * mean.matrix()).array(), symmetrized(f * p * f.transpose() + noise.matrix())};
+    return with_matrix_type(mean.size(), [&](auto empty) -> Belief {
+        using Matrix = decltype(empty);
+        const Matrix f = transition.matrix(), p = covariance.matrix();
+        const Matrix moved = f.lazyProduct(p);
+        const Matrix both = moved.lazyProduct(f.transpose());
+        return {f.lazyProduct(mean.matrix()).array(), symmetrized(Matrix(both + noise.matrix()))};
+    });
 }
 
 }  // namespace tricue

@@ -2,6 +2,7 @@
 #include "fuse/kalman_update.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <limits>
 
 #include "base/check.hpp"
@@ -11,14 +12,44 @@ namespace tricue {
 namespace {
 
 /// A pivot no larger than the rounding error of its own variance counts as 0, whatever the unit.
-Eigen::LLT<Matrix> positive_root(const States& s) {
-    Eigen::LLT<Matrix> root(s.matrix());
+template <typename Matrix>
+Eigen::LLT<Matrix> positive_root(const Matrix& s) {
+    Eigen::LLT<Matrix> root(s);
     const double rounding = std::numeric_limits<double>::epsilon() * static_cast<double>(s.rows());
-    const Vector pivots = root.matrixLLT().diagonal().array().square();
-    const Vector variances = s.matrix().diagonal().array();
-    if (root.info() != Eigen::Success || !(pivots > rounding * variances).all() || !s.isFinite().all())
+    bool positive = root.info() == Eigen::Success && s.array().isFinite().all();
+    for (Eigen::Index i = 0; positive && i < s.rows(); ++i) {
+        const double pivot = root.matrixLLT()(i, i);
+        positive = pivot * pivot > rounding * s(i, i);
+    }
+    if (!positive)
         refuse("noise", "with the state's a positive definite innovation covariance", "one that isn't");
     return root;
+}
+
+/// The update of valid input.
+template <typename Matrix>
+Correction correct(VectorRef mean, StatesRef covariance, VectorRef measurement, StatesRef observation,
+                   StatesRef noise, double max_distance) {
+    const Matrix h = observation.matrix(), r = noise.matrix();
+    Vector innovation = measurement - h.lazyProduct(mean.matrix()).array();
+    Matrix p = covariance.matrix(), hp = h.lazyProduct(p);
+    Matrix s = symmetrized(Matrix(hp.lazyProduct(h.transpose()) + r)).matrix();
+    Eigen::LLT<Matrix> root = positive_root(s);
+    const double distance = root.matrixL().solve(innovation.matrix()).norm();
+    if (distance > max_distance) {
+        const double ratio = distance / max_distance;
+        p *= ratio * ratio;
+        hp = h.lazyProduct(p);
+        s = symmetrized(Matrix(hp.lazyProduct(h.transpose()) + r)).matrix();
+        root = positive_root(s);
+    }
+    const Matrix gain = root.solve(hp).transpose();  // K = P Hᵀ S⁻¹, P and S being symmetric
+    Matrix rest = -gain.lazyProduct(h);
+    rest.diagonal().array() += 1.0;
+    const Matrix rest_p = rest.lazyProduct(p), gain_r = gain.lazyProduct(r);
+    const Matrix squares = rest_p.lazyProduct(rest.transpose()) + gain_r.lazyProduct(gain.transpose());
+    return {mean + gain.lazyProduct(innovation.matrix()).array(), symmetrized(squares), std::move(innovation),
+            s.array()};
 }
 
 }  // namespace
@@ -35,24 +66,9 @@ Correction kalman_update(VectorRef mean, StatesRef covariance, VectorRef measure
 
     if (!(max_distance > 0.0)) refuse("max_distance", "a number above 0", max_distance);
 
-    const Matrix h = observation.matrix(), r = noise.matrix();
-    Vector innovation = (measurement.matrix() - h * mean.matrix()).array();
-    Matrix p = covariance.matrix(), hp = h * p;
-    States s = symmetrized(hp * h.transpose() + r);
-    Eigen::LLT<Matrix> root = positive_root(s);
-    const double distance = root.matrixL().solve(innovation.matrix()).norm();
-    if (distance > max_distance) {
-        const double ratio = distance / max_distance;
-        p *= ratio * ratio;
-        hp = h * p;
-        s = symmetrized(hp * h.transpose() + r);
-        root = positive_root(s);
-    }
-    const Matrix gain = root.solve(hp).transpose();  // K = P Hᵀ S⁻¹, P and S being symmetric
-    const Matrix rest = Matrix::Identity(size, size) - gain * h;
-    return {mean + (gain * innovation.matrix()).array(),
-            symmetrized(rest * p * rest.transpose() + gain * r * gain.transpose()), std::move(innovation),
-            std::move(s)};
+    return with_matrix_type(std::max(size, measured), [&](auto empty) {
+        return correct<decltype(empty)>(mean, covariance, measurement, observation, noise, max_distance);
+    });
 }
 
 }  // namespace tricue

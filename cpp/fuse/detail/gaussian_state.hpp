@@ -6,7 +6,18 @@
 
 namespace tricue {
 
-using Matrix = Eigen::MatrixXd;
+/// As large as the states and measurements of a filter, so that no memory is allocated.
+template <int kMax>
+using MatrixUpTo = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMax, kMax>;
+
+/// The most numbers of a state for which small matrices are taken.
+constexpr int kSmallState = 12;
+
+/// Calls `use` with an empty matrix of the type for so many numbers: it holds them, or allocates memory for them.
+template <typename Use>
+inline auto with_matrix_type(Eigen::Index size, Use&& use) {
+    return size <= kSmallState ? use(MatrixUpTo<kSmallState>{}) : use(MatrixUpTo<Eigen::Dynamic>{});
+}
 
 /// Throws std::invalid_argument unless the mean (N,) is finite, N at least 1, and the covariance (N, N) is one.
 inline void require_gaussian_state(VectorRef mean, StatesRef covariance) {
@@ -16,7 +27,8 @@ inline void require_gaussian_state(VectorRef mean, StatesRef covariance) {
 }
 
 /// The mean of a matrix and its transpose: rounding makes them differ slightly, and a filter would amplify that.
-inline States symmetrized(const Matrix& product) {
+template <typename Matrix>
+States symmetrized(const Matrix& product) {
     return (0.5 * (product + product.transpose())).array();
 }
 
