@@ -2,6 +2,7 @@
 """Messages between processes: tracks as plain values, which pickle thirty times as fast."""
 
 import pickle
+import select
 from multiprocessing.connection import Connection
 from typing import Any
 
@@ -10,6 +11,7 @@ from tricue.track.base.track import Status, Track
 
 WAKE = "wake"  # in place of a method; it has no answer, and another request follows at once
 NUMBER_BYTES = 8  # before a message, so that even one that can't be unpickled can be answered
+MAX_POLLS = 2000  # takes about a millisecond
 PlainTracks = dict[int, tuple[Any, ...]]
 
 
@@ -23,6 +25,20 @@ def receive(connection: Connection) -> tuple[int, memoryview]:
     """The next message, pickled, and its number; EOFError or OSError if none can come anymore."""
     data = memoryview(connection.recv_bytes())
     return int.from_bytes(data[:NUMBER_BYTES], "little"), data[NUMBER_BYTES:]
+
+
+def poller(connection: Connection) -> select.poll:
+    """Tells, by its ``poll``, whether a message has come; faster than the connection's own."""
+    made = select.poll()
+    made.register(connection.fileno(), select.POLLIN)
+    return made
+
+
+def stay_awake(messages: select.poll) -> None:
+    """Wait busily, for a while, for a message that is about to come: waking up would take as long."""
+    for _ in range(MAX_POLLS):
+        if messages.poll(0):
+            return
 
 
 def unpicklable(error: Exception) -> TypeError:

@@ -3,7 +3,6 @@
 
 import os
 import pickle
-import select
 import socket
 import subprocess
 import sys
@@ -17,7 +16,7 @@ from tricue.camera.shared_frame import SharedFrame
 from tricue.errors import WorkerEndedError
 from tricue.track.base.track import Track, Tracker
 from tricue.track.multi.frame_memory import FrameMemory, Layout
-from tricue.track.multi.messages import WAKE, from_plain, receive, send, unpicklable
+from tricue.track.multi.messages import WAKE, from_plain, poller, receive, send, stay_awake, unpicklable
 from tricue.track.multi.target_group import TargetGroup
 
 PATIENCE = 5.0  # seconds that a worker gets to end by itself, or to answer after Ctrl-C
@@ -45,8 +44,7 @@ class RemoteTargets(TargetGroup):
             command = [sys.executable, "-c", code]
             self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, pass_fds=files)
         self._connection = Connection(mine.detach())
-        self._answers = select.poll()
-        self._answers.register(self._connection.fileno(), select.POLLIN)
+        self._answers = poller(self._connection)
         self._end_process = weakref.finalize(self, _end, self._connection, self._process, self._owner)
 
     @property
@@ -85,6 +83,7 @@ class RemoteTargets(TargetGroup):
 
     def finish_update(self, frame: SharedFrame) -> dict[int, Track]:
         """The tracks of the started update; messages are added to its frame."""
+        stay_awake(self._answers)
         return from_plain(self._receive_seen(frame))
 
     def undo(self, number: int, hurried: bool = False) -> None:

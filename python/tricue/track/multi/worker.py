@@ -11,10 +11,17 @@ from tricue.camera.box import BoxLike
 from tricue.camera.shared_frame import SharedFrame
 from tricue.track.base.track import Track, Tracker
 from tricue.track.multi.frame_memory import FrameMemory, Layout
-from tricue.track.multi.messages import WAKE, PlainTracks, receive, send, to_plain, unpicklable
+from tricue.track.multi.messages import (
+    WAKE,
+    PlainTracks,
+    poller,
+    receive,
+    send,
+    stay_awake,
+    to_plain,
+    unpicklable,
+)
 from tricue.track.multi.targets import Targets, keeps_images
-
-MAX_POLLS = 1000  # takes a few milliseconds
 
 
 class Worker:
@@ -52,6 +59,7 @@ def run(connection_file: int, memory_file: int) -> None:
     for each in signal.SIGINT, signal.SIGHUP:  # from a terminal, meant for the parent process
         signal.signal(each, signal.SIG_IGN)
     connection, worker = Connection(connection_file), Worker(FrameMemory(memory_file))
+    messages = poller(connection)
     with suppress(EOFError, OSError):
         while True:
             number, request = receive(connection)
@@ -61,16 +69,9 @@ def run(connection_file: int, memory_file: int) -> None:
                 send(connection, number, False, unpicklable(error))
                 continue
             if method == WAKE:
-                _stay_awake(connection)
+                stay_awake(messages)
             else:
                 send(connection, number, *_answer(worker, method, arguments))
-
-
-def _stay_awake(connection: Connection) -> None:
-    """Busy-wait for a message: it comes once a frame is copied, and waking up would take as long."""
-    polls = 0
-    while polls < MAX_POLLS and not connection.poll():
-        polls += 1
 
 
 def _answer(worker: Worker, method: str, arguments: tuple[Any, ...]) -> tuple[bool, Any]:
