@@ -31,7 +31,7 @@ class FrameResults:
     tracked: Flags
     """(N,) whether the status is TRACKED."""
     seconds: Array
-    """(N,) times of the updates, NaN in the first frame of a run."""
+    """(N,) times of the updates, NaN in the first frame of a run and where the tracker had failed."""
     depth_errors: Array
     """(N,) meters, the position's z minus the true one; NaN where either is unknown."""
     depth_sigmas: Array
@@ -45,7 +45,8 @@ class FrameResults:
         depths: (N,) the target's true z, meters, NaN where unknown; None if all are.
         """
         tracked = np.array([status is Status.TRACKED for status in run.statuses], np.bool_)
-        seconds = np.concatenate([[np.nan], run.seconds])
+        seconds = np.full(len(run.statuses), np.nan)
+        seconds[1 : 1 + len(run.seconds)] = run.seconds
         overlaps, sigmas = metrics.overlaps(boxes, truth), np.sqrt(run.covariances[:, 2, 2])
         errors = run.positions[:, 2] - (np.nan if depths is None else depths)
         return cls(overlaps, absent, run.scores, tracked, seconds, errors, sigmas)

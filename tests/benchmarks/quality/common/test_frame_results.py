@@ -37,3 +37,16 @@ def test_numbers_of_pooled_frames():
     assert len(twice.seconds) == 6
     assert twice.milliseconds == frames.milliseconds
     assert twice.auroc == confidence.auroc(frames.overlaps, frames.scores, frames.absent) == 1
+
+
+def test_a_failed_tracker_has_no_times_from_then_on():
+    """Its frames count as lost, and their times are unknown."""
+    lost = np.full((4, 3, 3), NAN)
+    run = SimpleNamespace(
+        scores=np.zeros(4), statuses=4 * (Status.LOST,), seconds=np.array([0.001]), positions=lost[:, 0],
+        covariances=lost,
+    )  # fmt: skip
+    boxes, truth = np.full((4, 4), NAN), np.array([BOX] * 4)
+    frames = FrameResults.of(run, boxes, truth, np.zeros(4, np.bool_))
+    np.testing.assert_array_equal(frames.seconds, [NAN, 0.001, NAN, NAN])
+    assert frames.milliseconds == pytest.approx(1)
