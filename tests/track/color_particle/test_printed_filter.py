@@ -8,6 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from tricue import ColorParticleTracker
+from tricue.track.base.noise_pool import NoisePool
+from tricue.track.color_particle.tracker import STEPS
 
 PAPER = ColorParticleTracker.Params.paper()
 N = 100  # particles, section V
@@ -99,7 +101,7 @@ def test_a_script_of_section_iii_draws_the_same_particles(scene):
     images = [frame.color for frame in scene.frames[:6]]
     tracker = ColorParticleTracker(params=PAPER, seed=5)
     tracker.init(images[0], scene.boxes[0])
-    rng = np.random.default_rng(5)
+    numbers = NoisePool(5, 4 * N)
     first = estimate = np.array(scene.boxes[0].ellipse)
     particles, weights, velocity = np.repeat(first[None], N, axis=0), np.full(N, 1 / N), np.zeros(2)
     model, color = sections(images[0], first), most_frequent(images[0], first)
@@ -107,7 +109,7 @@ def test_a_script_of_section_iii_draws_the_same_particles(scene):
     for number, image in enumerate(images[1:]):
         track = tracker.update(image)
         if number > 0:  # the first frame's particles are all the same
-            points = (np.arange(N) + rng.random()) / N
+            points = (np.arange(N) + numbers.uniform(STEPS * number)) / N
             particles = particles[np.searchsorted(weights.cumsum(), points, side="right")]
         side = 2 * np.sqrt(estimate[2] * estimate[3])
         noise = np.array([*(0.5 + 0.05 * side + abs(velocity)), *(0.02 * estimate[2:])])  # (30)
@@ -116,7 +118,7 @@ def test_a_script_of_section_iii_draws_the_same_particles(scene):
         lower = [*np.maximum(estimate[:2] - 40, 0), *(0.01 * first[2:])]
         upper = [*np.minimum(estimate[:2] + 40, (width, height)), *(100 * first[2:])]
         proposal = Proposal(noise, np.array(lower), np.array(upper), skin)
-        particles, ratio = draw(particles, proposal, rng.standard_normal((N, 4)))
+        particles, ratio = draw(particles, proposal, numbers.normal(STEPS * number, (N, 4)))
         weights = np.array([likelihood(image, each, model) for each in particles]) * ratio  # (2)
         weights /= weights.sum()  # (31)
         velocity, estimate = (weights @ particles - estimate)[:2], weights @ particles

@@ -31,9 +31,7 @@ def drawn(*boxes: tuple[Box, float], wall: float = WALL, shape: tuple[int, int] 
     for box, z in boxes:
         left, top, right, bottom = map(int, box.xyxy)
         depth[max(0, top) : max(0, bottom), max(0, left) : max(0, right)] = z
-    return extract_foreground(
-        reference, depth, NUMBERS, NO_FLOOR, np.random.default_rng(0), Params(floor=False, gap_passes=0)
-    )[0]
+    return extract_foreground(reference, depth, NUMBERS, NO_FLOOR, 0, Params(floor=False, gap_passes=0))[0]
 
 
 def metric(box: Box, z: float) -> NDArray[np.float64]:
@@ -193,7 +191,7 @@ def test_boxes_of_thinned_images_are_where_their_states_are(resolution, kernels)
     """
     p = Params(floor=False, resolution=resolution, gap_passes=0)
     depth = drawn((LEFT_BOX, NEARER), wall=np.nan).depth
-    fg, plane = extract_foreground(kernels, depth, NUMBERS, NO_FLOOR, np.random.default_rng(0), p)
+    fg, plane = extract_foreground(kernels, depth, NUMBERS, NO_FLOOR, 0, p)
     objects = segment(kernels, fg, plane, p)
     (box,), ((x, y, z, w, h),) = objects.boxes(NUMBERS), objects.states
     assert np.abs(np.subtract(box, LEFT_BOX)).max() <= fg.step
@@ -294,7 +292,7 @@ def test_a_box_in_a_thinned_image_is_where_it_was_given(resolution, kernels):
     p = Params(floor=False, resolution=resolution, gap_passes=0)
     box = Box(100, 80, 60, 50)
     for depth in (drawn((box, NEARER), wall=np.nan).depth, np.full((144, 176), 3.0, np.float32)):
-        fg, plane = extract_foreground(kernels, depth, NUMBERS, NO_FLOOR, np.random.default_rng(0), p)
+        fg, plane = extract_foreground(kernels, depth, NUMBERS, NO_FLOOR, 0, p)
         start = initialize_in_box(box, segment(kernels, fg, plane, p), fg, p)
         assert start.whole.all()
         assert np.abs(np.subtract(project_box(start.state, NUMBERS), box)).max() < fg.step
@@ -328,9 +326,7 @@ def test_the_edge_of_what_was_measured_cuts(kernels):
     fg = drawn((Box(6, 30, 40, 60), NEARER))
     depth = fg.depth.copy()
     depth[:, :6] = np.nan
-    margin, _ = extract_foreground(
-        kernels, depth, NUMBERS, NO_FLOOR, np.random.default_rng(0), Params(floor=False, gap_passes=0)
-    )
+    margin, _ = extract_foreground(kernels, depth, NUMBERS, NO_FLOOR, 0, Params(floor=False, gap_passes=0))
     assert margin.measured == (6, 0, 176, 144)
     objects = segment(kernels, margin, NO_FLOOR, P)
     nearest = int(np.argmin(objects.states[:, 2]))
@@ -385,7 +381,7 @@ def test_the_middle_of_a_box_is_half_of_it_along_either_side(box, resolution, ke
     middle = Box(x + width / 4, y + height / 4, width / 2, height / 2)
     p = Params(floor=False, resolution=resolution, gap_passes=0)
     depth = drawn((box, 3.0), (middle, 2.0)).depth
-    fg, _ = extract_foreground(kernels, depth, NUMBERS, NO_FLOOR, np.random.default_rng(0), p)
+    fg, _ = extract_foreground(kernels, depth, NUMBERS, NO_FLOOR, 0, p)
     objects = segment(kernels, drawn(wall=np.nan), NO_FLOOR, P)
     assert initialize_in_box(box, objects, fg, P).state[2] == 2.0
 
@@ -417,9 +413,7 @@ def test_what_stands_off_a_known_wall_is_an_object(wall, by, is_object, kernels)
 def test_a_small_box_in_a_thinned_image_has_a_depth(size, corner, kernels):
     """Wherever a small box lies on a measured surface, a thinned image has a depth for it."""
     p = Params(floor=False, resolution=44)
-    fg, plane = extract_foreground(
-        kernels, np.full((144, 176), 3.0, np.float32), NUMBERS, NO_FLOOR, np.random.default_rng(0), p
-    )
+    fg, plane = extract_foreground(kernels, np.full((144, 176), 3.0, np.float32), NUMBERS, NO_FLOOR, 0, p)
     found = initialize_in_box(Box(corner, corner, size, size), segment(kernels, fg, plane, p), fg, p)
     assert found.state[2] == pytest.approx(3.0)
 

@@ -88,12 +88,15 @@ def test_who_touches_furniture_is_an_object(leave_out):
     """A person who walks up to a desk, as far away, and touches it is an object of the own size; where the
     desk may be a part of the person, there is none of that size.
     """
-    tracker = DepthParticleTracker(
-        intrinsics=CAMERA, floor=False, gap_passes=0, leave_out_others=leave_out, seed=1
-    )
-    tracker.init(Frame(depth=room(left=30)), Box(30, 40, 30, 80))
-    for left in range(32, 51, 2):
-        tracker.update(Frame(depth=room(left)))
-    best = max(each.iou(Box(50, 40, 30, 80)) for each in tracker.objects)
-    assert (best > 0.9) == leave_out
-    assert (best < 0.6) != leave_out
+    best = []
+    for seed in range(5):
+        tracker = DepthParticleTracker(
+            intrinsics=CAMERA, floor=False, gap_passes=0, leave_out_others=leave_out, seed=seed
+        )
+        tracker.init(Frame(depth=room(left=30)), Box(30, 40, 30, 80))
+        for left in range(32, 51, 2):
+            tracker.update(Frame(depth=room(left)))
+        best.append(max(each.iou(Box(50, 40, 30, 80)) for each in tracker.objects))
+    # A tenth of the seeds leave a rectangle too narrow, whose rest is taken for furniture.
+    assert sum(each > 0.9 for each in best) >= (4 if leave_out else 0)
+    assert leave_out or max(best) < 0.6

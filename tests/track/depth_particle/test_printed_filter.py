@@ -11,6 +11,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 from tricue import Box, DepthParticleTracker, Frame, Intrinsics
+from tricue.track.base.noise_pool import NoisePool
 
 PAPER = DepthParticleTracker.Params.paper()
 N, LEVELS, NEAR, FAR = 100, 256, 0.3, 7.5  # sections V and IV.B
@@ -103,19 +104,19 @@ def test_a_script_of_section_iv_draws_the_same_particles(bodies):
     """Through six frames, in each of which 40 of the particles are drawn at the segmented object."""
     tracker = DepthParticleTracker(params=PAPER, intrinsics=CAMERA, seed=5)
     tracker.init(bodies[0].frame, bodies[0].box)
-    rng = np.random.default_rng(5)
+    numbers = NoisePool(5, 5 * N)
     estimate = measured_object(bodies[0].frame.depth)
     model = histogram(bodies[0].frame.depth, estimate)
     particles, weights = np.repeat(estimate[None], N, axis=0), np.full(N, 1 / N)
     speed, size, usual, learned = 0.0, estimate[3:], 0.0, []
-    for frame, _ in bodies[1:]:
+    for step, (frame, _) in enumerate(bodies[1:]):
         depth = frame.depth
         track = tracker.update(frame)
         target = measured_object(depth)
         np.testing.assert_allclose(tracker._state.objects.states[:, 2].min(), target[2], atol=1e-6)
         growth = (0.5 + 0.5 * speed) * SECONDS
         deviation = np.array([0.03 + growth, 0.02 + 0.3 * growth, 0.03 + growth, *(0.06 * size)])  # (39)
-        white, points = rng.standard_normal((N, 5)), (np.arange(N) + rng.random()) / N
+        white, points = numbers.normal(step, (N, 5)), (np.arange(N) + numbers.uniform(step)) / N
         before = particles[np.searchsorted(weights.cumsum(), points, side="right")]
         particles, ratio = draw(before, deviation, target, white)
         weights = np.array([likelihood(depth, each, model) for each in particles]) * ratio  # (2)

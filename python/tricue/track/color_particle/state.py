@@ -44,7 +44,6 @@ class State(NamedTuple):
     score: float  # probability that it is the target, by the first frame's appearance
     mean_log_likelihood: float  # running mean over the frames in which it was estimated
     recognized_mean: float  # the same, over the frames in which it was recognized
-    random: dict[str, Any]  # state of the random number generator
     timestamp: float | None
     lead: float  # running mean of its lead over the windows beside it, nats
     missed_frames: int = 0  # consecutive

@@ -11,7 +11,7 @@ from tricue.arrays import Floats, Image
 from tricue.camera.box import Box, BoxLike
 from tricue.camera.frame import FrameLike, as_frame
 from tricue.track.base import validation
-from tricue.track.base.random_source import RandomSource
+from tricue.track.base.noise_pool import NoisePool
 from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase, read_only
 from tricue.track.base.traits import Channels, Traits
@@ -32,6 +32,7 @@ REDETECTION_RATE = 0.5  # learning rate, once, when a lost target is detected ag
 REDETECTION_SHARE = 0.85  # from the frame's median likelihood (0) to the target's (1): detected again
 REDETECTION_LEAD = 1.5  # of min_lead, to detect a lost target again; background may have min_lead by chance
 NO_DRIFT = 0.0, 0.0, 0.0, 0.0
+NARROW, WIDE, CLOSE, STEPS = 0, 1, 2, 3  # steps of the particle filter in a frame, by the region searched
 
 
 class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
@@ -69,12 +70,11 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
     ) -> None:
         super().__init__(params, seed, kernels, parameters)
 
-    _derived = ("_k", "_random", "_rng", "_correlation", "_equal", "_comparable")
+    _derived = ("_k", "_noise", "_correlation", "_equal", "_comparable")
 
     def _derive(self) -> None:
         super()._derive()
-        self._random = RandomSource(self.seed)
-        self._rng = self._random.generator
+        self._noise = NoisePool(self.seed, 4 * self.params.particles)
         self._correlation = size_correlation(self.params)
         self._equal = np.ones(self.params.particles)  # weights
         self._comparable = Appearance.create(self.params).comparable
@@ -114,7 +114,6 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             mean_log_likelihood=log_likelihood,
             recognized_mean=log_likelihood,
             lead=self._lead(appearance, image, window, log_likelihood),
-            random=RandomSource(self.seed).save(),
             timestamp=timestamp,
         )
         return self._keep(state, frame)
@@ -128,14 +127,12 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         before = validation.require_initialized(self._state)
         image, timestamp = validation.color_image(frame, before.shape)
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
-        self._random.resume(before.random)
         state = self._redetect(before, image) if before.is_lost(self.params) else self._follow(before, image)
         appearance = state.appearance
         if state.is_tracked(self.params) and state.recognition >= self.params.min_score_to_learn:
             appearance = self._learn(state, image, self.params.learning_rate)
         state = state._replace(
             appearance=appearance,
-            random=self._random.save(),
             timestamp=timestamp,
             missed_seconds=before.missed_seconds + seconds if state.missed_frames else 0.0,
             low_lead_seconds=before.low_lead_seconds + seconds if state.has_low_lead(self.params) else 0.0,
@@ -150,9 +147,10 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         detection = detect_skin(k, image, state.skin_color, motion.ellipse, prediction, p)
         last = state.particles
         scarce = last.effective < p.resample_below * len(last.weights)
-        offset = self._rng.random() if scarce else None
         proposal = Proposal(prediction, detection)
-        particles = self._filter(state, image, last.particles, last.weights, proposal, offset)
+        particles = self._filter(
+            state, image, last.particles, last.weights, proposal, NARROW, resample=scarce
+        )
         if particles.log_likelihood < state.mean_log_likelihood - p.likelihood_drop:
             particles = self._search_wide(state, image, particles, prediction)
         first_log_likelihood = None
@@ -175,14 +173,14 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         particles: Floats,
         weights: Floats,
         proposal: Proposal,
-        offset: float | None = None,
+        region: int,
+        resample: bool = False,
         searching: bool = False,
     ) -> ParticleSet:
-        """One step of the particle filter. offset: of the resampling's comb; None for no resampling.
-
-        searching: whether for a lost target.
-        """
-        noise = StepNoise(offset, self._rng.standard_normal(particles.shape), self._correlation)
+        """One step of the particle filter. region: NARROW, WIDE or CLOSE. searching: for a lost target."""
+        step = STEPS * state.frames + region
+        offset = self._noise.uniform(step) if resample else None
+        noise = StepNoise(offset, self._noise.normal(step, particles.shape), self._correlation)
         return filter_step(self._k, image, state.appearance, particles, weights, noise, proposal, searching)
 
     def _search_wide(
@@ -192,22 +190,23 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         spread = self.params.wide_search_spread * state.motion.side
         last = np.array(state.motion.ellipse)
         wide_prediction = prediction._replace(drift=NO_DRIFT, scale=(spread, spread, *prediction.scale[2:]))
-        wide = self._filter(state, image, *self._particles_at(last), Proposal(wide_prediction))
+        wide = self._filter(state, image, *self._particles_at(last), Proposal(wide_prediction), WIDE)
         best = wide.particles[np.argmax(wide.weights)]
         x, y, minor, major = prediction.scale
         close_prediction = prediction._replace(drift=NO_DRIFT, scale=(x / 2, y / 2, minor / 2, major / 2))
-        close = self._filter(state, image, *self._particles_at(best), Proposal(close_prediction))
+        close = self._filter(state, image, *self._particles_at(best), Proposal(close_prediction), CLOSE)
         return max(narrow, close, key=lambda each: each.log_likelihood)
 
     def _redetect(self, state: State, image: Image) -> State:
         """Search for a lost target in the whole frame, and track it again if it is recognized."""
         k, p, appearance = self._k, self.params, state.appearance
-        candidates = draw_candidates(k, image, state.skin_color, state.motion, p, self._rng)
+        rng = np.random.default_rng((self.seed, state.frames))
+        candidates = draw_candidates(k, image, state.skin_color, state.motion, p, rng)
         log_likelihood = appearance.log_likelihood(k, image, candidates, searching=True)
         best = candidates[np.argmax(log_likelihood)]
         motion = state.motion.restart_at(tuple(best.tolist()))
         proposal = Proposal(motion.predict(p, state.shape))
-        particles = self._filter(state, image, *self._particles_at(best), proposal, searching=True)
+        particles = self._filter(state, image, *self._particles_at(best), proposal, CLOSE, searching=True)
         recognized = appearance.recognition(k, particles.seen, searching=True) >= p.min_score_to_redetect
         background = float(np.median(log_likelihood))
         required = background + REDETECTION_SHARE * (state.recognized_mean - background)

@@ -12,6 +12,8 @@ MIN_FLOOR_COSINE = 0.6  # between the floor's normal and UP: tilts and rolls of 
 FLOOR_COLUMNS = 80  # of the subsampled image in which the floor is searched
 FLOOR_TOLERANCE = 0.04  # meters from the plane to a point on the floor
 FLOOR_TRIALS = 512  # planes tried; a floor with a fifth of the points is missed once in 60 times
+DRAWS = np.random.default_rng(0).random((FLOOR_TRIALS, 3))  # of points, as shares of all
+SHIFT = (5**0.5 - 1) / 2  # of the draws from a frame to the next one; its multiples spread evenly
 MIN_SUPPORT_KEPT = 0.8  # of the known floor's support, to conclude that the camera hasn't moved
 MIN_FLOOR_SUPPORT = 0.06  # of all points, on a new floor
 MAX_BELOW_FLOOR = 0.03  # of all points, below a new floor
@@ -37,13 +39,14 @@ def find_floor(
     camera: Floats,
     known: Floats,
     support: float,
-    rng: np.random.Generator,
+    number: int,
     near: float,
 ) -> Floats:
     """The plane (6,) with large support and hardly any points below it.
 
     known: the last frame's plane, or NO_FLOOR. support: the share of this frame's points on it. It is kept
-    unless this frame has a better one. camera: (4,) of this image. near: the smallest depth used, meters.
+    unless this frame has a better one. camera: (4,) of this image. number: the frame's; in another one other
+    planes are tried. near: the smallest depth used, meters.
 
     A plane is its unit normal, its distance from the camera, and the shares of points on it and below it.
     """
@@ -55,7 +58,7 @@ def find_floor(
     lower = coarse.size // 2 + np.flatnonzero(np.isfinite(coarse.reshape(-1)[coarse.size // 2 :]))
     if len(lower) < 3:
         return known
-    triples = lower[rng.integers(0, len(lower), (FLOOR_TRIALS, 3))]
+    triples = lower[((DRAWS + number * SHIFT) % 1.0 * len(lower)).astype(np.int64)]
     plane = k.floor_plane(coarse, camera / step, triples, FLOOR_TOLERANCE, UP, MIN_FLOOR_COSINE)
     least = support if known.item(4) > 0 else 0.0
     accepted = plane[4] > max(MIN_FLOOR_SUPPORT, least) and plane[5] < MAX_BELOW_FLOOR

@@ -34,12 +34,13 @@ def extract_foreground(
     depth: Depth,
     camera: Floats,
     plane: Floats,
-    rng: np.random.Generator,
+    number: int,
     p: SegmentationParams,
 ) -> tuple[Foreground, Floats]:
     """The foreground of a depth image (H, W), meters, and the plane (6,) of the floor.
 
-    plane: the floor of the last frame, NO_FLOOR before the first. See :func:`find_floor`.
+    plane: the floor of the last frame, NO_FLOOR before the first. number: the frame's. See
+    :func:`find_floor`.
     """
     step = max(1, round(depth.shape[1] / p.resolution))
     thinned_camera = camera / step if step > 1 else camera
@@ -51,7 +52,7 @@ def extract_foreground(
     )
     if p.floor and not is_supported(plane, on_plane := support.item(0)):
         filled = k.fill_gaps(np.ascontiguousarray(depth[::step, ::step]), *gaps)
-        found = find_floor(k, filled, thinned_camera, plane, on_plane, rng, p.near)
+        found = find_floor(k, filled, thinned_camera, plane, on_plane, number, p.near)
         if found is not plane:
             plane, kept = found, k.above_floor(filled, thinned_camera, found[:4], *space)
     return Foreground(kept, thinned_camera, step, measured), plane

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The state that the depth particle tracker keeps from frame to frame."""
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,8 +47,8 @@ class State(NamedTuple):
     score: float
     mean_log_likelihood: float  # running mean over the frames in which the target was learned
     mean_inside: float  # the same, for the share of the rectangle at the target's depth
-    random: dict[str, Any]  # state of the random number generator
     timestamp: float | None
+    frames: int = 0  # since the first
     missed_seconds: float = 0.0
     occluded: bool = False  # whether the target is missed because something is in front of it
     position_spread: Floats | None = None  # (3,) meters, standard deviation of X, Y, Z of a missed target

@@ -13,8 +13,8 @@ from tricue.camera.frame import FrameLike
 from tricue.camera.rig import Intrinsics
 from tricue.track.base import validation
 from tricue.track.base.coasting import velocity_kept
+from tricue.track.base.noise_pool import NoisePool
 from tricue.track.base.position_limit import MAX_SIGMA
-from tricue.track.base.random_source import RandomSource
 from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase
 from tricue.track.base.traits import Channels, Traits
@@ -97,12 +97,11 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         super().__init__(params, seed, kernels, parameters)
         self.intrinsics = validation.intrinsics(intrinsics)
 
-    _derived = ("_k", "_random", "_rng", "_settings", "_size_deviation")
+    _derived = ("_k", "_noise", "_settings", "_size_deviation")
 
     def _derive(self) -> None:
         super()._derive()
-        self._random = RandomSource(self.seed)
-        self._rng = self._random.generator
+        self._noise = NoisePool(self.seed, 5 * self.params.particles * self.params.sweeps)
         self._settings = filter_settings(self.params)
         weight = self.params.size_prior
         self._size_deviation = LOG_SIZE_DEVIATION / np.sqrt(weight) if weight > 0 else NO_SIZE_PRIOR
@@ -131,9 +130,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         """
         depth, timestamp = validation.depth_image(frame)
         camera = validation.camera_or_default(self.intrinsics, depth.shape).vector
-        random = RandomSource(self.seed)
-        rng = random.generator
-        fg, plane = extract_foreground(self._k, depth, camera, NO_FLOOR, rng, self.params)
+        fg, plane = extract_foreground(self._k, depth, camera, NO_FLOOR, 0, self.params)
         if box is None:
             objects = segment(self._k, fg, plane, self.params)
             target = initialize_on_person(objects, self.params)
@@ -157,7 +154,6 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             score=_score(observed),
             mean_log_likelihood=observed.log_likelihood,
             mean_inside=observed.inside,
-            random=random.save(),
             timestamp=timestamp,
         )
         return self._keep(state, frame)
@@ -171,7 +167,6 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         before = validation.require_initialized(self._state)
         depth, timestamp = validation.depth_image(frame, before.shape, self.intrinsics)
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
-        self._random.resume(before.random)
         return self._keep(self._follow(before, depth, timestamp, seconds), frame)
 
     def _follow(
@@ -179,11 +174,13 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
     ) -> State:
         """Segment, predict, measure, weigh, estimate; learn, or coast if the target is missed."""
         k, p = self._k, self.params
-        fg, plane = extract_foreground(k, depth, state.camera, state.plane, self._rng, p)
+        fg, plane = extract_foreground(k, depth, state.camera, state.plane, state.frames + 1, p)
         objects = segment(k, fg, plane, p, others=state.others if p.leave_out_others else NOTHING_KNOWN)
         prediction = state.motion.predict(p, seconds, state.missed_seconds)
         target, motion, occluder = find_target(k, state, fg, objects, prediction, seconds, p)
-        changes: Changes = {"plane": plane, "objects": objects, "timestamp": timestamp}
+        changes: Changes = {
+            "plane": plane, "objects": objects, "timestamp": timestamp, "frames": state.frames + 1
+        }  # fmt: skip
         measured = NOT_MEASURED if target is None else Measurement.create(target.state, p.measurement)
         found = self._filter(state, motion.mean_size, fg, prediction, target, measured)
         recognized = self._recognizes(state, found.observed, target)
@@ -212,14 +209,14 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         """
         p, before = self.params, state.particles
         width, height = size.tolist()
-        offset, noise = self._draw(before.particles.shape)
+        noise = self._noise.normal(state.frames, (p.sweeps, *before.particles.shape))
         detection = NO_OBJECT if target is None else (target.state, OBJECT_ROOT, p.object_share)
         particles, weights, mean, covariance, observed, histogram = self._k.filter_rectangles(
             fg.depth,
             fg.camera,
             before.particles,
             before.weights,
-            offset,
+            self._noise.uniform(state.frames),
             noise,
             prediction[:2],
             prediction[2:],
@@ -232,15 +229,6 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         )
         found = ParticleSet(particles, weights, mean, covariance)
         return FilteredTarget(found, state.model.observation(observed), histogram)
-
-    def _draw(self, shape: tuple[int, ...]) -> tuple[float, Floats]:
-        """The random numbers of a step: one for resampling, and normal ones for each sampling."""
-        noise = np.empty((self.params.sweeps, *shape))
-        self._rng.standard_normal(out=noise[0])
-        offset = self._rng.random()
-        if len(noise) > 1:
-            self._rng.standard_normal(out=noise[1])
-        return offset, noise
 
     def _recognizes(self, state: State, observed: DepthObservation, target: TargetObject | None) -> bool:
         """Whether the target is visible at the estimate; if it was missed, only if it matches an object."""
@@ -259,7 +247,6 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             self._k, state.others, fg, found.particles.state, self.params.histogram_reach
         )
         return state._replace(
-            random=self._random.save(),
             particles=found.particles,
             others=others,
             motion=motion,
@@ -299,7 +286,6 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         spread = np.minimum(state.motion.position_deviation(p, seconds, before), MAX_SIGMA)
         kept = velocity_kept(VELOCITY_KEPT_OCCLUDED if occluded else VELOCITY_KEPT, seconds, COASTING_RATE)
         return state._replace(
-            random=self._random.save(),
             motion=state.motion.coast(expected, kept),
             particles=ParticleSet.at_state(expected, p.particles),
             score=0.0,

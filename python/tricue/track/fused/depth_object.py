@@ -8,8 +8,6 @@ objects also merge, so an object that is suddenly much larger is ignored.
 
 from typing import NamedTuple
 
-import numpy as np
-
 from tricue.arrays import Floats, Plane
 from tricue.camera.box import Box, shared_area
 from tricue.track.base.validation import ADDED_TIME_ERROR
@@ -146,8 +144,8 @@ def find_objects(
 
     floor: its plane in an earlier frame. Sabeti, Parvizi and Wu 2008, section IV.A.
     """
-    k, camera, rng = observation.k, observation.camera.vector, np.random.default_rng(0)
-    foreground, floor = extract_foreground(k, depth, camera, floor, rng, SEGMENTATION)
+    k, camera = observation.k, observation.camera.vector
+    foreground, floor = extract_foreground(k, depth, camera, floor, 0, SEGMENTATION)
     region = EVERYWHERE if around is None else _region(around, foreground)
     found = segment(k, foreground, floor, SEGMENTATION, region=region)
     seen = [
