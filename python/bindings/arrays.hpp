@@ -276,28 +276,44 @@ auto unlocked(std::ptrdiff_t work, Kernel&& kernel) {
     return kernel();
 }
 
+/// A new array, C-contiguous; without the steps by which pybind11 makes arrays of any layout, which take as long again.
+template <typename Scalar>
+py::array empty(const py::ssize_t* shape, int rank) {
+    auto& numpy = py::detail::npy_api::get();
+    PyObject* type = numpy.PyArray_DescrFromType_(py::detail::npy_format_descriptor<Scalar>::value);
+    const auto made = py::reinterpret_steal<py::array>(numpy.PyArray_NewFromDescr_(
+        numpy.PyArray_Type_, type, rank, shape, nullptr, nullptr, 0, nullptr));
+    if (!made) throw py::error_already_set();
+    return made;
+}
+
 /// Hands a result's memory to NumPy, in the shape given, without a copy where that takes longer than to make an owner.
 template <typename Result>
-Array<typename Result::Scalar> give(Result&& result, const std::vector<py::ssize_t>& shape) {
+Array<typename Result::Scalar> give(Result&& result, const py::ssize_t* shape, int rank) {
     static_assert(!std::is_lvalue_reference_v<Result>, "give(std::move(result))");
+    using Scalar = typename Result::Scalar;
     constexpr std::size_t kSmall = 4096;  // bytes
     const auto size = static_cast<std::size_t>(result.size());
-    if (size * sizeof(typename Result::Scalar) <= kSmall) {
-        py::array_t<typename Result::Scalar> copy(shape);
-        std::copy_n(result.data(), size, copy.mutable_data());
-        return copy;
+    if (size * sizeof(Scalar) <= kSmall) {
+        py::array copy = empty<Scalar>(shape, rank);
+        std::copy_n(result.data(), size, static_cast<Scalar*>(copy.mutable_data()));
+        return py::reinterpret_steal<Array<Scalar>>(copy.release());
     }
     auto* owned = new Result(std::forward<Result>(result));
     const py::capsule owner(owned, [](void* pointer) { delete static_cast<Result*>(pointer); });
-    return py::array_t<typename Result::Scalar>(shape, owned->data(), owner);
+    return py::array_t<Scalar>(std::vector<py::ssize_t>(shape, shape + rank), owned->data(), owner);
+}
+
+template <typename Result>
+Array<typename Result::Scalar> give(Result&& result, const std::vector<py::ssize_t>& shape) {
+    return give(std::forward<Result>(result), shape.data(), static_cast<int>(shape.size()));
 }
 
 /// In its own shape.
 template <typename Result>
 Array<typename Result::Scalar> give(Result&& result) {
-    std::vector<py::ssize_t> shape{result.rows()};
-    if constexpr (Result::ColsAtCompileTime != 1) shape.push_back(result.cols());
-    return give(std::forward<Result>(result), shape);
+    const py::ssize_t shape[] = {result.rows(), result.cols()};
+    return give(std::forward<Result>(result), shape, Result::ColsAtCompileTime == 1 ? 1 : 2);
 }
 
 }  // namespace tricue::bindings
