@@ -281,8 +281,8 @@ template <typename Scalar>
 py::array empty(const py::ssize_t* shape, int rank) {
     auto& numpy = py::detail::npy_api::get();
     PyObject* type = numpy.PyArray_DescrFromType_(py::detail::npy_format_descriptor<Scalar>::value);
-    const auto made = py::reinterpret_steal<py::array>(numpy.PyArray_NewFromDescr_(
-        numpy.PyArray_Type_, type, rank, shape, nullptr, nullptr, 0, nullptr));
+    const auto made = py::reinterpret_steal<py::array>(
+        numpy.PyArray_NewFromDescr_(numpy.PyArray_Type_, type, rank, shape, nullptr, nullptr, 0, nullptr));
     if (!made) throw py::error_already_set();
     return made;
 }
