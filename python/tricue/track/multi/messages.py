@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Messages between processes: tracks as plain values, which pickle thirty times as fast."""
 
+import os
 import pickle
 import select
 from multiprocessing.connection import Connection
@@ -12,6 +13,7 @@ from tricue.track.base.track import Status, Track
 WAKE = "wake"  # in place of a method; it has no answer, and another request follows at once
 NUMBER_BYTES = 8  # before a message, so that even one that can't be unpickled can be answered
 MAX_POLLS = 2000  # takes about a millisecond
+CORES = len(os.sched_getaffinity(0))
 PlainTracks = dict[int, tuple[Any, ...]]
 
 
@@ -35,8 +37,10 @@ def poller(connection: Connection) -> select.poll:
 
 
 def stay_awake(messages: select.poll) -> None:
-    """Wait busily, for a while, for a message that is about to come: waking up would take as long."""
-    for _ in range(MAX_POLLS):
+    """Wait busily, for a while, for a message that is about to come: waking up would take as long. Not on a
+    single core, where the other process couldn't run meanwhile.
+    """
+    for _ in range(MAX_POLLS if CORES > 1 else 0):
         if messages.poll(0):
             return
 
