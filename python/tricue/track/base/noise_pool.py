@@ -34,7 +34,7 @@ class NoisePool:
         return (step + 1) * GOLDEN_RATIO % 1.0
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=4)
 def _normal_numbers(seed: int, count: int) -> Floats:
     numbers = np.random.default_rng(seed).standard_normal(count)
     numbers.flags.writeable = False
