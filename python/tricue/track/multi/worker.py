@@ -68,10 +68,10 @@ def run(connection_file: int, memory_file: int) -> None:
             except Exception as error:  # for a class that this process can't import
                 send(connection, number, False, unpicklable(error))
                 continue
-            if method == WAKE:
-                stay_awake(messages)
-            else:
+            if method != WAKE:
                 send(connection, number, *_answer(worker, method, arguments))
+            if method in (WAKE, "update"):  # the next frame of a recorded video follows at once
+                stay_awake(messages)
 
 
 def _answer(worker: Worker, method: str, arguments: tuple[Any, ...]) -> tuple[bool, Any]:
