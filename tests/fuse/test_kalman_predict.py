@@ -32,7 +32,7 @@ def case(seed: int = 0, size: int = 4, **changes: Any) -> dict[str, Any]:
     } | changes
 
 
-@pytest.mark.parametrize("size", [1, 2, 3, 6, 7, 13])
+@pytest.mark.parametrize("size", [1, 2, 3, 6, 7, 12, 13])
 @pytest.mark.parametrize("seed", range(5))
 def test_twin_predicts_the_same(size: int, seed: int) -> None:
     """Sums of up to D^2 products differ by D^2 eps of the sum of the products' sizes."""

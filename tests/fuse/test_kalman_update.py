@@ -34,7 +34,10 @@ def case(seed: int = 0, size: int = 4, measured: int = 2, **changes: Any) -> dic
     } | changes
 
 
-@pytest.mark.parametrize(("size", "measured"), [(1, 1), (2, 1), (1, 3), (4, 2), (6, 3), (7, 7), (10, 7)])
+@pytest.mark.parametrize(
+    ("size", "measured"),
+    [(1, 1), (2, 1), (1, 3), (4, 2), (6, 3), (7, 7), (10, 7), (12, 12), (13, 3), (5, 15)],
+)
 @pytest.mark.parametrize("seed", range(5))
 def test_twin_corrects_the_same(size: int, measured: int, seed: int) -> None:
     """Native solves by Cholesky, the twin inverts: they differ by eps times S's condition, here below 1e4."""

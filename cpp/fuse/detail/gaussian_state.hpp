@@ -6,14 +6,14 @@
 
 namespace tricue {
 
-/// As large as the states and measurements of a filter, so that no memory is allocated.
+/// A matrix with at most kMax rows and columns, which needs no allocated memory.
 template <int kMax>
 using MatrixUpTo = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMax, kMax>;
 
-/// The most numbers of a state for which small matrices are taken.
+/// The most numbers of a state, or of a measurement, for which matrices hold their numbers themselves.
 constexpr int kSmallState = 12;
 
-/// Calls `use` with an empty matrix of the type for so many numbers: it holds them, or allocates memory for them.
+/// Calls `use` with an empty matrix, whose type is the one for so many rows and columns.
 template <typename Use>
 inline auto with_matrix_type(Eigen::Index size, Use&& use) {
     return size <= kSmallState ? use(MatrixUpTo<kSmallState>{}) : use(MatrixUpTo<Eigen::Dynamic>{});
