@@ -55,7 +55,7 @@ def simulated(kernels, seed: int) -> Iterator[tuple[np.ndarray, HeadFilter, floa
             measured = truth[:7] + ROOT @ rng.standard_normal(7)
             state = predict(kernels, state, SECONDS, WIDE)
             off = mahalanobis_distance(state, measured[:3], NOISE)
-            state = correct(kernels, state, measured, NOISE)
+            state = correct(kernels, state, measured, NOISE, WIDE)
         yield truth, state, off
 
 
@@ -120,6 +120,19 @@ def test_a_prediction_stays_in_the_working_range(z, speed, expected, kernels):
     assert predict(kernels, HeadFilter(values, np.eye(10)), 0.1, P).position[2] == expected
 
 
+@pytest.mark.parametrize(("scale", "expected"), [(0.1, P.near), (-1.0, P.near), (4.0, P.far)])
+def test_a_correction_stays_in_the_working_range(scale, expected, kernels):
+    """Where the distance is all but unknown, X and Y, with which it goes together, would move it to the
+    camera, behind it, or far away, though it is predicted and measured between near and far.
+    """
+    covariance = 1e-6 * np.eye(10)
+    covariance[:3, :3] += 100 * np.outer(VALUES[:3], VALUES[:3])
+    state = HeadFilter(np.concatenate([VALUES, np.zeros(3)]), covariance)
+    measured = VALUES * [scale, scale, 1, 1, 1, 1, 1]
+    noise = np.diag([1e-6, 1e-6, 1e6, 1, 1, 1, 1])
+    assert correct(kernels, state, measured, noise, P).position[2] == expected
+
+
 def test_deviations_have_their_closed_form():
     """With independent errors the deviation is the root of the sum of squares over the summed variances, and
     colors don't count.
@@ -155,13 +168,13 @@ def test_a_correction_weighs_by_noise(motion, kernels):
     """
     state = initialize(VALUES, np.eye(7), Params(motion=motion))
     there = VALUES + 1
-    half = correct(kernels, state, there, np.eye(7))
+    half = correct(kernels, state, there, np.eye(7), WIDE)
     np.testing.assert_allclose(half.mean[:7], VALUES + 0.5, rtol=1e-12)
     np.testing.assert_allclose(half.covariance[:7, :7], np.eye(7) / 2, rtol=0, atol=1e-12)
     np.testing.assert_allclose(
-        correct(kernels, state, there, 1e12 * np.eye(7)).mean, state.mean, rtol=0, atol=1e-9
+        correct(kernels, state, there, 1e12 * np.eye(7), WIDE).mean, state.mean, rtol=0, atol=1e-9
     )
-    sure = correct(kernels, state, there, 1e-12 * np.eye(7))
+    sure = correct(kernels, state, there, 1e-12 * np.eye(7), WIDE)
     np.testing.assert_allclose(sure.mean[:7], there, rtol=0, atol=1e-9)
 
 
@@ -213,7 +226,7 @@ def test_wrong_noise_would_be_seen(kernels, monkeypatch):
             truth[:3] += SECONDS * truth[7:] + SECONDS**2 / 2 * push
             truth[7:] += SECONDS * push
             state = head_filter.predict(kernels, state, SECONDS, WIDE)
-            state = correct(kernels, state, truth[:7] + ROOT @ rng.standard_normal(7), NOISE)
+            state = correct(kernels, state, truth[:7] + ROOT @ rng.standard_normal(7), NOISE, WIDE)
         off = truth[7:] - state.mean[7:]
         squares.append(off @ np.linalg.solve(state.covariance[7:, 7:], off))
     assert not within(sum(squares), 3 * RUNS)
@@ -228,7 +241,7 @@ def test_a_steady_walk_is_followed_without_lag(kernels):
         state, speed = initialize(VALUES, NOISE, p), np.array([0.5, 0.2, 0.7])
         for frame in range(1, 61):
             measured = VALUES + np.concatenate([frame * SECONDS * speed, np.zeros(4)])
-            state = correct(kernels, predict(kernels, state, SECONDS, p), measured, NOISE)
+            state = correct(kernels, predict(kernels, state, SECONDS, p), measured, NOISE, p)
         lags.append(np.linalg.norm(measured[:3] - state.position) / (SECONDS * np.linalg.norm(speed)))
     assert lags[0] < 0.01
     assert lags[1] > 0.5
@@ -241,6 +254,6 @@ def test_covariances_stay_covariances(motion, kernels):
     state = initialize(VALUES, NOISE, p)
     for frame in range(300):
         state = predict(kernels, state, SECONDS, p)
-        state = coast(state, SECONDS) if frame // 40 % 2 else correct(kernels, state, VALUES, NOISE)
+        state = coast(state, SECONDS) if frame // 40 % 2 else correct(kernels, state, VALUES, NOISE, p)
         np.testing.assert_array_equal(state.covariance, state.covariance.T)
         assert np.linalg.eigvalsh(state.covariance).min() > 0

@@ -64,7 +64,7 @@ def predict(k: Kernels, state: HeadFilter, seconds: float, p: StereoHeadParams) 
     limit = p.max_speed if p.motion == "constant" else p.acceleration_noise
     dynamics = _dynamics(len(state.mean), seconds, limit, p.color_drift)
     mean, covariance = k.kalman_predict(state.mean, state.covariance, *dynamics)
-    mean[2] = min(max(mean.item(2), p.near), p.far)
+    _limit_distance(mean, p)
     return HeadFilter(mean, limit_covariance(covariance, MOVING[: len(mean) - MEASUREMENT_SIZE + 3]))
 
 
@@ -85,11 +85,23 @@ def mahalanobis_distance(predicted: HeadFilter, measured: Point, noise: Floats) 
     return math.sqrt(u * u + v * v + w * w)
 
 
-def correct(k: Kernels, predicted: HeadFilter, measured: Floats, noise: Floats) -> HeadFilter:
-    """The correction, steps 3 to 5 of section 4.2, by a measurement (8), (7,), and its covariance (7, 7)."""
+def correct(
+    k: Kernels, predicted: HeadFilter, measured: Floats, noise: Floats, p: StereoHeadParams
+) -> HeadFilter:
+    """The correction, steps 3 to 5 of section 4.2, by a measurement (8), (7,), and its covariance (7, 7).
+
+    Z stays between near and far: where distances are uncertain, X and Y, which depend on them, can move it
+    beyond both the predicted and the measured one.
+    """
     selection = _selection(len(predicted.mean))
     mean, covariance, *_ = k.kalman_update(predicted.mean, predicted.covariance, measured, selection, noise)
+    _limit_distance(mean, p)
     return HeadFilter(mean, covariance)
+
+
+def _limit_distance(mean: Floats, p: StereoHeadParams) -> None:
+    """Move Z of a state's mean into the range from near to far."""
+    mean[2] = min(max(mean.item(2), p.near), p.far)
 
 
 @lru_cache(maxsize=2)

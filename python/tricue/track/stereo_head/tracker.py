@@ -207,7 +207,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         if predicted is None or not p.fuse:
             head = head_filter.initialize(values, measured.noise, p)
         else:
-            head = head_filter.correct(self._k, predicted, values, measured.noise)
+            head = head_filter.correct(self._k, predicted, values, measured.noise, p)
         if p.feedback:
             shifted = self._k.shift_histogram(learned, p.bins, p.max_chroma, head.color)
             learned, model, _ = self._mix(shifted, shifted, 0.0, first)
