@@ -107,6 +107,14 @@ def test_printed_noise_is_diagonal(point, kernels):
     np.testing.assert_allclose(covariance, np.diag((np.abs(errors) + MIN_POSITION_NOISE) ** 2), rtol=1e-9)
 
 
+def test_the_cubics_are_fitted_once(kernels, monkeypatch):
+    """The next frame's position takes no other fit, which takes longer than a whole update."""
+    p = Params(noise_model="polynomial", disparity_noise=0.731)
+    GEOMETRY.triangulate(kernels, *GEOMETRY.project(POINTS[0]), 4, p)
+    monkeypatch.setattr(np, "polyfit", lambda *_: pytest.fail("fitted again"))
+    GEOMETRY.triangulate(kernels, *GEOMETRY.project(POINTS[1]), 4, p)
+
+
 def test_noise_grows_with_the_square_of_the_distance(kernels):
     """Straight ahead the deviation of Z is z^2 / (f b) that of the disparity: twice as far, four times."""
     near, far = (

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The geometry of a rectified stereo pair: projection, triangulation, and the noise of a position."""
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -79,19 +80,28 @@ def _cubic_noise(geometry: StereoGeometry, point: Point, p: StereoHeadParams) ->
     return np.asarray(np.abs(errors)) + MIN_POSITION_NOISE
 
 
-def fit_polynomials(geometry: StereoGeometry, p: StereoHeadParams) -> list[Floats]:
+def fit_polynomials(geometry: StereoGeometry, p: StereoHeadParams) -> tuple[Floats, Floats, Floats]:
     """The coefficients a_i0 .. a_i3 of (9) for X, Y and Z, (4,) each, highest power first.
 
     They are fitted to the errors of the back-projection between near and far.
 
     X and Y are those of the image's border, in proportion to Z, as in figure 2.
     """
-    fx, fy, _, _, baseline = geometry.rig.tolist()
-    z = np.linspace(p.near, p.far, POLYNOMIAL_SAMPLES)
-    error = z * z / (fx * baseline) * p.disparity_noise
-    height, width = geometry.shape[:2]
-    fits = []
-    for slope in (width / 2 / fx, height / 2 / fy):
+    return _fit_polynomials(geometry.numbers, geometry.shape, p.near, p.far, p.disparity_noise)
+
+
+@lru_cache(maxsize=16)
+def _fit_polynomials(
+    rig: tuple[float, ...], shape: tuple[int, ...], near: float, far: float, disparity_noise: float
+) -> tuple[Floats, Floats, Floats]:
+    """They don't change from frame to frame, and fitting takes longer than the rest of an update."""
+    fx, fy, _, _, baseline = rig
+    z = np.linspace(near, far, POLYNOMIAL_SAMPLES)
+    error = z * z / (fx * baseline) * disparity_noise
+
+    def fit_at_border(slope: float) -> Floats:
         along = np.concatenate([-slope * z[::-1], slope * z])
-        fits.append(np.polyfit(along, np.concatenate([slope * error[::-1], slope * error]), 3))
-    return [*fits, np.polyfit(z, error, 3)]
+        return np.polyfit(along, np.concatenate([slope * error[::-1], slope * error]), 3)
+
+    height, width = shape[:2]
+    return fit_at_border(width / 2 / fx), fit_at_border(height / 2 / fy), np.polyfit(z, error, 3)
