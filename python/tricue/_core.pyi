@@ -3082,7 +3082,8 @@ def skin_boundary(
     Boundary value of each pixel in 255ths: 255 Δ = max(b, g, r) - max(|b - b0|, |g - g0|, |r - r0|).
 
     A pixel is skin where Δ > threshold. The paper writes Δ on colors in [0, 1]; on colors of 8 bits 255
-    Δ is exact.
+    Δ is exact. (9) is max(b, g, r), each pixel's largest channel, as its indices have it. The text
+    calls it "the maximum RGB value in the image", which is another classifier, with other thresholds.
 
     Args:
         image: uint8 (H, W, 3) BGR
