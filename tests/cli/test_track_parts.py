@@ -240,3 +240,22 @@ def test_a_trail_that_cannot_be(
         code = int(str(ended.code))
     assert code == 2
     assert error in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("boxes", [[FIRST], [FIRST, OTHER]])
+def test_an_image_of_another_size(
+    images: Path, boxes: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that an image of another size is named with both sizes, whatever the number of its frame."""
+    for path in images.iterdir():
+        image = cv2.imread(str(path))
+        large = path.name == "6.png"
+        cv2.imwrite(str(tmp_path / path.name), cv2.resize(image, (200, 150)) if large else image)
+    words = ["--start", "3", *(word for box in boxes for word in ("--box", box))]
+    code, _, err = run(capsys, str(tmp_path), *words, "--csv", str(tmp_path / "o.csv"))
+    assert code == 2
+    assert err.splitlines()[-1] == (
+        f"tricue track: {tmp_path / '6.png'}: expected the first frame's size, 160x120, got 200x150 px; "
+        "all images must have the same"
+    )
+    assert rows(tmp_path / "o.csv")[-1]["frame"] == "5"

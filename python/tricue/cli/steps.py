@@ -24,7 +24,8 @@ Start = Callable[[Frame], Box | None]
 class RunClock:
     """Seconds spent on decoding and on tracking, and counts of the tracker's statuses.
 
-    begin, end: the times of the first and of the last decoded frame. not_found_reason: why a tracker that
+    begin, end: the times of the first and of the last decoded frame. start_size, last_size: width and
+    height of the image in which tracking started, and of the last one. not_found_reason: why a tracker that
     detects its target found none in the last frame so far.
     """
 
@@ -34,6 +35,8 @@ class RunClock:
     updates: int = 0
     begin: float = 0.0
     end: float = 0.0
+    start_size: tuple[int, int] = (0, 0)
+    last_size: tuple[int, int] = (0, 0)
     not_found_reason: str = ""
     statuses: dict[Status, int] = field(default_factory=lambda: dict.fromkeys(Status, 0))
 
@@ -152,5 +155,14 @@ def _decoded(frames: Iterable[Frame], clock: RunClock) -> Iterator[Frame]:
             return
         clock.end = clock.end if frame.timestamp is None else frame.timestamp
         clock.begin = clock.begin if clock.decoded else clock.end
+        clock.last_size = _size_of(frame)
+        clock.start_size = clock.start_size if any(clock.statuses.values()) else clock.last_size
         clock.decoded += 1
         yield frame
+
+
+def _size_of(frame: Frame) -> tuple[int, int]:
+    """Width and height of the color image, or of depth if there is none."""
+    image = frame.depth if frame.color is None else frame.color
+    assert image is not None  # a frame has one of the two
+    return image.shape[1], image.shape[0]

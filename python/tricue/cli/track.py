@@ -23,7 +23,14 @@ from tricue.cli.starts import in_options, start_hint
 from tricue.cli.steps import RunClock, steps, steps_of_targets, with_known_numbers
 from tricue.cli.track_options import EXAMPLES, add_options
 from tricue.cli.track_preparation import TrackRun, prepare
-from tricue.cli.track_report import RunRecord, not_started, plot, report, require_all_started
+from tricue.cli.track_report import (
+    RunRecord,
+    changed_size,
+    not_started,
+    plot,
+    report,
+    require_all_started,
+)
 from tricue.data.streams import image_names
 from tricue.export.table import TableForm
 from tricue.track.base.track import Track, Tracker
@@ -78,11 +85,13 @@ def _steps(
         found = steps(run.tracker, frames, run.start, clock, run.first)
     else:
         found = steps_of_targets(targets, frames, run.boxes, clock, run.first)
-    return with_known_numbers(map(run.known, _with_start_hint(found, run, clock)))
+    return with_known_numbers(map(run.known, _with_hints(found, run, clock)))
 
 
-def _with_start_hint(found: Iterator[Step], run: TrackRun, clock: RunClock) -> Iterator[Step]:
-    """The steps; an error of the tracker's start gets a hint about how to fix it."""
+def _with_hints(found: Iterator[Step], run: TrackRun, clock: RunClock) -> Iterator[Step]:
+    """The steps; an error of the tracker's start gets a hint about how to fix it, and one of a frame of
+    another size names it.
+    """
     try:
         yield from found
     except ValueError as error:
@@ -90,6 +99,8 @@ def _with_start_hint(found: Iterator[Step], run: TrackRun, clock: RunClock) -> I
             errors = [each for each in (error, error.__cause__) if isinstance(each, ValueError)]
             hint = next(filter(None, (start_hint(each, run.source, run.tracker) for each in errors)), "")
             raise ValueError(f"{in_options(str(error))}{hint}") from None
+        if clock.last_size != clock.start_size:
+            raise ValueError(changed_size(run, clock)) from None
         raise
 
 

@@ -16,6 +16,7 @@ from tricue.cli.outputs import Step
 from tricue.cli.starts import BOX_HINT
 from tricue.cli.steps import RunClock
 from tricue.cli.track_preparation import TrackRun
+from tricue.data.streams import Images
 from tricue.track.base.track import Status, Track
 
 MIN_CONTRAST = 8  # gray levels in the first box; a compressed black frame has fewer
@@ -98,6 +99,15 @@ def not_started(run: TrackRun, clock: RunClock) -> str:
     else:
         reason = f"found no face in {_frames(clock.decoded)}"
     return f"{run.source.name}: {reason}; {BOX_HINT}"
+
+
+def changed_size(run: TrackRun, clock: RunClock) -> str:
+    """Which frame's image isn't as large as the first one's, and both sizes. Trackers can't go on with it."""
+    number = run.first + clock.decoded - 1
+    stream = run.source.channels.get("color") or run.source.channels["depth"]
+    place = stream.paths[number] if isinstance(stream, Images) else f"frame {number}"
+    first, last = ("x".join(map(str, size)) for size in (clock.start_size, clock.last_size))
+    return f"{place}: expected the first frame's size, {first}, got {last} px; all images must have the same"
 
 
 def require_all_started(run: TrackRun, clock: RunClock) -> None:
