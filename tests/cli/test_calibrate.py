@@ -164,7 +164,7 @@ def test_stereo_noise_is_that_of_a_head_at_rest(still, tmp_path, capsys):
     assert 0.001 <= p.intersection_noise < 0.1
     assert p.disparity_noise < 3  # the surface is nearer than the center by the head's radius
     text = out.read_text()
-    assert text.count("# measured: tricue calibrate") == 4
+    assert text.count("# from tricue calibrate") == 4
 
 
 def test_a_distance_in_another_unit_is_told(still, tmp_path, capsys):

@@ -220,7 +220,7 @@ def _write(path: Path, kind: type[Params], values: Mapping[str, Any], measured: 
     A link stays a link. A pipe, a device, or a file in a folder where no file can be created is written into.
     """
     kind(**values)
-    text = toml.dumps(values, dict.fromkeys(measured, "measured: tricue calibrate"))
+    text = toml.dumps(values, dict.fromkeys(measured, "from tricue calibrate"))
     try:
         if path.exists() and not (path.is_file() and os.access(path.resolve().parent, os.W_OK)):
             path.write_text(text, encoding="utf-8")

@@ -40,9 +40,11 @@ def add_options(command: argparse.ArgumentParser) -> None:
         "--seeds",
         type=count,
         default=20,
-        help="runs of each model on each scene; sabeti-roc: rendered images; default %(default)s",
+        help="runs of each model on each scene; sabeti-roc: images, if no --data; default %(default)s",
     )
-    command.add_argument("--jobs", type=count, default=1, help="processes, default %(default)s")
+    command.add_argument(
+        "--jobs", type=count, default=1, help="processes, default %(default)s; sabeti-roc has one"
+    )
     command.add_argument(
         "--output", type=Path, default=Path("results"), metavar="FOLDER", help="default %(default)s/"
     )
