@@ -53,6 +53,26 @@ def test_box_belongs_to_the_picture_pressed_on(server: Server, open_tab: Callabl
     tab.shows(1)
 
 
+def test_box_belongs_to_the_target_of_the_press(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """Keys that choose another target, or none, during a drag change nothing about whose box it is."""
+    tab = open_tab(server.url)
+    mouse = tab.page.mouse
+    tab.draw(*START)
+    tab.key("n")
+    tab.draw(100, 10, 30, 25)
+    for chosen, pressed, start in (("1", "2", (10, 90)), ("2", "n", (90, 80)), ("n", "1", (65, 10))):
+        tab.key(chosen)
+        with tab.done("add" if chosen == "n" else "draw"):
+            mouse.move(*tab.place(*start))
+            mouse.down()
+            mouse.move(*tab.place(start[0] + 10, start[1] + 10))
+            tab.key(pressed)
+            mouse.move(*tab.place(start[0] + 20, start[1] + 20))
+            mouse.up()
+    drawn = [[float(row[name]) for name in ("x", "y", "width", "height")] for row in tab.rows()]
+    assert drawn == [pytest.approx([*start, 20, 20], abs=1) for start in ((10, 90), (90, 80), (65, 10))]
+
+
 def test_a_press_ends_playing(server: Server, open_tab: Callable[..., Tab]) -> None:
     """The box belongs to the picture that was shown then."""
     tab = open_tab(server.url)

@@ -56,8 +56,8 @@ function hold(frame) {
   else stopPlaying();
 }
 
-async function draw(frame, box) {
-  if (model.target()) await act("draw", { target: model.chosen, frame, box });
+async function draw(frame, box, target) {
+  if (target !== null) await act("draw", { target, frame, box });
   else await act("add", { frame, box, tracker: panel.tracker });
   load();
 }

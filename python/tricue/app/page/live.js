@@ -33,9 +33,9 @@ function hold(frame) {
   send({ hold: frame });
 }
 
-/** Draw a box; the frame is kept until the server has it. */
-async function draw(frame, box) {
-  if (model.target()) await act("draw", { target: model.chosen, frame, box });
+/** Draw a box of a target, null for a new one; the frame is kept until the server has it. */
+async function draw(frame, box, target) {
+  if (target !== null) await act("draw", { target, frame, box });
   else {
     const answer = await act("add", { frame, box, tracker: tracker() });
     if (answer) chooseLater(answer.id);
@@ -65,7 +65,7 @@ function remove() {
 async function setBox() {
   const box = ["x", "y", "w", "h"].map((name) => get(`box-${name}`).valueAsNumber);
   if (box.some(Number.isNaN)) return complain("box: expected four numbers");
-  await draw(stage.shown, box);
+  await draw(stage.shown, box, model.chosen);
   if (get("box").contains(document.activeElement)) document.activeElement.blur();
 }
 

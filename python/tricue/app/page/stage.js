@@ -21,8 +21,9 @@ export class Stage {
   coarse = false;
   trail = false; // whether the targets' trails are drawn
 
-  /** drawn(frame, box), clicked(id): called when the user has drawn a box, or clicked a target's. held(frame):
-   * called with the frame in which someone begins to draw, and with null when that is over. */
+  /** drawn(frame, box, target): called when the user has drawn a box, with the id of the target that was chosen
+   * at the press, null for none. clicked(id): called when the user has clicked a target's box. held(frame): called
+   * with the frame in which someone begins to draw, and with null when that is over. */
   constructor(canvas, model, { drawn, clicked, held = () => {} }) {
     Object.assign(this, { canvas, model, drawn, clicked, held });
     new ResizeObserver(() => this.draw()).observe(canvas);
@@ -139,7 +140,7 @@ export class Stage {
       return this.draw();
     }
     if (this.model.state.run) return;
-    const frame = this.#shown;
+    const frame = this.#shown, target = this.model.chosen;
     this.held(frame);
     const at = this.#at(event), start = this.#toFrame(...at);
     const box = event.shiftKey ? null : this.#own(); // with Shift a box is always drawn anew
@@ -148,11 +149,11 @@ export class Stage {
     if (corner >= 0) {
       const [across, down] = CORNERS[(corner + 2) % 4];
       const fixed = [box[0] + across * box[2], box[1] + down * box[3]];
-      this.#drag = { kind: "draw", frame, start: fixed, box: [...box], moved: false, from: at };
+      this.#drag = { kind: "draw", frame, target, start: fixed, box: [...box], moved: false, from: at };
     } else if (box && within(box, start)) {
-      this.#drag = { kind: "move", frame, start, first: [...box], box: [...box], moved: false, from: at };
+      this.#drag = { kind: "move", frame, target, start, first: [...box], box: [...box], moved: false, from: at };
     } else {
-      this.#drag = { kind: "draw", frame, start: this.#inside(start), box: null, moved: false, from: at };
+      this.#drag = { kind: "draw", frame, target, start: this.#inside(start), box: null, moved: false, from: at };
     }
   }
 
@@ -212,7 +213,7 @@ export class Stage {
     }
     this.#drag = null;
     if (drag.moved && drag.box && drag.box[2] >= MIN_BOX && drag.box[3] >= MIN_BOX) {
-      this.drawn(drag.frame, drag.box.map((value) => Math.round(value * 10) / 10));
+      this.drawn(drag.frame, drag.box.map((value) => Math.round(value * 10) / 10), drag.target);
     } else if (!drag.moved) {
       this.clicked(this.#targetAt(this.#toFrame(...this.#at(event))));
       this.held(null);
@@ -290,13 +291,13 @@ export class Stage {
       const place = (x, y) => [left + x * scale, top + y * scale];
       for (const { id } of model.state.targets) drawTrail(pen, model, id, this.#shown, place);
     }
+    const drag = this.#drag?.box ? this.#drag : null;
     for (const target of model.state.targets) {
-      const own = target.id === model.chosen;
-      if (own && this.#drag?.box) continue;
+      if (drag?.target === target.id) continue;
       const box = model.box(target.id, this.#shown);
-      if (box) this.#paintBox(pen, box, target, own);
+      if (box) this.#paintBox(pen, box, target, target.id === model.chosen);
     }
-    if (this.#drag?.box) this.#paintBox(pen, this.#drag.box, model.target(), true, true);
+    if (drag) this.#paintBox(pen, drag.box, model.target(drag.target), true, true);
   }
 
   #paintBox(pen, box, target, own, drawing = false) {
