@@ -19,12 +19,14 @@ from tricue.app.exports import Tracked
 from tricue.app.frames import Recording
 from tricue.app.project import Project
 from tricue.app.session import Session
+from tricue.cli import main
 from tricue.data.open_source import open_source
 from tricue.data.streams import Video
 from tricue.draw.targets import TARGET_COLORS, target_color
 from tricue.export.table import TableForm, columns
 
 from tests.app.conftest import FRAMES, HEIGHT, START, WIDTH, moving
+from tests.app.session_runs import run
 
 POSE = Pose(np.eye(3), (1.0, 0.0, 0.0))
 
@@ -62,9 +64,45 @@ def test_json_has_the_same_and_the_names(tracked: Tracked) -> None:
     """The numbers of the CSV, and what the ids stand for."""
     content = json.loads(exports.as_json(tracked))
     assert content["targets"][1] == {"id": 2, "name": "Anna", "tracker": "flow-depth"}
+    assert content["lost"] == [{"id": 1, "first": 2, "last": 2, "start_s": 2 / 30, "end_s": 2 / 30}]
     rows = csv.DictReader(io.StringIO(exports.as_csv(tracked)))
     for mine, row in zip(content["tracks"], rows, strict=True):
         assert {name: "" if value is None else str(value) for name, value in mine.items()} == row
+
+
+def test_lost_ranges_are_those_of_the_page(tracked: Tracked) -> None:
+    """A range ends where the target wasn't tracked, as it does in the page's list."""
+    lost = Track(START, 0.0, Status.LOST)
+    project = edits.add_tracks(tracked.project, {1: {3: lost, 7: lost}})
+    content = json.loads(exports.as_json(dataclasses.replace(tracked, project=project)))
+    assert [(each["first"], each["last"]) for each in content["lost"]] == [(2, 3), (7, 7)]
+
+
+def test_exports_are_those_of_tricue_track(
+    video: Path, session_of: Callable[..., Session], tmp_path: Path
+) -> None:
+    """The same boxes give the same files, but for COCO's categories, which are the targets' names."""
+    session = session_of(video)
+    words = []
+    for box in (START, Box(100, 10, 30, 25)):
+        session.add(0, box, "fused")
+        words += ["--box", ",".join(map(str, box))]
+    run(session, 0, 1)
+    files = {name: tmp_path / f"of-track.{name}" for name in exports.EXPORTS}
+    words += [word for name, path in files.items() for word in (f"--{name}", str(path))]
+    assert main(["track", str(video), *words]) == 0
+    theirs = {name: path.read_text() for name, path in files.items()}
+    mine = {name: export.write(session.tracked()) for name, export in exports.EXPORTS.items()}
+    assert [mine[name] for name in ("csv", "mot")] == [theirs[name] for name in ("csv", "mot")]
+    told = json.loads(theirs["json"])
+    assert told["lost"]
+    assert (told.pop("tracker"), bool(told.pop("params"))) == ("fused", True)
+    assert list(json.loads(mine["json"]).items()) == list(told.items())
+    boxes = [
+        [{**each, "category_id": 1} for each in json.loads(text["coco"])["annotations"]]
+        for text in (mine, theirs)
+    ]
+    assert boxes[0] == boxes[1]
 
 
 def test_mot_counts_from_one(tracked: Tracked) -> None:

@@ -91,6 +91,9 @@ def test_parameters_are_for_all(images: Path, tmp_path: Path) -> None:
     content = json.loads(path.read_text())
     assert (content["tracker"], content["seed"], content["params"]["particles"]) == ("color-particle", 3, 50)
     assert len(content["tracks"]) == 24
+    assert content["targets"] == [
+        {"id": number, "name": f"Target {number}", "tracker": "color-particle"} for number in (1, 2, 3)
+    ]
 
 
 @pytest.mark.parametrize(

@@ -23,6 +23,7 @@ from tricue.draw.trail import Trail
 from tricue.export.coco import CocoTracks
 from tricue.export.mot import mot_line
 from tricue.export.table import TableForm, columns, row
+from tricue.export.tracks_json import NamedTarget, TracksJson
 from tricue.track.base.track import Track
 
 
@@ -70,16 +71,15 @@ def as_csv(tracked: Tracked) -> str:
 
 
 def as_json(tracked: Tracked) -> str:
-    """One object: the run, its targets, and "tracks", objects with the columns as keys."""
-    targets = [
-        {"id": target.id, "name": target.name, "tracker": target.tracker}
-        for target in tracked.project.targets
-    ]
-    names = columns(tracked.form)
-    head = json.dumps({**tracked.about, "targets": targets}, indent=1, allow_nan=False, ensure_ascii=False)
-    rows = (dict(zip(names, values, strict=True)) for values in _rows(tracked))
-    lines = ",\n".join(f"  {json.dumps(each, allow_nan=False)}" for each in rows)
-    return head.removesuffix("\n}") + f',\n "tracks": [\n{lines}\n ]\n}}\n'
+    """One object, see :class:`tricue.export.tracks_json.TracksJson`."""
+    recording, targets = tracked.recording, tracked.project.targets
+    text = TracksJson(lambda: recording.fps, tracked.form)
+    parts = [text.begin(tracked.about)]
+    for at in range(recording.length):
+        here = {each.id: each.tracks[at] for each in targets if at in each.tracks}
+        parts.append(text.add(at, recording.seconds(at), here))
+    parts.append(text.end(NamedTarget(each.id, each.name, each.tracker) for each in targets))
+    return "".join(parts)
 
 
 def as_mot(tracked: Tracked) -> str:

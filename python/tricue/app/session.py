@@ -95,8 +95,8 @@ class Session:
         about = {
             "tricue": tricue.__version__,
             "source": source.name,
-            "fps": self.recording.fps,
             "seed": self.seed,
+            "kernels": "native",
             "intrinsics": None if self.camera is None else _numbers(self.camera),
             "baseline": None if rig is None else rig.baseline,
         }

@@ -19,7 +19,6 @@ from numpy.typing import NDArray
 from tricue.arrays import Image
 from tricue.camera.frame import Frame
 from tricue.camera.rig import StereoRig
-from tricue.cli.lost_ranges import LostRanges, as_json
 from tricue.data.streams import DEFAULT_FPS
 from tricue.draw.canvas import choose_scale
 from tricue.draw.depth_pictures import depth_picture, depth_range
@@ -32,6 +31,7 @@ from tricue.draw.trail import Trail
 from tricue.draw.video import OverlayWriter
 from tricue.export.table import PLAIN, TableForm, columns, row
 from tricue.export.text_file import TextFile
+from tricue.export.tracks_json import NamedTarget, TracksJson
 from tricue.track.base.track import Track
 
 STANDARD_OUTPUT = Path("-")  # in place of a file
@@ -101,8 +101,8 @@ class CsvOutput(TextFile):
 
 
 class JsonOutput(TextFile):
-    """One object: the entries of ``about``; "tracks", a list of objects with the columns as keys; "lost", the
-    ranges of frames in which a target is lost; "fps", the frames per second that ``rate`` gives.
+    """One object, see :class:`tricue.export.tracks_json.TracksJson`. All targets have the tracker that
+    ``about`` names.
     """
 
     def __init__(
@@ -113,29 +113,17 @@ class JsonOutput(TextFile):
         form: TableForm = PLAIN,
     ) -> None:
         super().__init__(path)
-        self._rate, self._lost = rate, dict[int, LostRanges]()
-        self._form = form
-        head = json.dumps(about, indent=1, allow_nan=False)
-        self.put(head.removesuffix("\n}") + ',\n "tracks": [')
-        self._separator = "\n"
+        self._text, self._tracker = TracksJson(rate, form), about.get("tracker", "")
+        self._targets: dict[int, NamedTarget] = {}
+        self.put(self._text.begin(about))
 
     def write(self, step: Step) -> None:
-        names = columns(self._form)
-        for values in rows(step, self._form):
-            named = dict(zip(names, values, strict=True))
-            self.put(f"{self._separator}  {json.dumps(named, allow_nan=False)}")
-            self._separator = ",\n"
-        for target, track in step.targets.items():
-            seconds = step.time(self._rate())
-            self._lost.setdefault(target, LostRanges()).add(step.number, seconds, track.status)
+        for target in step.targets:
+            self._targets.setdefault(target, NamedTarget(target, f"Target {target}", self._tracker))
+        self.put(self._text.add(step.number, step.frame.timestamp, step.targets))
 
     def finish(self) -> None:
-        lost = [
-            each
-            for target, found in self._lost.items()
-            for each in as_json(found.ranges, target if self._form.several else None)
-        ]
-        self.put(f'\n ],\n "lost": {json.dumps(lost)},\n "fps": {json.dumps(self._rate())}\n}}\n')
+        self.put(self._text.end(self._targets.values()))
 
 
 class JsonLines:

@@ -11,12 +11,12 @@ import numpy as np
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
-from tricue.cli.lost_ranges import LostRanges
 from tricue.cli.outputs import Step
 from tricue.cli.starts import BOX_HINT
 from tricue.cli.steps import RunClock
 from tricue.cli.track_preparation import TrackRun
 from tricue.data.streams import Images
+from tricue.export.lost_ranges import LostRanges
 from tricue.track.base.track import Status, Track
 
 MIN_CONTRAST = 8  # gray levels in the first box; a compressed black frame has fewer

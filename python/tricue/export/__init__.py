@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Tracks in common formats: tables, MOTChallenge's text, COCO's JSON."""
+"""Tracks in common formats: tables, JSON, MOTChallenge's text, COCO's JSON."""

@@ -202,6 +202,8 @@ def test_what_is_recorded(studio: Studio, tmp_path: Path) -> None:
     assert {row["id"] for row in rows} == {"1"}
     content = json.loads(told.read_text())
     assert content["source"] == "a camera"
+    entries = ["tricue", "source", "seed", "kernels", "intrinsics", "baseline", "started"]
+    assert list(content) == [*entries, "tracks", "targets", "lost", "fps"]
     assert content["targets"] == [{"id": 1, "name": "Target 1", "tracker": "fused"}]
     assert [each["frame"] for each in content["tracks"]] == list(range(first, last + 1))
     capture = cv2.VideoCapture(str(video))

@@ -3,7 +3,6 @@
 
 import csv
 import io
-import json
 import threading
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
@@ -18,6 +17,7 @@ from tricue.draw.video import OverlayWriter
 from tricue.errors import one_line
 from tricue.export.table import TableForm, columns, row
 from tricue.export.text_file import TextFile
+from tricue.export.tracks_json import NamedTarget, TracksJson
 from tricue.track.base.track import Track
 
 MAX_WAITING = 8  # frames waiting to be drawn; with more, the video shows one for longer
@@ -48,7 +48,7 @@ class Recorder:
         self._form = form
         self._video = OverlayWriter(stem.with_name(f"{stem.name}.mp4"), fps)
         self._csv = TextFile(stem.with_name(f"{stem.name}.csv"))
-        self._json = _TracksJson(stem.with_name(f"{stem.name}.json"))
+        self._json = _JsonFile(stem.with_name(f"{stem.name}.json"), TracksJson(lambda: fps, form))
         self.files = (self._csv.path, self._json.path, self._video.path)
         self._put_rows([columns(form)])
         self._json.begin(about)
@@ -65,10 +65,8 @@ class Recorder:
         """Write the targets of the next frame. OSError if that fails."""
         self.started = seconds if self.started is None else self.started
         self.latest = seconds
-        rows = [row(number, seconds, track, target.id, self._form) for target, track in tracks]
-        self._put_rows(rows)
-        named = [dict(zip(columns(self._form), values, strict=True)) for values in rows]
-        self._json.add([target for target, _ in tracks], named)
+        self._put_rows(row(number, seconds, track, target.id, self._form) for target, track in tracks)
+        self._json.add(number, seconds, tracks)
         with suppress(Full):  # the video shows the previous picture for longer
             self._waiting.put_nowait(VideoFrame(seconds, frame, tracks))
 
@@ -108,30 +106,24 @@ class Recorder:
             self.error = self.error or one_line(error)
 
 
-class _TracksJson(TextFile):
-    """One object: the run, its tracks, and at the end their targets."""
+class _JsonFile(TextFile):
+    """A file of the text, which has a frame's rows at once, and at the end the targets."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, text: TracksJson) -> None:
         super().__init__(path)
-        self._targets: dict[int, Target] = {}
-        self._separator = "\n"
+        self._text = text
+        self._targets: dict[int, NamedTarget] = {}
 
     def begin(self, about: dict[str, Any]) -> None:
-        head = json.dumps(about, indent=1, allow_nan=False, ensure_ascii=False)
-        self.put(head.removesuffix("\n}") + ',\n "tracks": [')
+        self.put(self._text.begin(about))
 
-    def add(self, targets: Iterable[Target], rows: Sequence[dict[str, Any]]) -> None:
-        if rows:
-            lines = ",\n".join(f"  {json.dumps(each, allow_nan=False)}" for each in rows)
-            self.put(self._separator + lines)
-            self._separator = ",\n"
-        self._targets |= {target.id: target for target in targets}
+    def add(self, number: int, seconds: float, tracks: Tracks) -> None:
+        if text := self._text.add(number, seconds, {target.id: track for target, track in tracks}):
+            self.put(text)
+        self._targets |= {each.id: NamedTarget(each.id, each.name, each.tracker) for each, _ in tracks}
 
     def finish(self) -> None:
-        told = [
-            {"id": each.id, "name": each.name, "tracker": each.tracker} for each in self._targets.values()
-        ]
-        self.put(f'\n ],\n "targets": {json.dumps(told, ensure_ascii=False)}\n}}\n')
+        self.put(self._text.end(self._targets.values()))
 
 
 def _finished(table: TextFile) -> str:

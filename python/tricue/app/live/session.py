@@ -354,6 +354,13 @@ class LiveSession:
 
         camera = self._camera
         known = None if camera is None else {k: v for k, v in asdict(camera).items() if v is not None}
-        fps = None if self.source is None else self.source.fps
-        about = {"tricue": tricue.__version__, "source": self.name, "fps": fps, "seed": self.seed}
-        return {**about, "intrinsics": known, "started": time.strftime("%Y-%m-%dT%H:%M:%S%z")}
+        rig = self._cameras.get("rig")
+        return {
+            "tricue": tricue.__version__,
+            "source": self.name,
+            "seed": self.seed,
+            "kernels": "native",
+            "intrinsics": known,
+            "baseline": None if rig is None else rig.baseline,
+            "started": time.strftime("%Y-%m-%dT%H:%M:%S%z"),
+        }

@@ -2,7 +2,7 @@
 import json
 
 from tricue import Status
-from tricue.cli.lost_ranges import LostRanges, as_json, clock_time
+from tricue.export.lost_ranges import LostRanges, as_json, clock_time
 
 TRACKED, OCCLUDED, LOST = Status.TRACKED, Status.OCCLUDED, Status.LOST
 

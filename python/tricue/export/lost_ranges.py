@@ -34,6 +34,10 @@ class LostRanges:
                 self.ranges.append(LostRange(number, number, seconds, seconds))
         self._is_lost = status is Status.LOST
 
+    def interrupt(self) -> None:
+        """End a range: nothing is known of the target in the next frame."""
+        self._is_lost = False
+
     def __str__(self) -> str:
         """As in "lost in frames 12-40 (0:00.40-0:01.33), 80 (0:02.67)"; "" if it is never lost."""
         if not self.ranges:
