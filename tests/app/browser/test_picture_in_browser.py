@@ -73,6 +73,24 @@ def test_box_belongs_to_the_target_of_the_press(server: Server, open_tab: Callab
     assert drawn == [pytest.approx([*start, 20, 20], abs=1) for start in ((10, 90), (90, 80), (65, 10))]
 
 
+def test_blank_plays_after_a_click_on_trail(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """Who ticked the box by mouse has the keys of the page; who came to it by keys ticks it with them."""
+    tab = open_tab(server.url)
+    trail = tab.page.locator("#trail")
+    for clicked in (trail, tab.page.get_by_text("trail", exact=True)):
+        before = trail.is_checked()
+        clicked.click()
+        tab.key("Space")
+        tab.page.locator("#play[aria-label=Pause]").wait_for()
+        tab.key("Space")
+        tab.page.locator("#play[aria-label=Play]").wait_for()
+        assert trail.is_checked() != before
+    trail.focus()
+    tab.key("Space")
+    assert trail.is_checked()
+    assert trail.evaluate("(box) => box === document.activeElement")
+
+
 def test_a_press_ends_playing(server: Server, open_tab: Callable[..., Tab]) -> None:
     """The box belongs to the picture that was shown then."""
     tab = open_tab(server.url)

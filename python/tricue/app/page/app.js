@@ -367,6 +367,7 @@ get("frame").addEventListener("change", (event) => {
 });
 get("frame").addEventListener("keydown", (event) => event.key === "Enter" && event.target.blur());
 leaveKeys(get("who"));
+leaveKeys(get("trail"));
 
 // Keys
 

@@ -27,12 +27,13 @@ export function commonKeys(model, stage) {
   return keys;
 }
 
-/** Let a list in which one chose with the pointer leave the keys to the page. */
-export function leaveKeys(list) {
+/** Let a list in which one chose with the pointer, or a box that one ticked with it, leave the keys to the page. */
+export function leaveKeys(control) {
   let pressed = false;
-  list.addEventListener("pointerdown", () => (pressed = true));
-  list.addEventListener("blur", () => (pressed = false));
-  list.addEventListener("change", () => pressed && list.blur());
+  const area = control.type === "checkbox" ? control.closest("label") : control;
+  area.addEventListener("pointerdown", () => (pressed = true));
+  control.addEventListener("blur", () => (pressed = false));
+  control.addEventListener("change", () => pressed && control.blur());
 }
 
 /** Do what keys stand for, with the event, unless someone types, a dialog is open, or nothing is loaded.

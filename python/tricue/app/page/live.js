@@ -206,6 +206,7 @@ get("target-tracker").addEventListener("change", (event) => {
   else updateTargets();
 });
 leaveKeys(get("target-tracker"));
+leaveKeys(get("trail"));
 get("box").addEventListener("keydown", (event) => event.key === "Enter" && event.target.type === "number" && setBox());
 // Numbers belong to a picture, which stays while they are written.
 get("box").addEventListener("focusin", (event) => {
