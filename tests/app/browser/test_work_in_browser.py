@@ -65,6 +65,25 @@ def test_undo_and_redo(followed: Tab) -> None:
     assert followed.rows() == rows
 
 
+def test_what_undo_brings_back_is_chosen(server: Server, followed: Tab) -> None:
+    """A box drawn once a deleted target is back is that target's, unless none was chosen meanwhile."""
+    chosen = followed.page.locator("#targets button[aria-pressed=true]")
+    followed.page.locator("#picture").focus()
+    for others in ([], ["Escape"]):
+        followed.key("Delete")
+        chosen.wait_for(state="detached")
+        for key in others:
+            followed.key(key)
+        with followed.done("undo"):
+            followed.key("Control+z")
+        followed.page.locator("#targets button", has_text="Target 1").wait_for()
+        assert chosen.count() == 1 - len(others)
+        followed.key("1")
+    with followed.done("draw"):
+        followed.drag((100, 10), (130, 35))
+    assert [each["name"] for each in server.state()["targets"]] == ["Target 1"]
+
+
 def test_killed_and_opened_again(video: Path, open_tab: Callable[..., Tab]) -> None:
     """A page says that its server doesn't answer and where the work is; a new one has all of it."""
     server = Server(str(video), "--port", "0")

@@ -11,6 +11,7 @@ const COLORS = ["#56b4e9", "#e69f00", "#009e73", "#f0e442", "#cc79a7", "#0072b2"
 export class Targets extends EventTarget {
   state = null;
   chosen = null; // a target's id
+  #gone = null; // that of the target which was chosen when it was removed, until another is chosen
 
   tell(name) {
     this.dispatchEvent(new Event(name));
@@ -18,11 +19,18 @@ export class Targets extends EventTarget {
 
   setState(state) {
     this.state = state;
-    if (this.chosen !== null && !this.target()) this.chosen = null;
+    if (this.chosen !== null && !this.target()) {
+      this.#gone = this.chosen;
+      this.chosen = null;
+    } else if (this.#gone !== null && this.target(this.#gone)) {
+      this.chosen = this.#gone;
+      this.#gone = null;
+    }
     this.tell("state");
   }
 
   choose(id) {
+    this.#gone = null;
     if (this.chosen === id) return;
     this.chosen = id;
     this.tell("choice");
