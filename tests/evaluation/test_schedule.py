@@ -196,3 +196,13 @@ def test_no_scheduler_is_told_by_its_address(monkeypatch):
                 [Task(TrackerSpec("still-box"), Entry("a", Path("a")))], perform, 1, "tcp://127.0.0.1:9"
             )
         )
+
+
+@pytest.mark.parametrize("address", ["host", "tcp://host", "tcp://host:port", "tcp://", "http://host:8786"])
+def test_an_impossible_address_is_refused_at_once(address, monkeypatch):
+    """It proves that no client is made for it, which would hang for 20 s and print a traceback."""
+    distributed = pytest.importorskip("distributed", reason="needs the extra dask")
+    monkeypatch.setattr(distributed, "Client", None)
+    tasks = [Task(TrackerSpec("still-box"), Entry("a", Path("a")))]
+    with pytest.raises(ValueError, match=rf"--scheduler: expected an address .*, got '{address}'"):
+        list(schedule.run_tasks(tasks, perform, scheduler=address))

@@ -127,11 +127,25 @@ def _run_alone(tasks: Sequence[Task], index: int, perform: Perform, executor: An
         return Finished(index, None, "its process was killed, twice; was there too little memory?")
 
 
+def _require_address(address: str) -> None:
+    """ValueError for an address that no scheduler can have; Dask would hang and print a traceback."""
+    from distributed.comm.addressing import get_address_host_port, parse_address
+
+    try:
+        scheme, _ = parse_address(address)
+        if scheme != "inproc":  # such an address has no port
+            get_address_host_port(address, strict="://" in address)
+    except ValueError as error:
+        expected = f"--scheduler: expected an address such as tcp://HOST:8786, got {address!r}"
+        raise ValueError(f"{expected} ({error})") from None
+
+
 def _run_on_cluster(tasks: Sequence[Task], perform: Perform, address: str) -> Generator[Finished, None, None]:
     try:
         from distributed import Client, as_completed
     except ImportError:
         raise missing_extra("--scheduler", "dask") from None
+    _require_address(address)
     with Client(address, timeout=CONNECT_TIMEOUT, set_as_default=False) as client:
         indices = range(len(tasks))
         futures = [
