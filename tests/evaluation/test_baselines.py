@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: MIT
+import re
+
 import cv2
 import numpy as np
 import pytest
@@ -6,6 +8,7 @@ from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import baselines, metrics
 from tricue.evaluation.one_pass import run
+from tricue.evaluation.trackers import missing_note
 from tricue.track.base.track import Status
 
 MOVING = [name for name in baselines.available() if name != "still-box"]
@@ -76,3 +79,23 @@ def test_peers_name_the_channel_they_lack():
 def test_crop_cuts_at_the_edge_and_is_never_empty(box, shape):
     """A crop has the pixels inside the image, and at least one."""
     assert baselines.crop(np.zeros((10, 10, 3), np.uint8), box).shape[:2] == shape
+
+
+@pytest.mark.parametrize(
+    ("there", "told"),
+    [
+        (
+            ("MIL", "MedianFlow"),
+            r"not run: CSRT, KCF, KCF-0\.1, MOSSE: cv2 [^ ]+ has none of them; opencv-contrib",
+        ),
+        (
+            ("CSRT", "KCF", "KCF-0.1", "MIL", "MOSSE"),
+            r"not run: MedianFlow: cv2 [^ ]+ has no MedianFlow; opencv-",
+        ),
+    ],
+)
+def test_note_on_missing_baselines_blames_all_of_them(there, told, monkeypatch):
+    """It proves that the note doesn't name several trackers and then says that one of them is missing."""
+    others = ("CamShift", "meanShift", "script-pf", "still-box")
+    monkeypatch.setattr(baselines, "available", lambda: [*there, *others])
+    assert re.match(told, missing_note(None))

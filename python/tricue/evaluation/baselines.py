@@ -157,10 +157,10 @@ def _opencv_makers() -> dict[str, Callable[[], Any]]:
     return makers
 
 
-def missing_reason(name: str) -> str:
-    """Why the installed cv2 can't run a tracker, by its name here or in cv2, and which package can."""
+def missing_reason(name: str, *others: str) -> str:
+    """Why the installed cv2 can't run trackers, by their names here or in cv2, and which package can."""
     plain = name.removesuffix("_create").removeprefix("legacy.").removeprefix("Tracker")
-    missing = f"cv2 {cv2.__version__} has no {name}"
+    missing = f"cv2 {cv2.__version__} has {'none of them' if others else f'no {name}'}"
     if plain in _IN_CONTRIB:
         return f"{missing}; {CONTRIB} has (uninstall the other opencv packages first: all of them are cv2)"
     there = [each for each in dir(cv2) if each.startswith("Tracker") and "_" not in each]

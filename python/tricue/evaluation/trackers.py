@@ -79,8 +79,7 @@ def missing_note(chosen: Sequence[str] | None) -> str:
     missing = _missing() if chosen is None else []
     if not missing:
         return ""
-    *others, last = missing
-    return f"not run: {''.join(f'{name}, ' for name in others)}{last}: {baselines.missing_reason(last)}"
+    return f"not run: {', '.join(missing)}: {baselines.missing_reason(*missing)}"
 
 
 def _missing() -> list[str]:
