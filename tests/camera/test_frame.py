@@ -230,6 +230,11 @@ BAD = [
     ({"depth": GRAY}, TypeError, "depth: .*; 8 bits are a picture of the depth"),
     ({"depth": GRAY, "depth_scale": 0.01}, TypeError, "depth: .*; 8 bits are a picture of the depth"),
     ({"depth": PICTURE}, ValueError, "depth: expected one value a pixel.*; a colored depth picture"),
+    (
+        {"depth": METERS[..., None]},
+        ValueError,
+        r"depth: expected one value a pixel.*; depth\[:, :, 0\] has that shape",
+    ),
     ({"depth": METERS > 1}, TypeError, "depth: expected float32"),
     ({"depth": METERS.astype(np.complex64)}, TypeError, "depth: expected float32"),
     ({"depth": METERS.astype(np.float16)}, TypeError, "depth: expected float32"),

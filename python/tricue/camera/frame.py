@@ -184,14 +184,22 @@ def _checked_scale(scale: Any) -> float:
     return number
 
 
+def _shape_hint(depth: NDArray[Any]) -> str:
+    if depth.ndim != 3:
+        return ""
+    one_channel = depth.shape[2] == 1  # as some cameras' libraries give it
+    return "; depth[:, :, 0] has that shape" if one_channel else "; a colored depth picture holds no meters"
+
+
 def _measurements(value: Any, scale: float | None) -> NDArray[Any]:
     if isinstance(value, np.ma.MaskedArray):
         value = value.filled(0)
     if not isinstance(value, np.ndarray):
         raise TypeError(f"depth: expected a NumPy array, got {type(value).__name__}")
     if value.ndim != 2 or value.size == 0:
-        picture = "; a colored depth picture holds no meters" if value.ndim == 3 else ""
-        raise ValueError(f"depth: expected one value a pixel, (H, W), got {_described(value)}{picture}")
+        raise ValueError(
+            f"depth: expected one value a pixel, (H, W), got {_described(value)}{_shape_hint(value)}"
+        )
     if value.dtype.kind in "iu" and value.dtype.itemsize > 1:
         if scale is None:
             hint = "pass depth_scale, 0.001 for millimeters"
