@@ -306,3 +306,12 @@ def test_a_timestamp_in_milliseconds_is_told():
         command = head.command(track_at(9, 0), timestamp=1.7e12)
     assert told[0].filename == __file__
     assert command.pan_speed > 0
+
+
+@pytest.mark.parametrize("track", [None, Box(1, 2, 3, 4)])
+def test_anything_but_a_track_is_named(track):
+    """It proves that None, as before tracking starts, is a TypeError that says so and changes nothing."""
+    head, same = PanTilt(CAMERA), PanTilt(CAMERA)
+    with pytest.raises(TypeError, match=r"^track: expected a tricue\.Track, got (None|Box)"):
+        head.command(track, 0.0, 0.0, timestamp=1.0)
+    assert head.command(track_at(0.1, 0), 0.0, 0.0) == same.command(track_at(0.1, 0), 0.0, 0.0)

@@ -107,10 +107,12 @@ class PanTilt:
 
         pan, tilt: the head's angles when the frame was taken, radians; without them all commands are assumed
         to be carried out, after the latency. timestamp: of the frame, seconds. ValueError for a track without
-        a position if there are no intrinsics, and for numbers that aren't finite; an error leaves the
-        controller as it was. Warns (UserWarning) of a timestamp so large that it looks like milliseconds or a
-        smaller unit.
+        a position if there are no intrinsics, and for numbers that aren't finite; TypeError for anything
+        but a track, such as None before tracking starts. An error leaves the controller as it was. Warns
+        (UserWarning) of a timestamp so large that it looks like milliseconds or a smaller unit.
         """
+        if not isinstance(track, Track):
+            raise TypeError(f"track: expected a tricue.Track, got {track!r:.80}")
         now = None if timestamp is None else as_seconds(timestamp)
         interval = validation.elapsed(self._now, now, self.rate)
         waiting = self._commands_under_way(interval)
