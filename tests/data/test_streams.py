@@ -228,3 +228,12 @@ def test_names_of_images() -> None:
     assert image_names({"depth": Images([Path("d/7.png")]), "color": color}) == ["1.png", "2.png"]
     assert image_names({"depth": depth}) == ["1.png", "2.png"]
     assert image_names({}) == ()
+
+
+def test_the_representation_of_many_images_is_a_line():
+    """It proves that print(source) doesn't list each of a folder's files."""
+    paths = [Path(f"frames/{number:04}.png") for number in range(1000)]
+    assert repr(Images(paths, rate=12.5)) == (
+        f"Images(1000 files, {str(paths[0])!r} to {str(paths[-1])!r}, fps=12.5)"
+    )
+    assert repr(Images([])) == "Images(0 files, fps=30)"

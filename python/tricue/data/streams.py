@@ -76,6 +76,11 @@ class Images:
     read: ImageReader = read_color
     times: Sequence[float] | None = None
 
+    def __repr__(self) -> str:
+        """In one line, however many images there are."""
+        ends = f", {str(self.paths[0])!r} to {str(self.paths[-1])!r}" if self.paths else ""
+        return f"Images({len(self.paths)} files{ends}, fps={self.fps:g})"
+
     @property
     def fps(self) -> float:
         return DEFAULT_FPS if self.rate is None else self.rate
