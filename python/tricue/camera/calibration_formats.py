@@ -307,6 +307,10 @@ def _toml_table(path: PathLike, table: str | None) -> Mapping[str, Any]:
         return values
     if table is None and len(tables) == 1:
         return next(iter(tables.values()))
+    if table is None:
+        known = f"found it in several tables, {', '.join(map(repr, tables))}" if tables else "found none"
+        choose = "; table= chooses one" if tables else ""
+        raise ValueError(f"{path}: expected one camera, with the key fx, {known}{choose}")
     if table not in tables:
         known = ", ".join(map(repr, tables)) or "none with the key fx"
         raise ValueError(f"{path}: expected table to be one of its tables ({known}), got {table!r}")
