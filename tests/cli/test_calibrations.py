@@ -90,7 +90,7 @@ def test_what_an_unknown_pair_costs_is_true(
     content = tracked(pair, "--tracker", tracker)
     error = capsys.readouterr().err
     assert error.count("\n") == 1
-    assert error.startswith("tricue track: warning: the pair's calibration isn't known; ")
+    assert error.startswith("tricue track: warning: the stereo pair's calibration isn't known; ")
     assert not has_positions(content)
     assert "tracks will have no position in meters" in error
     assert "--assume-fov" in error

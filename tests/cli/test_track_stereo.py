@@ -194,9 +194,7 @@ def test_without_a_calibration_there_is_no_position(
     content = tracked([*pair, "--tracker", "stereo-head"], tmp_path / "o.json")
     assert [track["Z_m"] for track in content["tracks"]] == [None] * 3
     assert content["baseline"] is None
-    expected = (
-        "the pair's calibration isn't known; tracks will have no position in meters; give --calibration"
-    )
+    expected = "the stereo pair's calibration isn't known; tracks will have no position in meters; give "
     error = capsys.readouterr().err
     assert error.startswith(f"tricue track: warning: {expected}")
     assert error.count("\n") == 1

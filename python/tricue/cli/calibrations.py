@@ -133,8 +133,8 @@ def _check_focal_length(rig: StereoRig, source: Source) -> None:
     given, own = rig.intrinsics.fx, source.camera.intrinsics.fx
     if abs(given - own) > MAX_FOCAL_DIFFERENCE * own:
         raise ValueError(
-            f"--calibration: expected a focal length of {own:.4g} px, that of the pair as the recording's "
-            f"own cameras rectify it, got {given:.4g}; "
+            f"--calibration: expected a focal length of {own:.4g} px, that of the stereo pair as the "
+            f"recording's own cameras rectify it, got {given:.4g}; "
             "give the raw cameras' file with --rectify, or leave it out"
         )
 
@@ -144,7 +144,7 @@ def _find_rig(source: Source, otherwise: str) -> Calibration:
 
     otherwise: what it means that there is none, and how the user can give one.
     """
-    reason = "the pair's calibration isn't known"
+    reason = "the stereo pair's calibration isn't known"
     if source.calibration is not None:
         try:
             rig = read_rig(source.calibration, source.size, kitti_cameras=source.kitti_cameras)
