@@ -22,7 +22,10 @@ using Table = std::vector<float>;
 constexpr int kBandPixels = 4096;
 
 constexpr std::size_t kMaxCues = 3;
-constexpr std::size_t kTableRoom = 64;  // numbers; tables of up to as many fit four registers of AVX-512
+
+/// Bins whose ratios fit four registers of AVX-512; the 0 of no measurement needs no room there.
+constexpr std::size_t kTableRoom = 64;
+
 constexpr double kSumTolerance = 1e-6;  // of the densities' sums
 constexpr double kMaxRatio = 1e12;      // the product of three fits a float
 
@@ -100,17 +103,11 @@ struct CueRow {
     const float* table;
 };
 
-/// Pixels whose bins are found before the first ratio is looked up, because numbers just stored can't be loaded at once.
+/// Pixels of which a step is done for all before the next one, because numbers just stored can't be loaded at once.
 constexpr std::ptrdiff_t kChunk = 256;
 
-/// The ratios of a block of bins; kWide: from a table in registers that are as wide as a block, else one by one.
-template <bool kWide>
-TRICUE_INLINE void find_ratios(const float* table, const std::int32_t* bins, RowBlock& ratios) {
-    if (!kWide) {
-        float picked[kRowBlock];
-        pick<kRowBlock>(table, bins, kRowBlock, picked);
-        return load(picked, ratios);
-    }
+/// The ratios of a block of bins, from a table in registers that are as wide as a block.
+TRICUE_INLINE void look_up_ratios(const float* table, const std::int32_t* bins, RowBlock& ratios) {
     using Integers = Pack<std::int32_t, kRowBlock>;
     RowBlock quarters[4], low, high;
     Integers places, low_bits, high_bits;
@@ -120,15 +117,17 @@ TRICUE_INLINE void find_ratios(const float* table, const std::int32_t* bins, Row
     look_up(quarters[2], quarters[3], places, high);
     load(&low, low_bits);
     load(&high, high_bits);
-    const Integers upper =
-        (places << 26) >> 31;  // all ones from 32 on; a comparison would be done one by one
-    low_bits = (high_bits & upper) | (low_bits & ~upper);
+    // All ones from 32 on, and at 64, the bin without a measurement; comparisons would be done one by one.
+    const Integers upper = (places << 26) >> 31, none = (places << 25) >> 31;
+    low_bits = ((high_bits & upper) | (low_bits & ~upper)) & ~none;
     load(&low_bits, ratios);
 }
 
+/// kWide: ratios are looked up in registers, else one by one.
 template <bool kWide>
 TRICUE_INLINE void multiply_by(const CueRow* cues, std::size_t count, std::ptrdiff_t n, float* ratio) {
     std::int32_t bins[kMaxCues][kChunk];
+    float picked[kMaxCues][kChunk];
     for (std::ptrdiff_t begin = 0; begin < n; begin += kChunk) {
         const std::ptrdiff_t length = std::min(kChunk, n), first = std::min(begin, n - length);
         for (std::size_t k = 0; k < count; ++k) {
@@ -138,16 +137,28 @@ TRICUE_INLINE void multiply_by(const CueRow* cues, std::size_t count, std::ptrdi
             for_overlapping_blocks<kRowBlock>(
                 length, [=](std::ptrdiff_t x) { found[x] = value_bin(readings[x], range); });
         }
-        for (std::ptrdiff_t x = 0; x < length; x += kRowBlock) {
-            const std::ptrdiff_t at = std::min(x, length - kRowBlock);
+        const auto for_blocks = [=](auto&& step) {
+            for (std::ptrdiff_t x = 0; x < length; x += kRowBlock) step(std::min(x, length - kRowBlock));
+        };
+        for (std::size_t k = 0; k < count && !kWide; ++k)
+            for_blocks([&](std::ptrdiff_t at) {
+                pick<kRowBlock>(cues[k].table, bins[k] + at, kRowBlock, picked[k] + at);
+            });
+        const auto find_ratios = [&](std::size_t k, std::ptrdiff_t at, RowBlock& ratios) {
+            if (kWide)
+                look_up_ratios(cues[k].table, bins[k] + at, ratios);
+            else
+                load(picked[k] + at, ratios);
+        };
+        for_blocks([&](std::ptrdiff_t at) {
             RowBlock product, ratios;
-            find_ratios<kWide>(cues[0].table, bins[0] + at, product);
+            find_ratios(0, at, product);
             for (std::size_t k = 1; k < count; ++k) {
-                find_ratios<kWide>(cues[k].table, bins[k] + at, ratios);
+                find_ratios(k, at, ratios);
                 product *= ratios;
             }
             store(product, ratio + first + at);
-        }
+        });
     }
 }
 
@@ -155,7 +166,7 @@ template <int kBytes>
 TRICUE_INLINE void multiply_all(const CueRow* cues, std::size_t count, std::ptrdiff_t n, float* ratio) {
     constexpr bool kWide = kBytes == kRowBlock * sizeof(float);
     bool small = true;
-    for (std::size_t k = 0; k < count; ++k) small &= cues[k].range->none < static_cast<int>(kTableRoom);
+    for (std::size_t k = 0; k < count; ++k) small &= cues[k].range->none <= static_cast<int>(kTableRoom);
     if (n < kRowBlock)
         for (std::ptrdiff_t x = 0; x < n; ++x) {
             ratio[x] = 1.0F;

@@ -88,10 +88,11 @@ def test_twin_decides_the_same(
     assert_same(case(shape, cues, bins, seed, **changes))
 
 
+@pytest.mark.parametrize("bins", [63, 64, 65])  # of which up to 64 fit registers
 @pytest.mark.parametrize("cues", [1, 2, 3])
-def test_twin_decides_views_the_same(cues: int) -> None:
+def test_twin_decides_views_the_same(cues: int, bins: int) -> None:
     """They agree on parts of larger planes, whose rows are padded, each otherwise, and on a whole frame."""
-    arguments = case((120, 160), cues)
+    arguments = case((120, 160), cues, bins)
     assert_same(arguments)
     parts = [each[5:105, 3 + k : 3 + k + 150] for k, each in enumerate(arguments["planes"])]
     assert_same(arguments | {"planes": parts})
