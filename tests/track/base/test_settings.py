@@ -98,6 +98,37 @@ def test_a_byte_order_mark_is_no_part_of_a_file(tmp_path: Path) -> None:
     assert read_settings("color-particle", tmp_path / "p.toml", [])["particles"] == 50
 
 
+@pytest.mark.parametrize(
+    ("text", "asked", "owners"),
+    [
+        ("skin_threshold = 0.2\n", "fused", "color-particle"),
+        ("skin_threshold = 0.2\nparticles = 50\n", "fused", "color-particle"),
+        ("particles = 50\n", "fused", "color-particle or depth-particle"),
+        ("ring_samples = 20\n", "stereo-head", "color-particle"),
+    ],
+)
+def test_a_file_for_another_tracker_is_told(text: str, asked: str, owners: str, tmp_path: Path) -> None:
+    """The error names the file and the trackers that have all of its parameters."""
+    (tmp_path / "p.toml").write_text(text)
+    told = rf"p\.toml: expected parameters of {asked}, got those for --tracker {owners}$"
+    with pytest.raises(TypeError, match=told):
+        read_settings(asked, tmp_path / "p.toml", [])
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("skin_threshold = 0.2\nzzz = 1\n", "unknown parameter of FusedParams"),  # no tracker has both
+        ('lost_after = "long"\n', "lost_after: expected a number"),  # known, of the wrong type
+    ],
+)
+def test_other_mistakes_in_a_file_are_told_as_such(text: str, told: str, tmp_path: Path) -> None:
+    """No other tracker is named if none has all parameters, or if the names are right."""
+    (tmp_path / "p.toml").write_text(text)
+    with pytest.raises(TypeError, match=told):
+        read_settings("fused", tmp_path / "p.toml", [])
+
+
 @pytest.mark.parametrize("name", papers())
 def test_a_printed_tracker_is_its_preset_and_nothing_else(name: str) -> None:
     """All parameters are those of Params.paper(); a setting overrides one of them."""

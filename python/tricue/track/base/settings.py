@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from tricue.camera import toml
 from tricue.track.base.params import Params, current_names
-from tricue.track.base.registry import create, names, tracker_class
+from tricue.track.base.registry import create, is_built_in, names, tracker_class
 from tricue.track.base.track import Tracker
 
 PAPER = "paper"
@@ -58,7 +58,7 @@ def read_settings(
         values = {} if base is None else toml.read(base)
         _check_options(values, options, THIRD_PARTYS, str(base))
         return values | third_party_settings(settings, options)
-    values = {} if base is None else dataclasses.asdict(kind.from_toml(base))
+    values = {} if base is None else _read_file(name, kind, base)
     return values | _parse_for(kind, settings, options)
 
 
@@ -90,6 +90,21 @@ def _printed(name: str, kind: Any) -> dict[str, Any]:
     return dataclasses.asdict(kind.paper())
 
 
+def _read_file(name: str, kind: Any, path: str | Path) -> dict[str, Any]:
+    """The parameters in a TOML file; TypeError names the trackers for which it is, if they are others."""
+    try:
+        return dataclasses.asdict(kind.from_toml(path))
+    except TypeError:
+        given = toml.read(path).keys()
+        own = filter(is_built_in, names())
+        others = [each for each in own if given <= _accepted_names(tracker_class(each).Params)]
+        if given <= _accepted_names(kind) or not others:
+            raise
+        trackers = " or ".join(filter(None, (", ".join(others[:-1]), others[-1])))
+        text = f"{path}: expected parameters of {name}, got those for --tracker {trackers}"
+        raise TypeError(text) from None
+
+
 def _parse_for(kind: Any, settings: Sequence[str], options: Mapping[str, str]) -> dict[str, Any]:
     """The parameters of a class from keywords; TypeError for a name that isn't among them."""
     values = current_names(kind, parse_settings(settings))
@@ -112,6 +127,11 @@ def _check_options(
 def _names(kind: Any) -> set[str]:
     """The names of a kind's parameters."""
     return {field.name for field in dataclasses.fields(kind)}
+
+
+def _accepted_names(kind: Any) -> set[str]:
+    """These names, and those that some had in the previous release."""
+    return _names(kind) | {field.metadata.get("was", "") for field in dataclasses.fields(kind)}
 
 
 def _split_words(values: Mapping[str, Any], kind: Any) -> dict[str, Any]:
