@@ -48,12 +48,16 @@ def serve_project(
             return
         recording = Recording(source)
         kept = _begun(path, path_beside(place))
+
+        def announce(url: str) -> None:  # once the port is known to be free
+            own.announce(url)
+            say(f"the work is kept in {readable(kept)}")
+
         with _saved(Session(recording, place, path, cameras, seed)) as session:
             if tracker:
                 session.check_tracker(tracker)
-            say(f"the work is kept in {readable(kept)}")
             serving = Serving(session, tracker=tracker, notes=notes)
-            serve_until_ended(serving, make_app(serving), port, browser, say, own.announce)
+            serve_until_ended(serving, make_app(serving), port, browser, say, announce)
 
 
 def _begun(path: Path, beside: Path) -> str:
