@@ -179,3 +179,13 @@ def test_what_a_tracker_wrote_beside_a_video_is_not_the_truth(tmp_path):
     assert find_video_box_table(tmp_path / "clip.mp4") is None
     (tmp_path / "clip.csv").write_text("frame,status,x,y,width,height\n0,seen,1,2,3,4\n")
     assert find_video_box_table(tmp_path / "clip.mp4") == tmp_path / "clip.csv"
+
+
+@pytest.mark.parametrize("text", ["clip.mp4,1,2,30,40\n", "\ufeffWalk.AVI;1;2;30;40\r\nclip.mp4;5;6;7;8\r\n"])
+def test_a_list_of_videos_is_not_the_truth(tmp_path: Path, text: str) -> None:
+    """Where boxes.csv has a box for each of several videos, the table beside a video is its truth."""
+    (tmp_path / BOX_TABLE).write_text(text)
+    video, own = tmp_path / "clip.mp4", tmp_path / "clip.csv"
+    assert find_box_table(tmp_path) is find_box_table(tmp_path, video) is None
+    own.write_text("1,2,3,4\n")
+    assert find_box_table(tmp_path, video) == own

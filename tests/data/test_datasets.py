@@ -146,3 +146,12 @@ def test_a_gif_with_a_table(tmp_path: Path) -> None:
     text(tmp_path / "walk.csv")
     assert [path.name for path in find_sequences(tmp_path)] == ["alone.gif", "walk.mp4"]
     assert find_sequences(tmp_path / "alone.gif") == [tmp_path / "alone.gif"]
+
+
+def test_a_list_of_videos_hides_no_sequence(tmp_path: Path) -> None:
+    """A boxes.csv with a box for each video doesn't make their folder a sequence."""
+    for name in ("a.mp4", "b.mp4"):
+        (tmp_path / name).touch()
+    text(tmp_path / "a.csv")
+    (tmp_path / "boxes.csv").write_text("a.mp4,1,2,30,40\nb.mp4,1,2,30,40\n")
+    assert find_sequences(tmp_path) == [tmp_path / "a.mp4"]

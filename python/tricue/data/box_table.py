@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.data.files import is_video
 from tricue.data.truth import MAX_FRAME_NUMBER, MAX_VALUE, Truth, check_sizes, read_lines, truth_from_rows
 
 BOX_TABLE = "boxes.csv"
@@ -68,9 +69,14 @@ def read_box_table(path: Path) -> Truth:
 
 
 def find_box_table(folder: Path, video: Path | None = None) -> Path | None:
-    """boxes.csv in the folder, or the table beside its only video; None without either."""
+    """boxes.csv in the folder, or the table beside its only video; None without either.
+
+    A boxes.csv that begins with a video's name isn't the folder's: it lists boxes of several videos.
+    """
     path = folder / BOX_TABLE
-    return path if path.is_file() else None if video is None else find_video_box_table(video)
+    if path.is_file() and not _lists_videos(path):
+        return path
+    return None if video is None else find_video_box_table(video)
 
 
 def find_video_box_table(video: Path) -> Path | None:
@@ -81,11 +87,18 @@ def find_video_box_table(video: Path) -> Path | None:
     path = video.with_suffix(".csv")
     if not path.is_file():
         return None
-    with path.open(encoding="utf-8-sig", errors="replace") as file:
-        names = _names(_cells(file.readline(10_000)))
+    names = _names(_first_cells(path))
     if names is None:
         return path
     return path if {"x", "y"} <= set(names) and not set(_TRACKER_COLUMNS) <= set(names) else None
+
+
+def _lists_videos(path: Path) -> bool:
+    """Whether a table's first line begins with a video's name; False if it can't be read."""
+    try:
+        return is_video(Path(next(iter(_first_cells(path)), "")))
+    except OSError:
+        return False
 
 
 def _rows(path: Path) -> list[_Row]:
@@ -105,6 +118,12 @@ def _rows(path: Path) -> list[_Row]:
             raise ValueError(f"{place}: expected {len(columns)} values, got {line.strip()!r:.60}")
         rows.append(_Row(dict(zip(columns, cells, strict=True)), place))
     return rows
+
+
+def _first_cells(path: Path) -> list[str]:
+    """The values of a table's first line."""
+    with path.open(encoding="utf-8-sig", errors="replace") as file:
+        return _cells(file.readline(10_000))
 
 
 def _cells(line: str) -> list[str]:

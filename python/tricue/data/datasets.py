@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from tricue.data import kitti, princeton, tum
-from tricue.data.box_table import BOX_TABLE, find_video_box_table
+from tricue.data.box_table import find_box_table, find_video_box_table
 from tricue.data.files import is_video, may_be_video, natural_order
 from tricue.data.truth import OTB_TRUTH, PRINCETON_FIRST_BOX, VOT_TRUTH, otb_targets
 
@@ -48,7 +48,7 @@ def _is_sequence_video(path: Path) -> bool:
 
 def _is_sequence(folder: Path) -> bool:
     """Whether the folder has true boxes or KITTI's labels, in the place that their layout prescribes."""
-    if (folder / BOX_TABLE).is_file() or (folder / OTB_TRUTH).is_file() or otb_targets(folder):
+    if find_box_table(folder) or (folder / OTB_TRUTH).is_file() or otb_targets(folder):
         return True
     if (folder / VOT_TRUTH).is_file() and not tum.is_tum(
         folder
