@@ -259,6 +259,32 @@ def test_times_that_go_back(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
     assert found["seconds"] == pytest.approx(5 / found["fps"])
 
 
+@pytest.mark.parametrize("suffix", ["png", "jpg"])
+def test_images_of_another_size(tmp_path: Path, suffix: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """The first of them is named, where tricue track would stop."""
+    for number, height in enumerate((48, 48, 50, 48, 36), 1):
+        cv2.imwrite(str(tmp_path / f"{number}.{suffix}"), np.full((height, 64, 3), 90, np.uint8))
+    other = tmp_path / f"3.{suffix}"
+    note = f"2 of 5 images are of another size than the first, 64x48; tracking stops at {other}, 64x50 px"
+    assert facts(capsys, tmp_path)["notes"] == [note]
+
+
+def test_images_of_another_size_in_their_files_alone(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Nothing is said of a photo that is turned by its EXIF data to the size of the others, of a damaged
+    file, or of formats whose headers aren't looked at.
+    """
+    image = pytest.importorskip("PIL.Image")
+    exif = image.Exif()
+    exif[0x0112] = 6  # turned by 90 degrees
+    image.new("RGB", (48, 64)).save(tmp_path / "1.jpg")
+    image.new("RGB", (64, 48)).save(tmp_path / "2.jpg", exif=exif)
+    (tmp_path / "3.jpg").write_bytes(b"\xff\xd8\xff\xe0")
+    image.new("RGB", (64, 48)).save(tmp_path / "4.bmp")
+    assert facts(capsys, tmp_path)["notes"] == []
+
+
 def test_a_calibration_of_no_use(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """It proves that what is wrong with a file that was found is told, and is an error if it was given."""
     folder = color(tmp_path / "walk", 1)

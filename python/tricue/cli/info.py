@@ -23,6 +23,7 @@ from tricue.data.summary import (
     Summary,
     compute_duration,
     compute_rate,
+    note_other_sizes,
     summarize_calibration,
     summarize_channel,
     summarize_depth,
@@ -106,7 +107,7 @@ def _facts(source: Source, options: argparse.Namespace) -> Summary:
     channels = {name: summarize_channel(stream) for name, stream in source.channels.items()}
     frames = min(each["frames"] for each in channels.values())
     unit = f"{source.format.split()[0]}'s format" if options.depth_scale is None else "--depth-scale"
-    depth = source.channels.get("depth")
+    depth, streams = source.channels.get("depth"), source.channels.values()
     return {
         "name": source.name,
         "format": source.format,
@@ -120,7 +121,7 @@ def _facts(source: Source, options: argparse.Namespace) -> Summary:
         "truth": summarize_truth(source, frames),
         "targets": _targets(Path(options.place)),
         "calibration": summarize_calibration(source, options.calibration, options.unit),
-        "notes": [*source.notes, *source.remarks],
+        "notes": [*source.notes, *source.remarks, *filter(None, map(note_other_sizes, streams))],
     }
 
 

@@ -45,6 +45,9 @@ _NUMBER = re.compile(r"([0-9]{10,}\.[0-9]+|[0-9]+)")
 
 _HEAD = 1 << 16  # bytes of a file that are read to recognize animations
 
+_JPEG_FRAMES = set(range(0xC0, 0xD0)) - {0xC4, 0xC8, 0xCC}
+"""The markers of a JPEG file's segments that begin with the image's size."""
+
 
 def listed_path(folder: Path, name: str, list_file: Path) -> Path:
     """The path of a file that a list names; ValueError for one outside the folder."""
@@ -87,6 +90,30 @@ def has_several_pictures(path: Path) -> bool:
 
         page = number(4, 4)
         return number(page + 2 + 12 * number(page, 2), 4) > 0  # where the next page is
+
+
+def stated_size(path: Path) -> tuple[int, int] | None:
+    """Width and height in the header of a PNG or JPEG file, before a turn by EXIF data.
+
+    None for other files, and for those that can't be read.
+    """
+    try:
+        with path.open("rb") as file:
+            head = file.read(24)
+            if head.startswith(b"\x89PNG"):
+                return int.from_bytes(head[16:20], "big"), int.from_bytes(head[20:24], "big")
+            place = 2 if head.startswith(b"\xff\xd8") else -1
+            while place > 0:  # from one segment of a JPEG file to the next
+                file.seek(place)
+                head = file.read(9)
+                if len(head) < 9 or head[0] != 0xFF:
+                    return None
+                if head[1] in _JPEG_FRAMES:
+                    return int.from_bytes(head[7:9], "big"), int.from_bytes(head[5:7], "big")
+                place += 2 + int.from_bytes(head[2:4], "big")
+    except OSError:
+        pass
+    return None
 
 
 def is_video(path: Path) -> bool:

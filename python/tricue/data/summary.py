@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from tricue.camera.read_calibration import read_intrinsics, read_rig
 from tricue.camera.rig import MAX_PLAUSIBLE_BASELINE, Intrinsics, StereoRig
 from tricue.data.depth_images import METERS_PER_MILLIMETER, DepthReader
+from tricue.data.files import stated_size
 from tricue.data.joint import JointStream, joints_of
 from tricue.data.open_source import Source
 from tricue.data.recordings.recording import Recording
@@ -60,6 +61,24 @@ def summarize_channel(stream: Stream) -> Summary:
     kind = "uint16" if isinstance(reader, DepthReader) else str(image.dtype)
     height, width = image.shape[:2]
     return {"width": width, "height": height, "type": kind, "frames": count_frames(stream)}
+
+
+def note_other_sizes(stream: Stream) -> str:
+    """The note on images that aren't as large as the first, by the headers of their files; "" without any."""
+    if not isinstance(stream, Images):
+        return ""
+    sizes = [stated_size(path) for path in stream.paths]
+    others = [index for index, size in enumerate(sizes) if size and sizes[0] and size != sizes[0]]
+    if not others:
+        return ""
+    try:  # their headers may differ in a turn by EXIF data alone
+        first, other = ("{1}x{0}".format(*image.shape) for _, image in stream.at([0, others[0]]))
+    except (OSError, ValueError):
+        return ""
+    if first == other:
+        return ""
+    several = f"{len(others)} of {len(sizes)} images are of another size than the first, {first}"
+    return f"{several}; tracking stops at {stream.paths[others[0]]}, {other} px"
 
 
 def summarize_topics(source: Source) -> list[Summary]:
