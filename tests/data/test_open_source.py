@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+import re
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -296,6 +297,19 @@ def test_an_animation_in_an_image_file_is_told(tmp_path: Path, suffix: str) -> N
     pictures[0].save(path)
     with pytest.raises(ValueError, match=rf"x{suffix}: .* one picture; give its folder"):
         open_source(path)
+
+
+@pytest.mark.parametrize("option", ["place", "right", "depth"])
+def test_a_local_files_url_is_told_with_its_path(tmp_path: Path, option: str) -> None:
+    """A URL as file managers copy it is told with the path to give, if there is such a file."""
+    own = video(tmp_path / "my video.avi")
+    url = own.as_uri()
+    assert url.endswith("/my%20video.avi")
+    told = rf"^file:/.*/my%20video\.avi: expected a path, got a URL; give {re.escape(str(own))}$"
+    with pytest.raises(FileNotFoundError, match=told):
+        open_source(**{"place": own, option: url})
+    with pytest.raises(FileNotFoundError, match=r"^file:/.*x\.avi: expected a path, got a URL$"):
+        open_source(**{"place": own, option: url.replace("my%20video", "x")})
 
 
 def test_a_text_is_no_video(tmp_path: Path) -> None:

@@ -246,6 +246,12 @@ def _calibration(folder: Path) -> Path | None:
 
 
 def _existing(path: Path) -> Path:
-    if not path.exists():
-        raise FileNotFoundError(f"{path}: there is no such file or folder")
-    return path
+    if path.exists():
+        return path
+    if str(path).lower().startswith("file:/"):
+        from urllib.request import url2pathname  # it is slow to import
+
+        file = Path(url2pathname(urlsplit(str(path)).path))
+        hint = f"; give {file}" if file.exists() else ""
+        raise FileNotFoundError(f"{path}: expected a path, got a URL{hint}")
+    raise FileNotFoundError(f"{path}: there is no such file or folder")
