@@ -64,7 +64,8 @@ def test_json_has_the_same_and_the_names(tracked: Tracked) -> None:
     """The numbers of the CSV, and what the ids stand for."""
     content = json.loads(exports.as_json(tracked))
     assert content["targets"][1] == {"id": 2, "name": "Anna", "tracker": "flow-depth"}
-    assert content["lost"] == [{"id": 1, "first": 2, "last": 2, "start_s": 2 / 30, "end_s": 2 / 30}]
+    assert content["lost"] == [{"id": 1, "first": 2, "last": 2, "start_s": 0.066667, "end_s": 0.066667}]
+    assert content["lost"][0]["start_s"] == content["tracks"][-1]["time_s"]
     rows = csv.DictReader(io.StringIO(exports.as_csv(tracked)))
     for mine, row in zip(content["tracks"], rows, strict=True):
         assert {name: "" if value is None else str(value) for name, value in mine.items()} == row

@@ -64,6 +64,7 @@ def _text(found: LostRange) -> str:
 
 
 def as_json(ranges: Iterable[LostRange], target: int | None = None) -> list[dict[str, float]]:
-    """The ranges as dictionaries. target: its id, if there are several."""
+    """The ranges as dictionaries, with times as in tables. target: its id, if there are several."""
     head = {} if target is None else {"id": target}
-    return [{**head, **each._asdict()} for each in ranges]
+    rounded = (each._replace(start_s=round(each.start_s, 6), end_s=round(each.end_s, 6)) for each in ranges)
+    return [{**head, **each._asdict()} for each in rounded]
