@@ -48,6 +48,19 @@ def test_lost_target_is_corrected(server: Server, followed: Tab) -> None:
     assert tab.rows() == corrected
 
 
+def test_key_that_finds_nothing_says_so(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """Of frames that are lost or occluded, of the chosen target or of all; and of drawn boxes."""
+    tab = open_tab(server.url)
+    tab.key("d")
+    tab.page.locator(".toast", has_text="No box is drawn").wait_for()
+    tab.draw(*START)
+    tab.key("l")
+    tab.page.locator(".toast", has_text="Target 1 is nowhere lost or occluded").wait_for()
+    tab.key("Escape")
+    tab.key("l")
+    tab.page.locator(".toast", has_text="No target is lost or occluded").wait_for()
+
+
 def test_undo_and_redo(followed: Tab) -> None:
     """Two undos take back the run and the box, two redos bring them again."""
     rows = followed.rows()

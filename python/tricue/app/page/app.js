@@ -8,7 +8,7 @@ import { Panel } from "./panel.js";
 import { Stage } from "./stage.js";
 import { LOST, NONE, STATUS_NAMES } from "./targets.js";
 import { Timeline } from "./timeline.js";
-import { complain } from "./toasts.js";
+import { complain, note } from "./toasts.js";
 
 const get = (id) => document.getElementById(id);
 const model = new Model();
@@ -150,16 +150,18 @@ function playOrPause() {
 }
 
 function nextTrouble() {
-  const ids = model.target() ? [model.chosen] : model.state.targets.map((each) => each.id);
+  const target = model.target();
+  const ids = target ? [target.id] : model.state.targets.map((each) => each.id);
   const starts = ids.flatMap((id) => model.troubles(id).map(([first]) => first)).sort((a, b) => a - b);
-  if (!starts.length) return announce("no frame is lost or occluded");
+  if (!starts.length) return note(target ? `${target.name} is nowhere lost or occluded` : "No target is lost or occluded");
   return go(starts.find((at) => at > model.frame) ?? starts[0]);
 }
 
 function nextDrawn() {
   const chosen = model.target() ? [model.target()] : model.state.targets;
   const frames = chosen.flatMap((each) => each.drawn).sort((a, b) => a - b);
-  if (frames.length) go(frames.find((at) => at > model.frame) ?? frames[0]);
+  if (!frames.length) return note("No box is drawn");
+  return go(frames.find((at) => at > model.frame) ?? frames[0]);
 }
 
 // What the server tells

@@ -1,14 +1,24 @@
 // SPDX-License-Identifier: MIT
-// What went wrong, over the picture, until it is dismissed or old.
+// Short messages over the picture, until they are dismissed or old.
 
 const MAX_TOASTS = 3;
-const SHOWN_FOR = 20000; // milliseconds
+const COMPLAINT_FOR = 20000, NOTE_FOR = 6000; // milliseconds
 
+/** Say what went wrong. */
 export function complain(text) {
+  show(text, "toast", COMPLAINT_FOR);
+}
+
+/** Say something that isn't wrong. */
+export function note(text) {
+  show(text, "toast note", NOTE_FOR);
+}
+
+function show(text, kind, duration) {
   const toasts = document.getElementById("toasts");
   for (const same of [...toasts.children].filter((each) => each.textContent === text)) same.remove();
   const toast = document.createElement("div"), words = document.createElement("span"), close = document.createElement("button");
-  toast.className = "toast";
+  toast.className = kind;
   words.textContent = text;
   close.setAttribute("aria-label", "Dismiss");
   close.innerHTML = '<svg><use href="#i-close"/></svg>';
@@ -16,5 +26,5 @@ export function complain(text) {
   toast.append(words, close);
   toasts.append(toast);
   while (toasts.children.length > MAX_TOASTS) toasts.firstChild.remove();
-  setTimeout(() => toast.remove(), SHOWN_FOR);
+  setTimeout(() => toast.remove(), duration);
 }
