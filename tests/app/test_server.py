@@ -151,7 +151,7 @@ def test_draw_track_correct_undo_export(client: TestClient) -> None:
     assert do(client, "add", frame=0, box=BOX, tracker="fused") == {"id": 1}
     assert do(client, "track", frame=0) == {}
     state = until_ended(client)
-    assert (state["ended"]["frame"], state["undo"]) == (FRAMES - 1, True)
+    assert (state["ended"]["frame"], state["ended"]["step"], state["undo"]) == (FRAMES - 1, 1, True)
     assert do(client, "draw", target=1, frame=45, box=[65, 40, 40, 40]) == {}
     assert do(client, "track", frame=45, step=-1, targets=[1]) == {}
     assert until_ended(client)["ended"]["frame"] == 1

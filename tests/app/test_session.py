@@ -201,6 +201,7 @@ def test_edit_ends_the_run_first(video: Path, session_of: SessionOf, counting: t
     [
         (5, 1, "frame 5: expected a box to start on; draw one around Target 1"),
         (0, -1, "frame 0: nothing to track, it is the first one"),
+        (8, 1, "frame 8: nothing to track, frame 9 has a drawn box; track from there"),
         (60, 1, "frame: expected a number from 0 to 59, got 60"),
         ("0", 1, "frame: expected a number from 0 to 59, got '0'"),
     ],
@@ -211,6 +212,8 @@ def test_run_that_cannot_be_is_refused(
     """One line says why, and what to do."""
     session = session_of(video)
     session.add(0, START, "fused")
+    for drawn in (8, 9):
+        session.draw(1, drawn, START)
     with pytest.raises(ValueError, match=message):
         session.track(frame, step)
     assert session.run is None

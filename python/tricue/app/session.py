@@ -189,7 +189,7 @@ class Session:
                 raise ValueError(
                     f"frame {frame}: nothing to track, "
                     + (
-                        f"frame {stop} has a drawn box"
+                        f"frame {stop} has a drawn box; track from there"
                         if drawn
                         else f"it is the {'last' if step > 0 else 'first'} one"
                     )

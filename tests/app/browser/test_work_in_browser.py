@@ -38,7 +38,7 @@ def test_lost_target_is_corrected(server: Server, followed: Tab) -> None:
     tab.draw(START.x + 45, START.y - 4, 46, 46, "draw")  # beside its box, which a drag would move
     assert server.state()["targets"][0]["drawn"] == [0, FRAMES - 11]
     tab.track("#track-back")
-    tab.shows(1)
+    tab.shows(0)
     corrected = tab.rows()
     assert abs(float(corrected[FRAMES - 11]["x"]) - START.x - 45) < 2
     assert corrected != rows
@@ -46,6 +46,31 @@ def test_lost_target_is_corrected(server: Server, followed: Tab) -> None:
     tab.shows(0)
     tab.page.locator("#targets button", has_text="Target 1").wait_for()
     assert tab.rows() == corrected
+
+
+def test_run_leads_to_the_drawn_box_that_ends_it(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """Forward and backward; the page says so, and Track goes on from there."""
+    tab = open_tab(server.url)
+    tab.draw(*START)
+    for _ in range(2):
+        tab.key("Shift+ArrowRight")
+    tab.shows(20)
+    tab.draw(START.x + 20, START.y - 4, 46, 46, "draw")
+    tab.key("Home")
+    tab.shows(0)
+    tab.track()
+    tab.shows(20)
+    tab.page.locator(".toast", has_text="Tracking stopped at the box drawn in frame 20").wait_for()
+    assert {row["frame"] for row in tab.rows()} == {str(at) for at in range(21)}
+    tab.track()
+    tab.shows(FRAMES - 1)
+    tab.key("d")
+    tab.shows(0)
+    tab.key("d")
+    tab.shows(20)
+    tab.track("#track-back")
+    tab.shows(0)
+    tab.page.locator(".toast", has_text="Tracking stopped at the box drawn in frame 0").wait_for()
 
 
 def test_key_that_finds_nothing_says_so(server: Server, open_tab: Callable[..., Tab]) -> None:

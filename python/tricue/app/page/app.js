@@ -204,8 +204,13 @@ function hearRun({ frame, speed, tracks }) {
   say(`tracking ${frame}`);
 }
 
-function runEnded({ frame, targets }) {
+function runEnded({ frame, step, targets }) {
   get("speed").textContent = "";
+  const next = frame + step;
+  if (wanted === null && targets.some((id) => model.target(id)?.drawn.includes(next))) {
+    note(`Tracking stopped at the box drawn in frame ${next}`);
+    wanted = next; // from where tracking can go on
+  }
   const lost = targets.filter((id) => model.status(id, frame) === LOST).map((id) => model.target(id)?.name);
   announce(`Tracking ended at frame ${frame}${lost.length ? `; lost: ${lost.join(", ")}` : ""}`);
   model.go(wanted ?? frame);
