@@ -24,6 +24,17 @@ def test_new_target_has_its_box_drawn_and_shown(one: Project) -> None:
     assert dict(target.tracks) == {5: Track(BOX, 1.0, Status.TRACKED)}
 
 
+def test_drawn_box_is_untracked_until_a_run_starts_on_it(one: Project) -> None:
+    """A run that passes elsewhere doesn't count; a box that is drawn again, or was removed, has none."""
+    track = Track(OTHER, 1.0, Status.TRACKED)
+    both = edits.draw_box(one, 1, 9, BOX)
+    followed = edits.add_tracks(both, {1: {5: track, 6: track}})
+    again = edits.draw_box(followed, 1, 5, BOX)
+    assert [each.target(1).untracked for each in (one, both, followed, again)] == [{5}, {5, 9}, {9}, {5, 9}]
+    assert edits.erase_box(again, 1, 5).target(1).untracked == {9}
+    assert edits.cut(again, 9).target(1).untracked == {5}
+
+
 def test_edits_leave_the_project_as_it_was(one: Project) -> None:
     """A project that is kept for undo never changes."""
     before = one.target(1)

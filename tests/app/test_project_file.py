@@ -57,6 +57,16 @@ def test_file_is_for_people_too(full: Project, video: Path, tmp_path: Path) -> N
     assert '\n    [3, "lost", 0.0, 4.0, 3.0, 30.0, 40.0]' in text
 
 
+def test_file_of_an_older_tricue_has_no_untracked_boxes(full: Project, video: Path, tmp_path: Path) -> None:
+    """It didn't note which boxes were never tracked from, so the page hints at none."""
+    path = tmp_path / "project"
+    save(path, full, footprint(video, 60, (160, 120)))
+    assert load(path)[0].target(2).untracked == {3}
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace('   "untracked": [3],\n', ""), encoding="utf-8")
+    assert load(path)[0].target(2).untracked == set()
+
+
 def test_saving_is_all_or_nothing(
     full: Project, video: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -111,7 +111,9 @@ def test_killed_server_loses_nothing(video: Path, server_of: Any) -> None:
     saved(server)
     assert server.end(signal.SIGKILL)[0] == -signal.SIGKILL
     again = server_of(str(video), "--port", "0")
-    assert again.state()["targets"] == [{"id": 1, "name": "Target 1", "tracker": "fused", "drawn": [2]}]
+    assert again.state()["targets"] == [
+        {"id": 1, "name": "Target 1", "tracker": "fused", "drawn": [2], "untracked": [2]}
+    ]
     assert sorted(each.name for each in video.parent.iterdir()) == ["video.mp4", "video.mp4.tricue.json"]
 
 

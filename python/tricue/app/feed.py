@@ -146,8 +146,13 @@ def _times(recording: Recording) -> list[float]:
 
 
 def _as_told(target: Target) -> dict[str, Any]:
-    drawn = sorted(target.drawn)
-    return {"id": target.id, "name": target.name, "tracker": target.tracker, "drawn": drawn}
+    return {
+        "id": target.id,
+        "name": target.name,
+        "tracker": target.tracker,
+        "drawn": sorted(target.drawn),
+        "untracked": sorted(target.untracked),
+    }
 
 
 def _rows(tracks: Mapping[int, Track]) -> list[list[Any]]:

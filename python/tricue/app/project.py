@@ -17,7 +17,8 @@ MAX_UNDO = 200  # steps
 class Target:
     """One target: ``drawn`` has the boxes that the user drew, ``tracks`` all known tracks, by frame.
 
-    A drawn box is also in ``tracks``, with score 1, until the tracker that starts on it gives its own track.
+    A drawn box is also in ``tracks``, with score 1, until the tracker that starts on it gives its own track;
+    until then, its frame is in ``untracked``.
     """
 
     id: int
@@ -25,6 +26,7 @@ class Target:
     tracker: str
     drawn: Mapping[int, Box] = field(default_factory=dict)
     tracks: Mapping[int, Track] = field(default_factory=dict)
+    untracked: frozenset[int] = frozenset()
 
     def next_drawn(self, frame: int, step: int) -> int | None:
         """The nearest frame after this one (step 1), or before it (step -1), that has a drawn box."""
@@ -66,7 +68,9 @@ def erase_box(project: Project, number: int, frame: int) -> Project:
             raise ValueError(f"{target.name}: expected a box in frame {frame}, there is none")
         drawn = {at: box for at, box in target.drawn.items() if at != frame}
         tracks = {at: track for at, track in target.tracks.items() if at != frame}
-        return replace(target, drawn=_frozen(drawn), tracks=_frozen(tracks))
+        return replace(
+            target, drawn=_frozen(drawn), tracks=_frozen(tracks), untracked=target.untracked - {frame}
+        )
 
     return _changed(project, number, without)
 
@@ -102,7 +106,11 @@ def add_tracks(project: Project, found: Mapping[int, Mapping[int, Track]]) -> Pr
     return replace(
         project,
         targets=tuple(
-            replace(target, tracks=_frozen({**target.tracks, **found[target.id]}))
+            replace(
+                target,
+                tracks=_frozen({**target.tracks, **found[target.id]}),
+                untracked=target.untracked - found[target.id].keys(),
+            )
             if found.get(target.id)
             else target
             for target in project.targets
@@ -119,7 +127,13 @@ def cut(project: Project, length: int) -> Project:
     return replace(
         project,
         targets=tuple(
-            replace(each, drawn=before(each.drawn), tracks=before(each.tracks)) for each in project.targets
+            replace(
+                each,
+                drawn=before(each.drawn),
+                tracks=before(each.tracks),
+                untracked=frozenset(at for at in each.untracked if at < length),
+            )
+            for each in project.targets
         ),
     )
 
@@ -165,6 +179,7 @@ def _with_drawn(target: Target, frame: int, box: Box) -> Target:
         target,
         drawn=_frozen({**target.drawn, frame: box}),
         tracks=_frozen({**target.tracks, frame: track}),
+        untracked=target.untracked | {frame},
     )
 
 

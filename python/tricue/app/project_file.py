@@ -169,7 +169,7 @@ def _lines(project: Project, video: Footprint) -> Iterator[str]:
         yield f'{"," * (index > 0)}\n  {{"id": {target.id}, "name": {name}'
         yield f', "tracker": {json.dumps(target.tracker)},\n   "drawn": {{'
         yield ", ".join(f'"{at}": {json.dumps(_rounded(box))}' for at, box in sorted(target.drawn.items()))
-        yield '},\n   "tracks": ['
+        yield f'}},\n   "untracked": {json.dumps(sorted(target.untracked))},\n   "tracks": ['
         rows = (json.dumps(row(at, track)) for at, track in sorted(target.tracks.items()))
         yield ",".join(f"\n    {text}" for text in rows) + "\n   ]}"
     yield "\n ]\n}\n"
@@ -194,12 +194,14 @@ def _rounded(numbers: Any) -> list[float]:
 def _target(entry: Mapping[str, Any], pose: Pose | None) -> Target:
     drawn = {_frame(at): as_box(box) for at, box in entry["drawn"].items()}
     tracks = {_frame(values[0]): _track(values, pose) for values in entry["tracks"]}
+    untracked = map(_frame, entry.get("untracked", ()))  # older files lack it
     return Target(
         int(entry["id"]),
         str(entry["name"]),
         str(entry["tracker"]),
         MappingProxyType(drawn),
         MappingProxyType(tracks),
+        frozenset(untracked).intersection(drawn),
     )
 
 

@@ -37,9 +37,19 @@ def test_lost_target_is_corrected(server: Server, followed: Tab) -> None:
     tab.shows(FRAMES - 11)
     tab.draw(START.x + 45, START.y - 4, 46, 46, "draw")  # beside its box, which a drag would move
     assert server.state()["targets"][0]["drawn"] == [0, FRAMES - 11]
+    hint = tab.page.locator("#hint")
+    assert hint.inner_text() == "Press Track or Back to track from this box"
+    tab.key("ArrowRight")
+    tab.shows(FRAMES - 10)
+    assert hint.inner_text() == ""
+    tab.key("ArrowLeft")
+    tab.shows(FRAMES - 11)
     tab.track("#track-back")
     tab.shows(0)
     corrected = tab.rows()
+    tab.key("d")
+    tab.shows(FRAMES - 11)
+    assert hint.inner_text() == ""
     assert abs(float(corrected[FRAMES - 11]["x"]) - START.x - 45) < 2
     assert corrected != rows
     tab.page.reload()

@@ -282,10 +282,17 @@ function updateHint() {
   else if (stage.shown === model.frame && !stage.image) text = `Frame ${model.frame} can't be shown`;
   else if (!state.targets.length) text = "Drag a box around the target";
   else if (!target) text = "Drag a box around the next target, or choose one";
-  else if (!state.selecting && target.drawn.length === 1 && target.drawn[0] === model.frame && onlyDrawn(target)) {
-    text = "Press Track, or drag the box to make it fit better";
-  } else if (model.status(target.id, model.frame) === LOST) text = `${target.name} is lost here: drag a box to correct it`;
+  else if (!state.selecting && target.untracked.includes(model.frame)) text = untrackedHint(target);
+  else if (model.status(target.id, model.frame) === LOST) text = `${target.name} is lost here: drag a box to correct it`;
   get("hint").textContent = text;
+}
+
+/** What to do about a box from which nothing was tracked yet. */
+function untrackedHint(target) {
+  if (target.drawn.length === 1 && onlyDrawn(target)) return "Press Track, or drag the box to make it fit better";
+  const { frame } = model, free = (at) => at >= 0 && at < model.state.frames && !target.drawn.includes(at);
+  const ways = [free(frame + 1) && "Track", free(frame - 1) && "Back"].filter(Boolean);
+  return ways.length ? `Press ${ways.join(" or ")} to track from this box` : "";
 }
 
 function onlyDrawn(target) {
