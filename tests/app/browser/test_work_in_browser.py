@@ -83,6 +83,21 @@ def test_run_leads_to_the_drawn_box_that_ends_it(server: Server, open_tab: Calla
     tab.page.locator(".toast", has_text="Tracking stopped at the box drawn in frame 0").wait_for()
 
 
+def test_press_in_the_picture_during_a_run_says_to_pause(
+    server: Server, open_tab: Callable[..., Tab]
+) -> None:
+    """No box is drawn then, and the page says how to."""
+    for at in range(40):  # so that it takes a while
+        server.do("add", frame=0, box=[20 + at, 40, 40, 40], tracker="fused")
+    tab = open_tab(server.url)
+    tab.page.select_option("#who", "all")
+    tab.page.click("#track")
+    tab.page.locator("#pause").wait_for()
+    tab.drag((100, 10), (130, 35))
+    tab.page.locator(".toast", has_text="Press Pause to draw a box").wait_for()
+    assert all(each["drawn"] == [0] for each in server.state()["targets"])
+
+
 def test_key_that_finds_nothing_says_so(server: Server, open_tab: Callable[..., Tab]) -> None:
     """Of frames that are lost or occluded, of the chosen target or of all; and of drawn boxes."""
     tab = open_tab(server.url)

@@ -12,7 +12,12 @@ import { complain, note } from "./toasts.js";
 
 const get = (id) => document.getElementById(id);
 const model = new Model();
-const stage = new Stage(get("picture"), model, { drawn: draw, clicked: (id) => model.choose(id), held: hold });
+const stage = new Stage(get("picture"), model, {
+  drawn: draw,
+  clicked: (id) => model.choose(id),
+  held: hold,
+  refused: () => note("Press Pause to draw a box"),
+});
 const pictures = new Pictures((image) => image === stage.image);
 new Timeline(get("timeline"), model, go);
 const panel = new Panel(model, { act, went: go });

@@ -23,9 +23,10 @@ export class Stage {
 
   /** drawn(frame, box, target): called when the user has drawn a box, with the id of the target that was chosen
    * at the press, null for none. clicked(id): called when the user has clicked a target's box. held(frame): called
-   * with the frame in which someone begins to draw, and with null when that is over. */
-  constructor(canvas, model, { drawn, clicked, held = () => {} }) {
-    Object.assign(this, { canvas, model, drawn, clicked, held });
+   * with the frame in which someone begins to draw, and with null when that is over. refused(): called after a
+   * drag or a click during a run, when no box can be drawn. */
+  constructor(canvas, model, { drawn, clicked, held = () => {}, refused = () => {} }) {
+    Object.assign(this, { canvas, model, drawn, clicked, held, refused });
     new ResizeObserver(() => this.draw()).observe(canvas);
     canvas.addEventListener("pointerdown", (event) => this.#press(event));
     canvas.addEventListener("pointermove", (event) => this.#move(event));
@@ -206,7 +207,10 @@ export class Stage {
   #release(event) {
     this.#pointers.delete(event.pointerId);
     const drag = this.#drag;
-    if (!drag) return;
+    if (!drag) {
+      if (this.model.state?.run) this.refused();
+      return;
+    }
     if (drag.kind === "view") {
       if (!this.#pointers.size) this.#drag = null;
       return;
