@@ -117,7 +117,9 @@ def test_a_removed_target_keeps_no_frame(studio: Studio) -> None:
 
 
 def test_images_of_another_size(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
-    """It proves that trackers stop where the camera comes back so, and that boxes then are of that size."""
+    """It proves that trackers stop where the camera comes back so, that boxes then are of that size, and that
+    a tracker chosen meanwhile starts on the next one.
+    """
     studio.begin()
     studio.session.add(0, list(START), "fused")
     before = studio.session.size
@@ -126,10 +128,13 @@ def test_images_of_another_size(studio: Studio, monkeypatch: pytest.MonkeyPatch)
     width, height = studio.session.size
     assert (width, height) == (2 * before[0], 2 * before[1])
     assert studio.session.errors == [f"a camera: its images are {width}x{height} px now; draw the boxes anew"]
+    studio.session.choose_tracker(1, "color-particle")
     assert studio.session.targets[0].stopped
     studio.session.draw(1, number, [2 * (START.x + level(number)), *(2 * each for each in START[1:])])
     number = studio.shows()
     assert abs(place(studio).x - 2 * (START.x + level(number))) < 6
+    assert studio.session.targets[0].target.tracker == "color-particle"
+    assert type(studio.session.targets[0].tracker).__name__ == "ColorParticleTracker"
 
 
 def test_images_of_another_size_end_a_recording(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:

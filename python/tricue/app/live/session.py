@@ -276,11 +276,14 @@ class LiveSession:
             followed.target = replace(followed.target, name=words)
 
     def choose_tracker(self, target: Any, tracker: Any) -> None:
-        """Follow a target with another tracker, from its present box on."""
+        """Follow a target with another tracker: from its present box on, or, once stopped, the next one."""
         with self._lock:
             followed = self._get(target)
             chosen = replace(followed.target, tracker=self._known(tracker))
-            self._follow(chosen, followed.at, followed.track.box)
+            if followed.stopped:  # in a frame that may be gone
+                followed.target = chosen
+            else:
+                self._follow(chosen, followed.at, followed.track.box)
 
     def _follow(self, target: Target, number: Any, box: Box) -> None:
         """Start a tracker in a frame that may be slightly old; it catches up at the next frame."""
