@@ -181,6 +181,18 @@ def test_reload_and_two_pages(chromium: Any, opened: Callable[..., Any]) -> None
     assert (tab.troubles, other.troubles) == ([], [])
 
 
+def test_recording_that_waits_says_so(chromium: Any, opened: Callable[..., Any]) -> None:
+    """In a pause, as long as it lasts."""
+    tab = Tab(chromium, opened().url).ready()
+    tab.follow()
+    tab.page.keyboard.press("r")
+    tab.page.keyboard.press("Space")
+    tab.page.locator("#hint", has_text="Nothing is recorded while paused").wait_for()
+    tab.page.keyboard.press("Space")
+    tab.page.locator("#hint:empty").wait_for(state="attached")
+    assert tab.troubles == []
+
+
 def test_outage_and_end(chromium: Any, opened: Callable[..., Any], camera: SquareServer) -> None:
     """An outage is said while it lasts; the target is followed after it; Ctrl-C ends all in order."""
     server = opened()

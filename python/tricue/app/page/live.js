@@ -158,6 +158,7 @@ function updateNow() {
   let hint = "";
   if (state.phase === "connecting") hint = `Waiting for ${state.name}`;
   else if (state.phase === "ended") hint = "";
+  else if (state.phase === "paused" && state.recording) hint = "Nothing is recorded while paused";
   else if (target?.stopped) hint = `${target.name}'s tracker has stopped: drag a box to start it again`;
   else if (target && model.status(target.id, at) === LOST) hint = `${target.name} is lost: drag a box to correct it`;
   else if (!state.targets.length) hint = "Drag a box around the target";
