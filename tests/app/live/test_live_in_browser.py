@@ -193,6 +193,18 @@ def test_recording_that_waits_says_so(chromium: Any, opened: Callable[..., Any])
     assert tab.troubles == []
 
 
+def test_a_refused_tracker_is_not_shown(chromium: Any, opened: Callable[..., Any]) -> None:
+    """The list has the target's tracker again."""
+    tab = Tab(chromium, opened().url).ready()
+    page = tab.page
+    tab.follow()
+    page.route("**/do", lambda route: route.fulfill(status=400, json={"error": "no box"}))
+    page.select_option("#target-tracker", "color-particle")
+    page.locator(".toast", has_text="no box").wait_for()
+    page.wait_for_function("document.getElementById('target-tracker').value === 'fused'")
+    assert tab.troubles == []
+
+
 def test_outage_and_end(chromium: Any, opened: Callable[..., Any], camera: SquareServer) -> None:
     """An outage is said while it lasts; the target is followed after it; Ctrl-C ends all in order."""
     server = opened()

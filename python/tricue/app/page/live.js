@@ -201,10 +201,10 @@ get("target-name").addEventListener("change", async (event) => {
   if (!(await act("rename", { target: model.chosen, name: event.target.value }))) updateTargets(); // to the name that it has
 });
 get("target-name").addEventListener("keydown", (event) => event.key === "Enter" && event.target.blur());
-get("target-tracker").addEventListener("change", (event) => {
+get("target-tracker").addEventListener("change", async (event) => {
   chosenTracker = event.target.value;
-  if (model.target()) act("tracker", { target: model.chosen, tracker: chosenTracker });
-  else updateTargets();
+  const done = model.target() && (await act("tracker", { target: model.chosen, tracker: chosenTracker }));
+  if (!done) updateTargets(); // to the one that it has
 });
 leaveKeys(get("target-tracker"));
 leaveKeys(get("trail"));
