@@ -103,7 +103,7 @@ struct CueRow {
     const float* table;
 };
 
-/// Pixels of which a step is done for all before the next one, because numbers just stored can't be loaded at once.
+/// Pixels whose bins are found before the first ratio is looked up, because numbers just stored can't be loaded at once.
 constexpr std::ptrdiff_t kChunk = 256;
 
 /// The ratios of a block of bins, from a table in registers that are as wide as a block.
@@ -123,11 +123,10 @@ TRICUE_INLINE void look_up_ratios(const float* table, const std::int32_t* bins, 
     load(&low_bits, ratios);
 }
 
-/// kWide: ratios are looked up in registers, else one by one.
-template <bool kWide>
-TRICUE_INLINE void multiply_by(const CueRow* cues, std::size_t count, std::ptrdiff_t n, float* ratio) {
+/// The products of ratios that are looked up in registers, for n pixels, kRowBlock or more.
+TRICUE_INLINE void multiply_in_registers(const CueRow* cues, std::size_t count, std::ptrdiff_t n,
+                                         float* ratio) {
     std::int32_t bins[kMaxCues][kChunk];
-    float picked[kMaxCues][kChunk];
     for (std::ptrdiff_t begin = 0; begin < n; begin += kChunk) {
         const std::ptrdiff_t length = std::min(kChunk, n), first = std::min(begin, n - length);
         for (std::size_t k = 0; k < count; ++k) {
@@ -137,46 +136,47 @@ TRICUE_INLINE void multiply_by(const CueRow* cues, std::size_t count, std::ptrdi
             for_overlapping_blocks<kRowBlock>(
                 length, [=](std::ptrdiff_t x) { found[x] = value_bin(readings[x], range); });
         }
-        const auto for_blocks = [=](auto&& step) {
-            for (std::ptrdiff_t x = 0; x < length; x += kRowBlock) step(std::min(x, length - kRowBlock));
-        };
-        for (std::size_t k = 0; k < count && !kWide; ++k)
-            for_blocks([&](std::ptrdiff_t at) {
-                pick<kRowBlock>(cues[k].table, bins[k] + at, kRowBlock, picked[k] + at);
-            });
-        const auto find_ratios = [&](std::size_t k, std::ptrdiff_t at, RowBlock& ratios) {
-            if (kWide)
-                look_up_ratios(cues[k].table, bins[k] + at, ratios);
-            else
-                load(picked[k] + at, ratios);
-        };
-        for_blocks([&](std::ptrdiff_t at) {
+        for (std::ptrdiff_t x = 0; x < length; x += kRowBlock) {
+            const std::ptrdiff_t at = std::min(x, length - kRowBlock);
             RowBlock product, ratios;
-            find_ratios(0, at, product);
+            look_up_ratios(cues[0].table, bins[0] + at, product);
             for (std::size_t k = 1; k < count; ++k) {
-                find_ratios(k, at, ratios);
+                look_up_ratios(cues[k].table, bins[k] + at, ratios);
                 product *= ratios;
             }
             store(product, ratio + first + at);
-        });
+        }
+    }
+}
+
+/// Multiplies n ratios by those of a cue's bins.
+TRICUE_MULTIVERSION
+void multiply_by(const std::int32_t* __restrict bins, int n, const float* __restrict table,
+                 float* __restrict ratio) {
+    for (int x = 0; x < n; ++x) ratio[x] *= table[bins[x]];
+}
+
+/// The products of ratios that are looked up one by one, for n pixels.
+void multiply_one_by_one(const CueRow* cues, std::size_t count, std::ptrdiff_t n, float* ratio) {
+    std::int32_t bins[kBandPixels];
+    std::fill(ratio, ratio + n, 1.0F);
+    for (std::ptrdiff_t begin = 0; begin < n; begin += kBandPixels) {
+        const int length = static_cast<int>(std::min<std::ptrdiff_t>(kBandPixels, n - begin));
+        for (std::size_t k = 0; k < count; ++k) {
+            find_value_bins(cues[k].readings + begin, length, *cues[k].range, bins);
+            multiply_by(bins, length, cues[k].table, ratio + begin);
+        }
     }
 }
 
 template <int kBytes>
 TRICUE_INLINE void multiply_all(const CueRow* cues, std::size_t count, std::ptrdiff_t n, float* ratio) {
-    constexpr bool kWide = kBytes == kRowBlock * sizeof(float);
-    bool small = true;
+    bool small = kBytes == kRowBlock * sizeof(float) && n >= kRowBlock;
     for (std::size_t k = 0; k < count; ++k) small &= cues[k].range->none <= static_cast<int>(kTableRoom);
-    if (n < kRowBlock)
-        for (std::ptrdiff_t x = 0; x < n; ++x) {
-            ratio[x] = 1.0F;
-            for (std::size_t k = 0; k < count; ++k)
-                ratio[x] *= cues[k].table[value_bin(cues[k].readings[x], *cues[k].range)];
-        }
-    else if (kWide && small)
-        multiply_by<kWide>(cues, count, n, ratio);
+    if (small)
+        multiply_in_registers(cues, count, n, ratio);
     else
-        multiply_by<false>(cues, count, n, ratio);
+        multiply_one_by_one(cues, count, n, ratio);
 }
 
 /// The products of the cues' ratios for n pixels.
