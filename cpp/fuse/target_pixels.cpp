@@ -107,9 +107,9 @@ struct CueRow {
 constexpr std::ptrdiff_t kChunk = 256;
 
 /// The ratios of a block of bins, from a table in registers that are as wide as a block.
-TRICUE_INLINE void look_up_ratios(const float* table, const std::int32_t* bins, RowBlock& ratios) {
+TRICUE_INLINE void look_up_ratios(const float* table, const std::int32_t* bins, RowLanes<64>& ratios) {
     using Integers = Pack<std::int32_t, kRowBlock>;
-    RowBlock quarters[4], low, high;
+    RowLanes<64> quarters[4], low, high;
     Integers places, low_bits, high_bits;
     load(bins, places);
     for (int k = 0; k < 4; ++k) load(table + k * kRowBlock, quarters[k]);
@@ -138,7 +138,7 @@ TRICUE_INLINE void multiply_in_registers(const CueRow* cues, std::size_t count, 
         }
         for (std::ptrdiff_t x = 0; x < length; x += kRowBlock) {
             const std::ptrdiff_t at = std::min(x, length - kRowBlock);
-            RowBlock product, ratios;
+            RowLanes<64> product, ratios;
             look_up_ratios(cues[0].table, bins[0] + at, product);
             for (std::size_t k = 1; k < count; ++k) {
                 look_up_ratios(cues[k].table, bins[k] + at, ratios);

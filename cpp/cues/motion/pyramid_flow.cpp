@@ -77,13 +77,13 @@ struct CoarseRow {
 };
 
 /// n is a number of blocks. kSide is the window's side, or 0 for any.
-template <int kSide>
+template <int kBytes, int kSide>
 TRICUE_INLINE void add_steps_by(const StepRow& row, float damping, int n, const CoarseRow& out) {
     const StepRow from = row;
     float *us = out.u, *vs = out.v;
     for (int x0 = 0; x0 < n; x0 += kRowBlock) {
         MeanBlock sums;
-        average_across(from.columns, kSide > 0 ? kSide : from.side, x0, sums);
+        average_across<kBytes>(from.columns, kSide > 0 ? kSide : from.side, x0, sums);
         // the rows don't overlap
         TRICUE_INDEPENDENT
         for (int x = 0; x < kRowBlock; ++x) {
@@ -98,21 +98,25 @@ TRICUE_INLINE void add_steps_by(const StepRow& row, float damping, int n, const 
 }
 
 /// For `count` rows.
-TRICUE_MULTIVERSION
-void add_steps(const StepRow* rows, int count, float damping, int n, const CoarseRow* out) {
+template <int kBytes>
+TRICUE_INLINE void add_steps_of(const StepRow* rows, int count, float damping, int n, const CoarseRow* out) {
     for (int i = 0; i < count; ++i)
         if (rows[i].side == kDefaultFlowSide)
-            add_steps_by<kDefaultFlowSide>(rows[i], damping, n, out[i]);
+            add_steps_by<kBytes, kDefaultFlowSide>(rows[i], damping, n, out[i]);
         else
-            add_steps_by<0>(rows[i], damping, n, out[i]);
+            add_steps_by<kBytes, 0>(rows[i], damping, n, out[i]);
 }
 
+TRICUE_MULTIWIDTH(add_steps, add_steps_of,
+                  (const StepRow* rows, int count, float damping, int n, const CoarseRow* out),
+                  (rows, count, damping, n, out))
+
 /// The block from x0 on, of which `count` pixels are in the result.
-template <int kSide>
+template <int kBytes, int kSide>
 TRICUE_INLINE void finish_block(const StepRow& row, float damping, const Limits& least, int x0, int count,
                                 const FlowRow& out) {
     MeanBlock sums;
-    average_across(row.columns, kSide > 0 ? kSide : row.side, x0, sums);
+    average_across<kBytes>(row.columns, kSide > 0 ? kSide : row.side, x0, sums);
     const float *u0 = row.u + x0, *v0 = row.v + x0;
     float *us = out.u + x0, *vs = out.v + x0, *angles = out.angle + x0, *contrasts = out.contrast + x0;
     // the rows don't overlap
@@ -134,27 +138,32 @@ TRICUE_INLINE void finish_block(const StepRow& row, float damping, const Limits&
 }
 
 /// In blocks; the last one may begin earlier, because the planes have no room beyond their rows.
-template <int kSide>
+template <int kBytes, int kSide>
 TRICUE_INLINE void finish_row_by(const StepRow& row, float damping, const Limits& limits, int n,
                                  const FlowRow& to) {
     const StepRow from = row;
     const Limits least = limits;
     const FlowRow out = to;
-    if (n < kRowBlock) return finish_block<kSide>(from, damping, least, 0, n, out);
+    if (n < kRowBlock) return finish_block<kBytes, kSide>(from, damping, least, 0, n, out);
     for (int x = 0; x < n; x += kRowBlock)
-        finish_block<kSide>(from, damping, least, std::min(x, n - kRowBlock), kRowBlock, out);
+        finish_block<kBytes, kSide>(from, damping, least, std::min(x, n - kRowBlock), kRowBlock, out);
 }
 
 /// For `count` rows.
-TRICUE_MULTIVERSION
-void finish_rows(const StepRow* rows, int count, float damping, const Limits& limits, int n,
-                 const FlowRow* out) {
+template <int kBytes>
+TRICUE_INLINE void finish_rows_by(const StepRow* rows, int count, float damping, const Limits& limits, int n,
+                                  const FlowRow* out) {
     for (int i = 0; i < count; ++i)
         if (rows[i].side == kDefaultFlowSide)
-            finish_row_by<kDefaultFlowSide>(rows[i], damping, limits, n, out[i]);
+            finish_row_by<kBytes, kDefaultFlowSide>(rows[i], damping, limits, n, out[i]);
         else
-            finish_row_by<0>(rows[i], damping, limits, n, out[i]);
+            finish_row_by<kBytes, 0>(rows[i], damping, limits, n, out[i]);
 }
+
+TRICUE_MULTIWIDTH(finish_rows, finish_rows_by,
+                  (const StepRow* rows, int count, float damping, const Limits& limits, int n,
+                   const FlowRow* out),
+                  (rows, count, damping, limits, n, out))
 
 /// Calls done(y, rows, count) for `count` rows from y on, a batch or fewer, until all of the guess's area are done, after
 /// compare(y, here, n, out) has compared each row y of `now` with the previous frame.

@@ -52,7 +52,7 @@ void require_arguments(const ImageView& left, const ImageView& right, double pre
 }
 
 /// n is a number of blocks. kSide is the window's side, or 0 for any.
-template <int kSide>
+template <int kBytes, int kSide>
 TRICUE_INLINE void refine_by(const WindowColumns& row, const float* __restrict offset, int n,
                              float* __restrict next) {
     constexpr auto kMaxStep = static_cast<float>(kMaxCoarseStep);
@@ -60,8 +60,8 @@ TRICUE_INLINE void refine_by(const WindowColumns& row, const float* __restrict o
     const int side = kSide > 0 ? kSide : columns.side;
     for (int x0 = 0; x0 < n; x0 += kRowBlock) {
         WindowMeans means;
-        mean_of(columns, 0, side, x0, means.ss);
-        mean_of(columns, 1, side, x0, means.st);
+        mean_of<kBytes>(columns, 0, side, x0, means.ss);
+        mean_of<kBytes>(columns, 1, side, x0, means.st);
         for (int x = 0; x < kRowBlock; ++x) {
             const float known = offset[x0 + x];
             const float step = (means.st[x] - means.ss[x] * known) / (means.ss[x] + kRidge);
@@ -70,15 +70,18 @@ TRICUE_INLINE void refine_by(const WindowColumns& row, const float* __restrict o
     }
 }
 
-/// Adds the step of each pixel to its offset, at a coarse level, in `count` rows.
-TRICUE_MULTIVERSION
-void refine(const LevelRow* rows, int count, int n, float* const* next) {
+template <int kBytes>
+TRICUE_INLINE void refine_rows_by(const LevelRow* rows, int count, int n, float* const* next) {
     for (int i = 0; i < count; ++i)
         if (rows[i].columns.side == kDefaultDisparitySide)
-            refine_by<kDefaultDisparitySide>(rows[i].columns, rows[i].known.offset, n, next[i]);
+            refine_by<kBytes, kDefaultDisparitySide>(rows[i].columns, rows[i].known.offset, n, next[i]);
         else
-            refine_by<0>(rows[i].columns, rows[i].known.offset, n, next[i]);
+            refine_by<kBytes, 0>(rows[i].columns, rows[i].known.offset, n, next[i]);
 }
+
+/// Adds the step of each pixel to its offset, at a coarse level, in `count` rows.
+TRICUE_MULTIWIDTH(refine, refine_rows_by, (const LevelRow* rows, int count, int n, float* const* next),
+                  (rows, count, n, next))
 
 struct Limits {
     float base, min_reliability, max_residual, max_step;
@@ -90,16 +93,16 @@ struct ResultRow {
 };
 
 /// The block from x0 on, of which `count` pixels are in the result.
-template <int kSide>
+template <int kBytes, int kSide>
 TRICUE_INLINE void finalize_block(const WindowColumns& columns, const WarpedRow& known, const Limits& most,
                                   int x0, int count, const ResultRow& out) {
     const int side = kSide > 0 ? kSide : columns.side;
     WindowMeans means;
-    mean_of(columns, 0, side, x0, means.ss);
-    mean_of(columns, 1, side, x0, means.st);
-    mean_of(columns, 2, side, x0, means.tt);
-    mean_of(columns, 3, side, x0, means.power);
-    mean_of(columns, 4, side, x0, means.reliability);
+    mean_of<kBytes>(columns, 0, side, x0, means.ss);
+    mean_of<kBytes>(columns, 1, side, x0, means.st);
+    mean_of<kBytes>(columns, 2, side, x0, means.tt);
+    mean_of<kBytes>(columns, 3, side, x0, means.power);
+    mean_of<kBytes>(columns, 4, side, x0, means.reliability);
     const float *offset = known.offset + x0, *visible = known.visible + x0;
     float *disparity = out.disparity + x0, *reliability = out.reliability + x0;
     TRICUE_INDEPENDENT
@@ -116,27 +119,32 @@ TRICUE_INLINE void finalize_block(const WindowColumns& columns, const WarpedRow&
 }
 
 /// In blocks; the last one may begin earlier, because the result has no room beyond its rows.
-template <int kSide>
+template <int kBytes, int kSide>
 TRICUE_INLINE void finalize_by(const WindowColumns& row, const WarpedRow& known, const Limits& limits, int n,
                                const ResultRow& to) {
     const WindowColumns columns = row;
     const WarpedRow at = known;
     const Limits most = limits;
     const ResultRow out = to;
-    if (n < kRowBlock) return finalize_block<kSide>(columns, at, most, 0, n, out);
+    if (n < kRowBlock) return finalize_block<kBytes, kSide>(columns, at, most, 0, n, out);
     for (int x = 0; x < n; x += kRowBlock)
-        finalize_block<kSide>(columns, at, most, std::min(x, n - kRowBlock), kRowBlock, out);
+        finalize_block<kBytes, kSide>(columns, at, most, std::min(x, n - kRowBlock), kRowBlock, out);
+}
+
+template <int kBytes>
+TRICUE_INLINE void finalize_rows_by(const LevelRow* rows, int count, const Limits& limits, int n,
+                                    const ResultRow* out) {
+    for (int i = 0; i < count; ++i)
+        if (rows[i].columns.side == kDefaultDisparitySide)
+            finalize_by<kBytes, kDefaultDisparitySide>(rows[i].columns, rows[i].known, limits, n, out[i]);
+        else
+            finalize_by<kBytes, 0>(rows[i].columns, rows[i].known, limits, n, out[i]);
 }
 
 /// For `count` rows.
-TRICUE_MULTIVERSION
-void finalize(const LevelRow* rows, int count, const Limits& limits, int n, const ResultRow* out) {
-    for (int i = 0; i < count; ++i)
-        if (rows[i].columns.side == kDefaultDisparitySide)
-            finalize_by<kDefaultDisparitySide>(rows[i].columns, rows[i].known, limits, n, out[i]);
-        else
-            finalize_by<0>(rows[i].columns, rows[i].known, limits, n, out[i]);
-}
+TRICUE_MULTIWIDTH(finalize, finalize_rows_by,
+                  (const LevelRow* rows, int count, const Limits& limits, int n, const ResultRow* out),
+                  (rows, count, limits, n, out))
 
 struct Level {
     LevelRegions parts;

@@ -15,16 +15,17 @@ struct RowsAround {
     int stride;
 };
 
-struct ConstraintBlock {
-    RowBlock g_x, g_y, h_y, g_t, h_t;
+template <typename Lanes>
+struct ConstraintLanes {
+    Lanes g_x, g_y, h_y, g_t, h_t;
 };
 
 /// A filter along y with equal weights above and below, or, if odd, weights of opposite sign.
-template <bool kOdd>
-TRICUE_INLINE void filter_block_down(const float* const* rows, const float* weights, int radius, int x,
-                                     RowBlock& total) {
-    RowBlock middle, above, below, sum, difference;
-    total = RowBlock{};
+template <bool kOdd, typename Lanes>
+TRICUE_INLINE void filter_down(const float* const* rows, const float* weights, int radius, int x,
+                               Lanes& total) {
+    Lanes middle, above, below, sum, difference;
+    total = Lanes{};
     load(rows[radius] + x, middle);
     if (!kOdd) add(weights[0], middle, total);
     for (int k = 1; k <= radius; ++k) {
@@ -35,19 +36,20 @@ TRICUE_INLINE void filter_block_down(const float* const* rows, const float* weig
     }
 }
 
+template <typename Lanes>
 TRICUE_INLINE void constrain(const RowsAround& around, const TapView& taps, int radius, int x,
-                             ConstraintBlock& out) {
+                             ConstraintLanes<Lanes>& out) {
     const float* const* rows = around.rows;
     const int stride = around.stride;
-    filter_block_down<false>(rows, taps.curvature, radius, x, out.h_y);
-    filter_block_down<true>(rows, taps.slope, radius, stride + x, out.g_y);
-    filter_block_down<false>(rows, taps.smooth, radius, 2 * stride + x, out.g_x);
-    filter_block_down<true>(rows, taps.slope, radius, 3 * stride + x, out.h_t);
-    filter_block_down<false>(rows, taps.smooth, radius, 4 * stride + x, out.g_t);
+    filter_down<false>(rows, taps.curvature, radius, x, out.h_y);
+    filter_down<true>(rows, taps.slope, radius, stride + x, out.g_y);
+    filter_down<false>(rows, taps.smooth, radius, 2 * stride + x, out.g_x);
+    filter_down<true>(rows, taps.slope, radius, 3 * stride + x, out.h_t);
+    filter_down<false>(rows, taps.smooth, radius, 4 * stride + x, out.g_t);
 }
 
 /// kRadius 0 stands for any radius.
-template <int kRadius>
+template <int kBytes, int kRadius>
 TRICUE_INLINE void multiply_by(const RowsAround* rows, int count, const TapView& taps, int n,
                                const NormalEquations* out) {
     const TapView weights = taps;
@@ -55,10 +57,10 @@ TRICUE_INLINE void multiply_by(const RowsAround* rows, int count, const TapView&
     for (int i = 0; i < count; ++i) {
         const RowsAround around = rows[i];
         const NormalEquations to = out[i];
-        for (int x = 0; x < n; x += kRowBlock) {
-            ConstraintBlock row;
+        for (int x = 0; x < n; x += kRowLanes<kBytes>) {
+            ConstraintLanes<RowLanes<kBytes>> row;
             constrain(around, weights, radius, x, row);
-            const RowBlock& h_x = row.g_y;
+            const RowLanes<kBytes>& h_x = row.g_y;
             float* xx = to.xx + x;
             store(row.g_x * row.g_x + h_x * h_x, xx);
             store(row.g_x * row.g_y + h_x * row.h_y, xx + to.stride);
@@ -69,22 +71,22 @@ TRICUE_INLINE void multiply_by(const RowsAround* rows, int count, const TapView&
     }
 }
 
-TRICUE_MULTIVERSION
-void multiply_rows(const RowsAround* rows, int count, const TapView& taps, int n,
-                   const NormalEquations* out) {
+template <int kBytes>
+TRICUE_INLINE void multiply_rows_by(const RowsAround* rows, int count, const TapView& taps, int n,
+                                    const NormalEquations* out) {
     if (taps.radius == kUsualRadius)
-        multiply_by<kUsualRadius>(rows, count, taps, n, out);
+        multiply_by<kBytes, kUsualRadius>(rows, count, taps, n, out);
     else
-        multiply_by<0>(rows, count, taps, n, out);
+        multiply_by<kBytes, 0>(rows, count, taps, n, out);
 }
 
-TRICUE_MULTIVERSION
-void write_row(const RowsAround& rows, const TapView& taps, int n, const Constraints& out) {
+template <int kBytes>
+TRICUE_INLINE void write_row_by(const RowsAround& rows, const TapView& taps, int n, const Constraints& out) {
     const RowsAround around = rows;
     const TapView weights = taps;
     const Constraints to = out;
-    for (int x = 0; x < n; x += kRowBlock) {
-        ConstraintBlock row;
+    for (int x = 0; x < n; x += kRowLanes<kBytes>) {
+        ConstraintLanes<RowLanes<kBytes>> row;
         constrain(around, weights, weights.radius, x, row);
         float* g_x = to.g_x + x;
         store(row.g_x, g_x);
@@ -94,6 +96,13 @@ void write_row(const RowsAround& rows, const TapView& taps, int n, const Constra
         store(row.h_t, g_x + 4 * to.stride);
     }
 }
+
+TRICUE_MULTIWIDTH(multiply_rows, multiply_rows_by,
+                  (const RowsAround* rows, int count, const TapView& taps, int n, const NormalEquations* out),
+                  (rows, count, taps, n, out))
+TRICUE_MULTIWIDTH(write_row, write_row_by,
+                  (const RowsAround& rows, const TapView& taps, int n, const Constraints& out),
+                  (rows, taps, n, out))
 
 }  // namespace
 

@@ -54,12 +54,12 @@ TRICUE_INLINE void upsample_by(const float* __restrict top, const float* __restr
         out[2 * x + 1] = 0.5F * (sum + next);
     }
     float *begin = row + place.margin, *end = begin + place.width;
-    RowBlock first;
-    load(begin, first);  // the left margin's last block covers a part of it
-    const RowBlock left = RowBlock{} + *begin, right = RowBlock{} + *(end - 1);
-    for (int x = 0; x < place.margin; x += kRowBlock) store(left, row + x);
-    store(first, begin);
-    for (int x = 0; x < place.margin + kRowBlock; x += kRowBlock) store(right, end + x);
+    float first[kRowBlock];
+    std::copy_n(begin, kRowBlock, first);  // the left margin's last block covers a part of it
+    const float left = *begin, right = *(end - 1);
+    for (int x = 0; x < place.margin; x += kRowBlock) std::fill_n(row + x, kRowBlock, left);
+    std::copy_n(first, kRowBlock, begin);
+    for (int x = 0; x < place.margin + kRowBlock; x += kRowBlock) std::fill_n(end + x, kRowBlock, right);
 }
 
 /// Rows of the coarse flow along x and y.

@@ -11,17 +11,21 @@ namespace tricue {
 namespace {
 
 /// n is a whole number of blocks.
-TRICUE_MULTIVERSION
-void compare(const std::uint8_t* __restrict before, const std::uint8_t* __restrict now, int n,
-             float* __restrict mean, float* __restrict change) {
-    for (int x = 0; x < n; x += kRowBlock) {
-        RowBlock first, second;
+template <int kBytes>
+TRICUE_INLINE void compare_by(const std::uint8_t* __restrict before, const std::uint8_t* __restrict now,
+                              int n, float* __restrict mean, float* __restrict change) {
+    for (int x = 0; x < n; x += kRowLanes<kBytes>) {
+        RowLanes<kBytes> first, second;
         load_bytes(before + x, first);
         load_bytes(now + x, second);
         store(0.5F * (first + second), mean + x);
         store(second - first, change + x);
     }
 }
+
+TRICUE_MULTIWIDTH(compare, compare_by,
+                  (const std::uint8_t* before, const std::uint8_t* now, int n, float* mean, float* change),
+                  (before, now, n, mean, change))
 
 }  // namespace
 

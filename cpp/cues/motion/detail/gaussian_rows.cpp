@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kSupportSigmas = 3.5;  // sigmas on each side, up to the outer edge of the last pixel
 
-template <bool kWithCurvature>
-TRICUE_INLINE void filter_block_across(const AcrossFilters& filters, const TapView& taps, int radius, int x) {
-    RowBlock middle, left, right, sum, difference, smooth_sum{}, slope_sum{}, curvature_sum{};
+template <int kBytes, bool kWithCurvature>
+TRICUE_INLINE void filter_part_across(const AcrossFilters& filters, const TapView& taps, int radius, int x) {
+    RowLanes<kBytes> middle, left, right, sum, difference, smooth_sum{}, slope_sum{}, curvature_sum{};
     const float* row = filters.row + x;
     load(row, middle);
     add(taps.smooth[0], middle, smooth_sum);
@@ -33,32 +33,39 @@ TRICUE_INLINE void filter_block_across(const AcrossFilters& filters, const TapVi
 }
 
 /// kRadius 0 stands for any radius; a radius known at compile time keeps sums and weights in registers.
-template <bool kWithCurvature, int kRadius>
+template <int kBytes, bool kWithCurvature, int kRadius>
 TRICUE_INLINE void filter_across_by(const AcrossFilters* rows, int count, const TapView& taps, int n) {
     const TapView weights = taps;
     const int radius = kRadius > 0 ? kRadius : weights.radius;
     for (int i = 0; i < count; ++i) {
         const AcrossFilters filters = rows[i];
-        for (int x = 0; x < n; x += kRowBlock)
-            filter_block_across<kWithCurvature>(filters, weights, radius, x);
+        for (int x = 0; x < n; x += kRowLanes<kBytes>)
+            filter_part_across<kBytes, kWithCurvature>(filters, weights, radius, x);
     }
 }
 
-TRICUE_MULTIVERSION
-void across_three(const AcrossFilters* rows, int count, const TapView& taps, int n) {
+template <int kBytes, bool kWithCurvature>
+TRICUE_INLINE void filter_rows_across(const AcrossFilters* rows, int count, const TapView& taps, int n) {
     if (taps.radius == kUsualRadius)
-        filter_across_by<true, kUsualRadius>(rows, count, taps, n);
+        filter_across_by<kBytes, kWithCurvature, kUsualRadius>(rows, count, taps, n);
     else
-        filter_across_by<true, 0>(rows, count, taps, n);
+        filter_across_by<kBytes, kWithCurvature, 0>(rows, count, taps, n);
 }
 
-TRICUE_MULTIVERSION
-void across_two(const AcrossFilters* rows, int count, const TapView& taps, int n) {
-    if (taps.radius == kUsualRadius)
-        filter_across_by<false, kUsualRadius>(rows, count, taps, n);
-    else
-        filter_across_by<false, 0>(rows, count, taps, n);
+template <int kBytes>
+TRICUE_INLINE void across_three_by(const AcrossFilters* rows, int count, const TapView& taps, int n) {
+    filter_rows_across<kBytes, true>(rows, count, taps, n);
 }
+
+template <int kBytes>
+TRICUE_INLINE void across_two_by(const AcrossFilters* rows, int count, const TapView& taps, int n) {
+    filter_rows_across<kBytes, false>(rows, count, taps, n);
+}
+
+TRICUE_MULTIWIDTH(across_three, across_three_by,
+                  (const AcrossFilters* rows, int count, const TapView& taps, int n), (rows, count, taps, n))
+TRICUE_MULTIWIDTH(across_two, across_two_by,
+                  (const AcrossFilters* rows, int count, const TapView& taps, int n), (rows, count, taps, n))
 
 }  // namespace
 

@@ -111,13 +111,16 @@ TRICUE_INLINE void warp_block(const QuadPlace& place, float x0, float y, const f
 }
 
 /// Interpolates between the four pixels of each quad, and compares the result with this frame's pixels.
+template <int kBytes>
 TRICUE_INLINE void interpolate_block(const std::uint32_t* quads, const WarpedBlock& warped,
                                      const std::uint8_t* now, float* means, float* changes) {
     // A separate loop: with bytes in it, the compiler would give the other loop only four lanes.
     float after[kRowBlock];
-    RowBlock pixels;
-    load_bytes(now, pixels);
-    store(pixels, after);
+    for (int i = 0; i < kRowBlock; i += kRowLanes<kBytes>) {
+        RowLanes<kBytes> pixels;
+        load_bytes(now + i, pixels);
+        store(pixels, after + i);
+    }
     // the rows don't overlap
     TRICUE_INDEPENDENT
     for (int i = 0; i < kRowBlock; ++i) {
@@ -135,9 +138,10 @@ TRICUE_INLINE void interpolate_block(const std::uint32_t* quads, const WarpedBlo
 constexpr int kTogether = 4;
 
 /// n is a whole number of blocks.
-TRICUE_MULTIVERSION
-void compare(const std::uint32_t* __restrict all, const QuadPlace& all_place, int x0, int y,
-             const FlowPointers& flow, const std::uint8_t* __restrict now, int n, const ComparedRow& out) {
+template <int kBytes>
+TRICUE_INLINE void compare_by(const std::uint32_t* __restrict all, const QuadPlace& all_place, int x0, int y,
+                              const FlowPointers& flow, const std::uint8_t* __restrict now, int n,
+                              const ComparedRow& out) {
     const QuadPlace place = all_place;
     const float *u = flow.u, *v = flow.v;
     float *means = out.mean, *changes = out.change;
@@ -155,10 +159,15 @@ void compare(const std::uint32_t* __restrict all, const QuadPlace& all_place, in
         pick<kRowBlock>(all, places, count * kRowBlock, quads);
         for (int k = 0; k < count; ++k) {
             const int at = x + k * kRowBlock;
-            interpolate_block(quads + k * kRowBlock, warped[k], now + at, means + at, changes + at);
+            interpolate_block<kBytes>(quads + k * kRowBlock, warped[k], now + at, means + at, changes + at);
         }
     }
 }
+
+TRICUE_MULTIWIDTH(compare, compare_by,
+                  (const std::uint32_t* all, const QuadPlace& place, int x0, int y, const FlowPointers& flow,
+                   const std::uint8_t* now, int n, const ComparedRow& out),
+                  (all, place, x0, y, flow, now, n, out))
 
 GrayLevel downsampled(const ImageView& image, const Region& part) {
     const int width = part.x1 - part.x0, height = part.y1 - part.y0;

@@ -14,28 +14,28 @@ struct WindowColumns {
 };
 
 /// kSide 0 stands for any side.
-template <int kSide>
+template <int kBytes, int kSide>
 TRICUE_INLINE void average_down_by(const WindowColumns* rows, int count, int any_side, int n) {
     const int side = kSide > 0 ? kSide : any_side;
     const float share = 1 / static_cast<float>(side);
     for (int i = 0; i < count; ++i) {
         const WindowColumns window = rows[i];
-        for (int x = 0; x < n; x += kRowBlock)
-            average_block([=](int k) { return window.rows[k] + x; }, side, share, window.means + x);
+        for (int x = 0; x < n; x += kRowLanes<kBytes>)
+            average_lanes<kBytes>([=](int k) { return window.rows[k] + x; }, side, share, window.means + x);
     }
 }
 
 /// The same for a whole batch, which loads each row once.
-template <int kSide>
+template <int kBytes, int kSide>
 TRICUE_INLINE void average_batch_down(const WindowColumns* windows, int n) {
     constexpr float kShare = 1 / static_cast<float>(kSide);
     constexpr auto kRows = static_cast<std::size_t>(kRowBatch + kSide - 1);
-    for (int x = 0; x < n; x += kRowBlock) {
-        RowBlock rows[kRows];
+    for (int x = 0; x < n; x += kRowLanes<kBytes>) {
+        RowLanes<kBytes> rows[kRows];
         for (int i = 0; i < kRowBatch; ++i) load(windows[i].rows[0] + x, rows[i]);
         for (int k = 1; k < kSide; ++k) load(windows[kRowBatch - 1].rows[k] + x, rows[kRowBatch - 1 + k]);
         for (int i = 0; i < kRowBatch; ++i) {
-            RowBlock sum{}, mean{};
+            RowLanes<kBytes> sum{}, mean{};
             for (int k = 0; k < kSide; ++k) add(1, rows[i + k], sum);
             add(kShare, sum, mean);
             store(mean, windows[i].means + x);
@@ -43,15 +43,18 @@ TRICUE_INLINE void average_batch_down(const WindowColumns* windows, int n) {
     }
 }
 
-TRICUE_MULTIVERSION
-void average_columns(const WindowColumns* rows, int count, int side, int n) {
+template <int kBytes>
+TRICUE_INLINE void average_columns_by(const WindowColumns* rows, int count, int side, int n) {
     if (side == kDefaultFlowSide && count == kRowBatch)
-        average_batch_down<kDefaultFlowSide>(rows, n);
+        average_batch_down<kBytes, kDefaultFlowSide>(rows, n);
     else if (side == kDefaultFlowSide)
-        average_down_by<kDefaultFlowSide>(rows, count, side, n);
+        average_down_by<kBytes, kDefaultFlowSide>(rows, count, side, n);
     else
-        average_down_by<0>(rows, count, side, n);
+        average_down_by<kBytes, 0>(rows, count, side, n);
 }
+
+TRICUE_MULTIWIDTH(average_columns, average_columns_by,
+                  (const WindowColumns* rows, int count, int side, int n), (rows, count, side, n))
 
 }  // namespace
 

@@ -33,23 +33,26 @@ struct MeanBlock {
     float xx[kRowBlock], xy[kRowBlock], yy[kRowBlock], xt[kRowBlock], yt[kRowBlock];
 };
 
-template <typename Next>
-TRICUE_INLINE void average_block(const Next& next, int count, float share, float* out) {
-    RowBlock sum{}, block, mean{};
+/// The means of the pixels of a register.
+template <int kBytes, typename Next>
+TRICUE_INLINE void average_lanes(const Next& next, int count, float share, float* out) {
+    RowLanes<kBytes> sum{}, pixels, mean{};
     for (int i = 0; i < count; ++i) {
-        load(next(i), block);
-        add(1, block, sum);
+        load(next(i), pixels);
+        add(1, pixels, sum);
     }
     add(share, sum, mean);
     store(mean, out);
 }
 
 /// The means of windows `side` pixels wide in the block from x on, from those down their columns.
+template <int kBytes>
 TRICUE_INLINE void average_across(const NormalEquations& columns, int side, int x, MeanBlock& means) {
     const float share = 1 / static_cast<float>(side);
     const auto average = [=](int plane, float* out) {
         const float* row = columns.xx + plane * columns.stride + x;
-        average_block([=](int i) { return row + i; }, side, share, out);
+        for (int k = 0; k < kRowBlock; k += kRowLanes<kBytes>)
+            average_lanes<kBytes>([=](int i) { return row + k + i; }, side, share, out + k);
     };
     average(0, means.xx);
     average(1, means.xy);

@@ -21,86 +21,94 @@ struct BatchRows {
 };
 
 /// `rows` are those of the batch with `reach` more above and below. kReach 0 stands for any reach.
-template <int kReach>
+template <int kBytes, int kReach>
 TRICUE_INLINE void smooth_by(const float* const* rows, const GaussianDerivative& filter, int n,
                              const BatchRows& to) {
     const BatchRows out = to;
     const float* weights = filter.smooth.data();
     const int reach = kReach > 0 ? kReach : filter.reach;
     for (int i = 0; i < out.count; ++i)
-        for (int x = 0; x < n; x += kRowBlock) {
+        for (int x = 0; x < n; x += kRowLanes<kBytes>) {
             const float* const* around = rows + i + reach;
-            RowBlock middle, above, below;
+            RowLanes<kBytes> middle, above, below;
             load(around[0] + x, middle);
-            RowBlock sum = weights[0] * middle;
+            RowLanes<kBytes> sum = weights[0] * middle;
             for (int k = 1; k <= reach; ++k) {
                 load(around[-k] + x, above);
                 load(around[k] + x, below);
-                add(weights[k], above + below, sum);
+                add<RowLanes<kBytes>>(weights[k], above + below, sum);
             }
             store(sum, out.data + i * out.stride + x);
         }
 }
 
 /// The same for a whole batch, which loads each row once.
-template <int kReach>
+template <int kBytes, int kReach>
 TRICUE_INLINE void smooth_batch(const float* const* rows, const GaussianDerivative& filter, int n,
                                 const BatchRows& to) {
     const BatchRows out = to;
     const float* weights = filter.smooth.data();
     constexpr int kRows = kRowBatch + 2 * kReach;
-    for (int x = 0; x < n; x += kRowBlock) {
-        RowBlock around[static_cast<std::size_t>(kRows)];
+    for (int x = 0; x < n; x += kRowLanes<kBytes>) {
+        RowLanes<kBytes> around[static_cast<std::size_t>(kRows)];
         for (int i = 0; i < kRows; ++i) load(rows[i] + x, around[i]);
         for (int i = 0; i < kRowBatch; ++i) {
-            RowBlock sum = weights[0] * around[i + kReach];
+            RowLanes<kBytes> sum = weights[0] * around[i + kReach];
             for (int k = 1; k <= kReach; ++k)
-                add(weights[k], around[i + kReach - k] + around[i + kReach + k], sum);
+                add<RowLanes<kBytes>>(weights[k], around[i + kReach - k] + around[i + kReach + k], sum);
             store(sum, out.data + i * out.stride + x);
         }
     }
 }
 
-TRICUE_MULTIVERSION
-void smooth_down(const float* const* rows, const GaussianDerivative& filter, int n, const BatchRows& out) {
+template <int kBytes>
+TRICUE_INLINE void smooth_down_by(const float* const* rows, const GaussianDerivative& filter, int n,
+                                  const BatchRows& out) {
     if (filter.reach == kUsualReach && out.count == kRowBatch)
-        smooth_batch<kUsualReach>(rows, filter, n, out);
+        smooth_batch<kBytes, kUsualReach>(rows, filter, n, out);
     else if (filter.reach == kUsualReach)
-        smooth_by<kUsualReach>(rows, filter, n, out);
+        smooth_by<kBytes, kUsualReach>(rows, filter, n, out);
     else
-        smooth_by<0>(rows, filter, n, out);
+        smooth_by<kBytes, 0>(rows, filter, n, out);
 }
 
-template <int kReach>
+template <int kBytes, int kReach>
 TRICUE_INLINE void differentiate_by(const BatchRows& from, const GaussianDerivative& filter, int n,
                                     const BatchRows& to) {
     const BatchRows in = from, out = to;
     const float* weights = filter.derivative.data();
     const int reach = kReach > 0 ? kReach : filter.reach;
     for (int i = 0; i < out.count; ++i)
-        for (int x = 0; x < n; x += kRowBlock) {
+        for (int x = 0; x < n; x += kRowLanes<kBytes>) {
             const float* row = in.data + i * in.stride + x;
-            RowBlock left, right;
+            RowLanes<kBytes> left, right;
             load(row - 1, left);
             load(row + 1, right);
-            RowBlock sum = weights[1] * (right - left);
+            RowLanes<kBytes> sum = weights[1] * (right - left);
             for (int k = 2; k <= reach; ++k) {
                 load(row - k, left);
                 load(row + k, right);
-                add(weights[k], right - left, sum);
+                add<RowLanes<kBytes>>(weights[k], right - left, sum);
             }
             store(sum, out.data + i * out.stride + x);
         }
 }
 
-TRICUE_MULTIVERSION
-void differentiate_across(const BatchRows& in, const GaussianDerivative& filter, int n,
-                          const BatchRows& out) {
+template <int kBytes>
+TRICUE_INLINE void differentiate_across_by(const BatchRows& in, const GaussianDerivative& filter, int n,
+                                           const BatchRows& out) {
     if (filter.reach == kUsualReach)
-        differentiate_by<kUsualReach>(in, filter, n, out);
+        differentiate_by<kBytes, kUsualReach>(in, filter, n, out);
     else
-        differentiate_by<0>(in, filter, n, out);
+        differentiate_by<kBytes, 0>(in, filter, n, out);
 }
+
+TRICUE_MULTIWIDTH(smooth_down, smooth_down_by,
+                  (const float* const* rows, const GaussianDerivative& filter, int n, const BatchRows& out),
+                  (rows, filter, n, out))
+TRICUE_MULTIWIDTH(differentiate_across, differentiate_across_by,
+                  (const BatchRows& in, const GaussianDerivative& filter, int n, const BatchRows& out),
+                  (in, filter, n, out))
 
 }  // namespace
 

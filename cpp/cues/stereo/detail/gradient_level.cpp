@@ -74,13 +74,13 @@ struct SummedRows {
 };
 
 /// kSide 0 stands for any side.
-template <int kSide>
+template <int kBytes, int kSide>
 TRICUE_INLINE void sum_down_by(const SummedRows* sums, int count, int any_side, int n) {
     const int side = kSide > 0 ? kSide : any_side;
     for (int i = 0; i < count; ++i) {
         const SummedRows each = sums[i];
-        for (int x = 0; x < n; x += kRowBlock) {
-            RowBlock sum, next;
+        for (int x = 0; x < n; x += kRowLanes<kBytes>) {
+            RowLanes<kBytes> sum, next;
             load(each.rows[0] + x, sum);
             for (int k = 1; k < side; ++k) {
                 load(each.rows[k] + x, next);
@@ -92,30 +92,33 @@ TRICUE_INLINE void sum_down_by(const SummedRows* sums, int count, int any_side, 
 }
 
 /// The same for a whole batch, which loads each row once.
-template <int kSide>
+template <int kBytes, int kSide>
 TRICUE_INLINE void sum_batch_down(const SummedRows* sums, int n) {
     constexpr auto kRows = static_cast<std::size_t>(kRowBatch + kSide - 1);
-    for (int x = 0; x < n; x += kRowBlock) {
-        RowBlock rows[kRows];
+    for (int x = 0; x < n; x += kRowLanes<kBytes>) {
+        RowLanes<kBytes> rows[kRows];
         for (int i = 0; i < kRowBatch; ++i) load(sums[i].rows[0] + x, rows[i]);
         for (int k = 1; k < kSide; ++k) load(sums[kRowBatch - 1].rows[k] + x, rows[kRowBatch - 1 + k]);
         for (int i = 0; i < kRowBatch; ++i) {
-            RowBlock sum = rows[i];
+            RowLanes<kBytes> sum = rows[i];
             for (int k = 1; k < kSide; ++k) sum += rows[i + k];
             store(sum, sums[i].sum + x);
         }
     }
 }
 
-TRICUE_MULTIVERSION
-void sum_down(const SummedRows* sums, int count, int side, int n) {
+template <int kBytes>
+TRICUE_INLINE void sum_down_of(const SummedRows* sums, int count, int side, int n) {
     if (side == kDefaultDisparitySide && count == kRowBatch)
-        sum_batch_down<kDefaultDisparitySide>(sums, n);
+        sum_batch_down<kBytes, kDefaultDisparitySide>(sums, n);
     else if (side == kDefaultDisparitySide)
-        sum_down_by<kDefaultDisparitySide>(sums, count, side, n);
+        sum_down_by<kBytes, kDefaultDisparitySide>(sums, count, side, n);
     else
-        sum_down_by<0>(sums, count, side, n);
+        sum_down_by<kBytes, 0>(sums, count, side, n);
 }
+
+TRICUE_MULTIWIDTH(sum_down, sum_down_of, (const SummedRows* sums, int count, int side, int n),
+                  (sums, count, side, n))
 
 Region expanded(const Region& region, int across, int down, int rows, int cols) {
     return {std::max(region.x0 - across, 0), std::max(region.y0 - down, 0),

@@ -40,15 +40,18 @@ constexpr int kDefaultDisparitySide = 5;
 
 /// The mean of one of the terms in the block of windows from x on. Each sum adds the columns in order, so it is the same to the
 /// bit wherever the window is, unlike running sums.
+template <int kBytes>
 TRICUE_INLINE void mean_of(const WindowColumns& columns, int term, int side, int x, float* means) {
     const float* row = columns.ss + term * columns.stride + x;
-    RowBlock sum, next;
-    load(row, sum);
-    for (int k = 1; k < side; ++k) {
-        load(row + k, next);
-        sum += next;
+    for (int i = 0; i < kRowBlock; i += kRowLanes<kBytes>, row += kRowLanes<kBytes>) {
+        RowLanes<kBytes> sum, next;
+        load(row, sum);
+        for (int k = 1; k < side; ++k) {
+            load(row + k, next);
+            sum += next;
+        }
+        store(1.0F / static_cast<float>(side * side) * sum, means + i);
     }
-    store(1.0F / static_cast<float>(side * side) * sum, means);
 }
 
 /// The parts of its pictures that a level needs; inside them, not empty.

@@ -21,8 +21,8 @@ struct ImageRows {
 };
 
 /// The last block of a row may begin earlier, since an image has no room beyond its rows.
-TRICUE_MULTIVERSION
-void to_floats(const ImageRows& rows, int n, float* __restrict to) {
+template <int kBytes>
+TRICUE_INLINE void to_floats_by(const ImageRows& rows, int n, float* __restrict to) {
     const ImageRows from = rows;
     for (int y = 0; y < from.count; ++y) {
         const std::uint8_t* __restrict row = from.data + y * from.stride;
@@ -32,12 +32,16 @@ void to_floats(const ImageRows& rows, int n, float* __restrict to) {
         else
             for (int x = 0; x < n; x += kRowBlock) {
                 const int begin = std::min(x, n - kRowBlock);
-                RowBlock block;
-                load_bytes(row + begin, block);
-                store(block, out + begin);
+                for (int k = begin; k < begin + kRowBlock; k += kRowLanes<kBytes>) {
+                    RowLanes<kBytes> pixels;
+                    load_bytes(row + k, pixels);
+                    store(pixels, out + k);
+                }
             }
     }
 }
+
+TRICUE_MULTIWIDTH(to_floats, to_floats_by, (const ImageRows& rows, int n, float* to), (rows, n, to))
 
 /// 8 times the weighted mean of four rows with weights 1, 3, 3, 1.
 TRICUE_MULTIVERSION
@@ -61,7 +65,7 @@ void smooth_byte_pairs(const std::uint16_t* __restrict in, int n, float* __restr
         Pack<std::int32_t, kRowBlock> sum;
         const Pairs total = outer + inner + (inner << 1);
         convert(total, sum);
-        RowBlock mean;
+        Pack<float, kRowBlock> mean;
         convert(sum, mean);
         store(kShare * mean, out + i);
     }
