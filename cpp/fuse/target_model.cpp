@@ -152,14 +152,27 @@ struct WeightRow {
 };
 
 /// Column by column of a block, because a sum in order would have to wait for each addition.
-struct BlockSums {
-    Pack<double, 8> left, right;
-};
+using BlockSums = std::array<double, kRowBlock>;
+
+template <int kBytes>
+TRICUE_INLINE void add_blocks(const float* weights, int n, BlockSums& sums) {
+    constexpr int kLanes = kBytes / int{sizeof(double)}, kParts = kRowBlock / kLanes;
+    Pack<double, kLanes> totals[std::size_t{kParts}], wide;
+    Pack<float, kLanes> some;
+    for (int part = 0; part < kParts; ++part) load(sums.data() + part * kLanes, totals[part]);
+    for (int x = 0; x < n; x += kRowBlock)
+        for (int part = 0; part < kParts; ++part) {
+            load(weights + x + part * kLanes, some);
+            convert(some, wide);
+            totals[part] += wide;
+        }
+    for (int part = 0; part < kParts; ++part) store(totals[part], sums.data() + part * kLanes);
+}
 
 /// Adds the weights in all of the surround to `totals`.
-TRICUE_MULTIVERSION
-void place_weights(const MapRow& row, const PixelRow& pixels, int n, const FloatRange& range,
-                   const WeightRow& to, BlockSums& totals) {
+template <int kBytes>
+TRICUE_INLINE void place_weights_by(const MapRow& row, const PixelRow& pixels, int n, const FloatRange& range,
+                                    const WeightRow& to, BlockSums& totals) {
     const MapRow from = row;
     const PixelRow at = pixels;
     const FloatRange bins = range;
@@ -181,19 +194,13 @@ void place_weights(const MapRow& row, const PixelRow& pixels, int n, const Float
             TRICUE_INDEPENDENT
             for (int x = first; x < first + kRowBlock; ++x) place(x);
         }
-    BlockSums sums = totals;
-    for (int x = 0; x < n; x += kRowBlock) {
-        Pack<float, 8> left, right;
-        Pack<double, 8> wide;
-        load(out.around + x, left);
-        load(out.around + x + 8, right);
-        convert(left, wide);
-        sums.left += wide;
-        convert(right, wide);
-        sums.right += wide;
-    }
-    totals = sums;
+    add_blocks<kBytes>(out.around, n, totals);
 }
+
+TRICUE_MULTIWIDTH(place_weights, place_weights_by,
+                  (const MapRow& row, const PixelRow& pixels, int n, const FloatRange& range,
+                   const WeightRow& to, BlockSums& totals),
+                  (row, pixels, n, range, to, totals))
 
 /// Adds the weights of n pixels of kMaps observations to their tables. All at once, because neighbors mostly share a bin, and each
 /// addition has to wait for the one before in the same place.
@@ -267,9 +274,8 @@ std::vector<Histograms> histograms(const std::vector<CueMap>& maps, const std::v
     }
     std::vector<Histograms> found;
     for (std::size_t k = 0; k < count; ++k) {
-        const Pack<double, 8> both = totals[k].left + totals[k].right;
         double total = 0.0;
-        for (int i = 0; i < 8; ++i) total += both[i];
+        for (std::size_t i = 0; i < kRowBlock / 2; ++i) total += totals[k][i] + totals[k][kRowBlock / 2 + i];
         Histograms each{Vector(bins), Vector(bins), total};
         for (std::size_t i = 0; i + 1 < size; ++i) {
             const auto four = [&](std::size_t first) {
