@@ -61,12 +61,12 @@ void mark_skin(const std::uint8_t* __restrict pixels, int n, const Bgr& referenc
 }
 
 /// Adds the row-th row of a strip to the strip's n columns, in whole blocks, and counts its skin pixels.
-TRICUE_MULTIVERSION
-void add_row(const std::uint8_t* skin, int n, std::uint8_t row, std::uint8_t* count, std::uint8_t* rows,
-             int* found) {
-    using Block = Pack<std::uint8_t, kBlock>;
-    Block total = {}, marks, each;
-    for (int x = 0; x < n; x += kBlock) {
+template <int kBytes>
+TRICUE_INLINE void add_row_by(const std::uint8_t* skin, int n, std::uint8_t row, std::uint8_t* count,
+                              std::uint8_t* rows, int* found) {
+    using Register = Pack<std::uint8_t, kBytes>;
+    Register total = {}, marks, each;  // at most kTile / 16 marks a lane
+    for (int x = 0; x < n; x += kBytes) {
         load(skin + x, marks);
         total -= marks;
         load(count + x, each);
@@ -76,12 +76,17 @@ void add_row(const std::uint8_t* skin, int n, std::uint8_t row, std::uint8_t* co
         each += marks & row;
         store(each, rows + x);
     }
-    std::uint8_t lanes[kBlock];
+    std::uint8_t lanes[kBytes];
     store(total, lanes);
     int sum = 0;
-    for (int lane = 0; lane < kBlock; ++lane) sum += lanes[lane];
+    for (int lane = 0; lane < kBytes; ++lane) sum += lanes[lane];
     *found = sum;
 }
+
+TRICUE_MULTIWIDTH(add_row, add_row_by,
+                  (const std::uint8_t* skin, int n, std::uint8_t row, std::uint8_t* count, std::uint8_t* rows,
+                   int* found),
+                  (skin, n, row, count, rows, found))
 
 /// Adds a strip that begins at a row of the tile to the tile's n columns, and empties it.
 TRICUE_MULTIVERSION
