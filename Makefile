@@ -12,7 +12,7 @@ WHEEL_PYTHONS = $(PYTHON)
 PARALLEL := -n auto --dist loadfile --benchmark-disable
 SOURCES := pyproject.toml CMakeLists.txt README.md tools/kernel_docs.py $(shell find cpp python -not -path '*/__pycache__*')
 
-.PHONY: demo test fuzz setup bench lint format stubs kernel-docs notebooks experiments docs linkcheck results opencv sanitize levels vot wheel sdist arm clean
+.PHONY: demo test fuzz setup bench lint format stubs kernel-docs notebooks experiments docs linkcheck results opencv sanitize level-builds levels level-speeds vot wheel sdist arm clean
 
 demo: $(VENV)/demo
 	$(BIN)/tricue demo
@@ -103,15 +103,25 @@ sanitize: $(VENV)/dev
 	    tests/track/flow_depth/test_absent_target.py tests/track/*/test_kernels.py
 
 # On a build for each level of x86-64, beside the installed one.
-levels: BUILDS := build/levels
-levels: $(VENV)/dev
+level-builds levels level-speeds: BUILDS := build/levels
+level-builds: $(VENV)/dev
 	$(COPY_INSTALLED)
 	for level in 1 2 3 4; do \
 	    SKBUILD_BUILD_DIR=build/level$$level SKBUILD_CMAKE_DEFINE=TRICUE_SIMD_LEVEL=$$level \
 	        $(PIP) install --quiet --no-build-isolation --no-deps --target $(BUILDS)/$$level . || exit 1; \
 	done
+
+levels: level-builds
 	printf '%s\n' installed 1 2 3 4 | $(HASH_EACH) $(HASHED)
 	$(BIN)/python tools/kernel_hashes.py $(BUILDS)/*.json
+
+# The benchmarks of kernels on the same builds; no kernel may be slower at a higher level.
+level-speeds: level-builds
+	for level in 1 2 3 4; do \
+	    PYTHONPATH=$(BUILDS)/$$level $(BIN)/python -m pytest -q benchmarks/camera benchmarks/cues benchmarks/evaluation benchmarks/fuse \
+	        -k native --benchmark-columns=min --benchmark-json=$(BUILDS)/$$level.speeds || exit 1; \
+	done
+	$(BIN)/python tools/level_speeds.py $(BUILDS)/*.speeds
 
 # More cases of the property tests than the tests try: kernels beside guard pages, public calls, damaged files, command lines.
 CASES ?= 3000
