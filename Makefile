@@ -115,11 +115,11 @@ levels: level-builds
 	printf '%s\n' installed 1 2 3 4 | $(HASH_EACH) $(HASHED)
 	$(BIN)/python tools/kernel_hashes.py $(BUILDS)/*.json
 
-# The benchmarks of kernels on the same builds; no kernel may be slower at a higher level.
+# The benchmarks on the same builds: no kernel and no tracker may be slower at a higher level.
 level-speeds: level-builds
 	for level in 1 2 3 4; do \
-	    PYTHONPATH=$(BUILDS)/$$level $(BIN)/python -m pytest -q benchmarks/camera benchmarks/cues benchmarks/evaluation benchmarks/fuse \
-	        -k native --benchmark-columns=min --benchmark-json=$(BUILDS)/$$level.speeds || exit 1; \
+	    PYTHONPATH=$(BUILDS)/$$level $(BIN)/python -m pytest -q benchmarks -k native --benchmark-columns=min \
+	        --benchmark-json=$(BUILDS)/$$level.speeds || exit 1; \
 	done
 	$(BIN)/python tools/level_speeds.py $(BUILDS)/*.speeds
 

@@ -40,7 +40,8 @@ HEAD = """\
 # Benchmarks
 
 Written by `make bench`; don't edit. One thread, frames decoded before the clock starts. Machines differ and are noisy: compare only
-ratios within one run.
+ratios within one run. Kernels use AVX-512 if the processor has it; with AVX2 alone, an
+update takes up to 1.3 times as long (`make level-speeds`).
 
 {machine}"""
 KERNELS = """

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Checks that no kernel is slower on newer processors: `make level-speeds`.
+"""Checks that nothing is slower on newer processors: `make level-speeds`.
 
 Reads what pytest-benchmark wrote for builds of tricue, each for one level of x86-64 and the lowest first,
-and prints the shortest times of each kernel. Fails if one takes clearly longer at a level than at the one
-before. So it finds loops that the compiler does badly at one width of registers, which no benchmark on the
-newest processor shows.
+and prints the shortest times of each kernel and tracker. Fails if one takes clearly longer at a level than
+at the one before. So it finds loops that the compiler does badly at one width of registers, which no
+benchmark on the newest processor shows.
 """
 
 import itertools
