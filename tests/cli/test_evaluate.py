@@ -209,6 +209,13 @@ def test_wrong_options_are_told_in_one_line(dataset, tmp_path, capsys, arguments
     assert message in lines[0]
 
 
+def test_results_are_not_written_among_the_sequences(dataset, capsys):
+    there = sorted(dataset.iterdir())
+    assert main(["evaluate", str(dataset), "--output", f"{dataset}/../{dataset.name}"]) == 2
+    assert "--output: expected another folder than that of the sequences" in capsys.readouterr().err
+    assert sorted(dataset.iterdir()) == there
+
+
 def test_a_sequence_that_cannot_be_read_is_told_and_the_exit_code_is_1(tmp_path, capsys):
     """The others have their table."""
     write_sequence(tmp_path / "data" / "good", 5)

@@ -169,6 +169,8 @@ def run(options: argparse.Namespace) -> int:
         check_folder(options.raw)
     check_formats(options.figures)
     folder: Path = options.output
+    if folder.exists() and options.dataset.exists() and folder.samefile(options.dataset):
+        raise ValueError(f"--output: expected another folder than that of the sequences, got {folder}")
     restarts, protocols = chosen_protocols(options)
     chosen = Options(
         trackers=tuple(options.trackers) if options.trackers else None,
