@@ -210,6 +210,7 @@ def test_wrong_options_are_told_in_one_line(dataset, tmp_path, capsys, arguments
 
 
 def test_results_are_not_written_among_the_sequences(dataset, capsys):
+    """By any name of their folder."""
     there = sorted(dataset.iterdir())
     assert main(["evaluate", str(dataset), "--output", f"{dataset}/../{dataset.name}"]) == 2
     assert "--output: expected another folder than that of the sequences" in capsys.readouterr().err

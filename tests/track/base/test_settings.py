@@ -129,6 +129,24 @@ def test_other_mistakes_in_a_file_are_told_as_such(text: str, told: str, tmp_pat
         read_settings("fused", tmp_path / "p.toml", [])
 
 
+@pytest.mark.parametrize(
+    ("settings", "asked", "told"),
+    [
+        (
+            ["particles=50"],
+            "fused",
+            "--set particles: .* of fused, .* --tracker color-particle or depth-particle$",
+        ),
+        (["ring_samples=20", "rate=25"], "stereo-head", "--set ring_samples: .* --tracker color-particle$"),
+        (["particlez=50"], "color-particle", "particlez: unknown parameter.*did you mean particles"),
+    ],
+)
+def test_a_setting_for_another_tracker_is_told(settings: list[str], asked: str, told: str) -> None:
+    """Unless no tracker has it: then it's the name that is wrong."""
+    with pytest.raises(TypeError, match=told):
+        read_settings(asked, None, settings)
+
+
 @pytest.mark.parametrize("name", papers())
 def test_a_printed_tracker_is_its_preset_and_nothing_else(name: str) -> None:
     """All parameters are those of Params.paper(); a setting overrides one of them."""

@@ -4,6 +4,7 @@
 import ast
 import dataclasses
 from collections.abc import Container, Iterable, Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from pathlib import Path
 from typing import Any, Literal
 
@@ -53,13 +54,13 @@ def read_settings(
     """
     kind = tracker_class(name).Params
     if base == PAPER:
-        return _printed(name, kind) | _parse_for(kind, settings, options)
+        return _printed(name, kind) | _parse_for(name, kind, settings, options)
     if kind is None:
         values = {} if base is None else toml.read(base)
         _check_options(values, options, THIRD_PARTYS, str(base))
         return values | third_party_settings(settings, options)
     values = {} if base is None else _read_file(name, kind, base)
-    return values | _parse_for(kind, settings, options)
+    return values | _parse_for(name, kind, settings, options)
 
 
 def third_party_settings(settings: Sequence[str], options: Mapping[str, str] = OPTIONS) -> dict[str, Any]:
@@ -96,22 +97,32 @@ def _read_file(name: str, kind: Any, path: str | Path) -> dict[str, Any]:
         return dataclasses.asdict(kind.from_toml(path))
     except TypeError:
         given = toml.read(path).keys()
-        own = filter(is_built_in, names())
-        others = [each for each in own if given <= _accepted_names(tracker_class(each).Params)]
+        others = _trackers_with(given)
         if given <= _accepted_names(kind) or not others:
             raise
-        trackers = " or ".join(filter(None, (", ".join(others[:-1]), others[-1])))
-        text = f"{path}: expected parameters of {name}, got those for --tracker {trackers}"
+        text = f"{path}: expected parameters of {name}, got those for --tracker {others}"
         raise TypeError(text) from None
 
 
-def _parse_for(kind: Any, settings: Sequence[str], options: Mapping[str, str]) -> dict[str, Any]:
+def _parse_for(name: str, kind: Any, settings: Sequence[str], options: Mapping[str, str]) -> dict[str, Any]:
     """The parameters of a class from keywords; TypeError for a name that isn't among them."""
     values = current_names(kind, parse_settings(settings))
-    _check_options(values.keys() - _names(kind), options, options)
+    unknown = values.keys() - _names(kind)
+    _check_options(unknown, options, options)
+    if unknown and (others := _trackers_with(unknown)):
+        given = ", ".join(sorted(unknown))
+        text = f"--set {given}: expected parameters of {name}, got those for --tracker {others}"
+        raise TypeError(text)
     if issubclass(kind, Params):
         kind.__new__(kind, **values)  # this checks only the names
     return _split_words(values, kind)
+
+
+def _trackers_with(parameters: AbstractSet[str]) -> str:
+    """The names of tricue's trackers that have all of these parameters, as "a, b or c"; "" if none has."""
+    own = filter(is_built_in, names())
+    found = [each for each in own if parameters <= _accepted_names(tracker_class(each).Params)]
+    return " or ".join(filter(None, (", ".join(found[:-1]), *found[-1:])))
 
 
 def _check_options(
