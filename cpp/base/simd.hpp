@@ -95,7 +95,8 @@ struct Packed {
 
 /// A few numbers that the compiler keeps in one vector register, or in as few as the machine has: the vector extensions of GCC
 /// and Clang, with operators lane by lane. For loops that carry a state from step to step, which the compiler would otherwise
-/// write to memory at each step. Comparisons of a Pack that is wider than the registers are done one by one (TRICUE_MULTIWIDTH).
+/// write to memory at each step. GCC mostly takes a Pack that is wider than the registers through memory, and compares it lane by
+/// lane: TRICUE_MULTIWIDTH gives the width.
 ///
 /// Packs are passed by reference: how they are passed by value depends on the instruction set.
 template <typename Scalar, int kLanes>
