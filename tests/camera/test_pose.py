@@ -2,6 +2,7 @@
 """Poses: a camera's place and direction in the world, against OpenCV's rotations and sampled points."""
 
 import pickle
+import re
 from pathlib import Path
 
 import cv2
@@ -61,6 +62,29 @@ def test_covariance_is_that_of_the_moved_points():
     sample = RNG.normal(size=(200, 3)) @ root.T
     measured = np.cov(POSE.to_world(sample).T)
     np.testing.assert_allclose(POSE.covariance_to_world(np.cov(sample.T)), measured, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("points", "error", "message"),
+    [
+        ([1, 2], ValueError, r"(..., 3), got shape (2,)"),
+        (5.0, ValueError, r"(..., 3), got shape ()"),
+        (None, ValueError, r"(..., 3), got shape ()"),  # NumPy takes None for NaN
+        ("here", TypeError, r"(..., 3), got 'here'"),
+    ],
+)
+def test_what_are_no_points_is_named(points, error, message):
+    """A wrong shape, or what aren't numbers, is named with the argument."""
+    with pytest.raises(error, match=rf"^points: expected numbers of shape {re.escape(message)}$"):
+        POSE.to_world(points)
+
+
+def test_what_is_no_covariance_is_named():
+    """That of a plane isn't one of a point, nor is a row of variances."""
+    for covariance in (np.eye(2), np.ones(3)):
+        message = rf"^covariance: .* \(\.\.\., 3, 3\), got shape {re.escape(str(covariance.shape))}$"
+        with pytest.raises(ValueError, match=message):
+            POSE.covariance_to_world(covariance)
 
 
 def test_inverse_brings_points_back():

@@ -69,12 +69,13 @@ class Pose:
 
     def to_world(self, points: ArrayLike) -> Floats:
         """Transform points (..., 3), meters, from the camera's frame to the world's."""
-        return np.asarray(np.asarray(points, np.float64) @ np.array(self.rotation).T + self.translation)
+        array = _stacked(points, "points", (3,))
+        return np.asarray(array @ np.array(self.rotation).T + self.translation)
 
     def covariance_to_world(self, covariance: ArrayLike) -> Floats:
         """Rotate covariances C (..., 3, 3), square meters, into the world's frame: R C Rᵀ."""
         turn = np.array(self.rotation)
-        return np.asarray(turn @ np.asarray(covariance, np.float64) @ turn.T)
+        return np.asarray(turn @ _stacked(covariance, "covariance", (3, 3)) @ turn.T)
 
 
 def as_pose(value: Any) -> Pose | None:
@@ -84,15 +85,29 @@ def as_pose(value: Any) -> Pose | None:
 
 def _numbers(value: ArrayLike, name: str, shape: tuple[int, ...], *others: tuple[int, ...]) -> Floats:
     """An array of finite numbers with the shape, or one of the other shapes."""
-    try:
-        array = np.asarray(value, np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise TypeError(f"{name}: expected numbers of shape {shape}, got {value!r:.80}") from None
+    expected = f"{name}: expected numbers of shape {shape}"
+    array = _array(value, expected)
     if array.shape not in (shape, *others):
-        raise ValueError(f"{name}: expected numbers of shape {shape}, got shape {array.shape}")
+        raise ValueError(f"{expected}, got shape {array.shape}")
     if not np.isfinite(array).all():
         raise ValueError(f"{name}: expected finite numbers, got {array.tolist()}")
     return array
+
+
+def _stacked(value: ArrayLike, name: str, shape: tuple[int, ...]) -> Floats:
+    """An array of numbers whose last axes have the shape."""
+    expected = f"{name}: expected numbers of shape (..., {', '.join(map(str, shape))})"
+    array = _array(value, expected)
+    if array.shape[-len(shape) :] != shape:
+        raise ValueError(f"{expected}, got shape {array.shape}")
+    return array
+
+
+def _array(value: ArrayLike, expected: str) -> Floats:
+    try:
+        return np.asarray(value, np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise TypeError(f"{expected}, got {value!r:.80}") from None
 
 
 def _orthogonal(turn: Floats) -> Floats:
