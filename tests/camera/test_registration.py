@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
 import math
+import re
+from typing import Any
 
 import cv2
 import numpy as np
@@ -81,6 +83,29 @@ def test_sizes_are_checked() -> None:
         color_in_depth(image, np.ones((50, 80)), DEPTH, COLOR)
     with pytest.raises(ValueError, match=r"^color: expected its camera's size, 80x50, got 40x30"):
         color_in_depth(np.zeros((30, 40, 3), np.uint8), depth, DEPTH, COLOR)
+
+
+@pytest.mark.parametrize(
+    ("depth", "error", "message"),
+    [
+        (
+            np.full((30, 40), 2000, np.uint16),
+            TypeError,
+            "floats, meters, got uint16 (30, 40); 0.001 * depth for",
+        ),
+        (None, TypeError, "floats, meters, got object ()"),
+        (np.ones((30, 40, 1)), ValueError, "one value a pixel, (H, W), got float64 (30, 40, 1)"),
+    ],
+)
+def test_what_is_no_depth_in_meters_is_refused(depth: Any, error: type[Exception], message: str) -> None:
+    """Millimeters would be thousands of meters, where two cameras apart from each other see the same."""
+    reprojection = Reprojection(DEPTH, COLOR, Extrinsics(translation=np.array([0.1, 0, 0])))
+    with pytest.raises(error, match=rf"^depth: expected {re.escape(message)}"):
+        reprojection(depth)
+    with pytest.raises(error, match=rf"^depth: expected {re.escape(message)}"):
+        Registration(DEPTH, COLOR)(depth)
+    with pytest.raises(error, match=rf"^depth: expected {re.escape(message)}"):
+        color_in_depth(np.zeros((50, 80, 3), np.uint8), depth, DEPTH, COLOR)
 
 
 REGISTRATION = Registration(DEPTH, COLOR)

@@ -42,10 +42,9 @@ def color_in_depth(
     depth: meters, NaN or 0 where nothing was measured; such a pixel is assumed to be infinitely far away.
     extrinsics: by default the cameras are assumed to share one center and orientation, so that they differ
         in their intrinsics alone. An actual baseline of b meters then shifts the color by fx b / z pixels.
-    ValueError if an image's size isn't its camera's.
+    ValueError if an image's size isn't its camera's, TypeError if depth isn't of floats.
     """
-    points = np.asarray(depth, np.float64)
-    _check("depth", points.shape, depth_camera)
+    points = _meters(depth, depth_camera).astype(np.float64)
     _check("color", color.shape, color_camera)
     u, v = np.meshgrid(np.arange(depth_camera.width), np.arange(depth_camera.height))
     measured = np.isfinite(points) & (points > 0)
@@ -77,10 +76,9 @@ class Registration:
         Each color pixel gets the depth of the nearest depth pixel, as a mean across an edge would be the
         depth of no surface; NaN outside the depth image. As the cameras share one center and orientation, z
         stays the same, columns map to columns, and rows to rows. ValueError if the depth image's size isn't
-        its camera's.
+        its camera's, TypeError if it isn't of floats.
         """
-        image = np.asarray(meters, np.float32)
-        _check("depth", image.shape, self.depth)
+        image = _meters(meters, self.depth).astype(np.float32)
         color, depth = self.color, self.depth
         columns = _nearest(
             (np.arange(color.width) - color.cx) * (depth.fx / color.fx) + depth.cx, depth.width
@@ -115,10 +113,9 @@ class Reprojection:
         A depth pixel covers the area between the projections of its four corners, so that a finer or rotated
         color image has no gaps. If several cover one color pixel, it gets the nearest surface; if none does,
         beside edges and outside the depth image, NaN. ValueError if the depth image's size isn't its
-        camera's.
+        camera's, TypeError if it isn't of floats.
         """
-        image = np.asarray(meters, np.float32)
-        _check("depth", image.shape, self.depth)
+        image = _meters(meters, self.depth).astype(np.float32)
         with np.errstate(invalid="ignore"):
             z = np.where((image > 0) & np.isfinite(image), image, np.float32(np.nan))
         corners = [self._project(corner, z) for corner in self._corners]
@@ -192,6 +189,18 @@ def _nearest(coordinates: NDArray[np.floating[Any]], length: int) -> NDArray[np.
     """The index, from 1, of the nearest pixel in a row of ``length``; 0 or length + 1 outside the row."""
     nearest: NDArray[np.intp] = np.clip(np.rint(coordinates) + 1, 0, length + 1).astype(np.intp)
     return nearest
+
+
+def _meters(depth: ArrayLike, camera: Intrinsics) -> NDArray[np.floating[Any]]:
+    """The depth image (h, w), checked. Integers aren't meters, and would make a baseline vanish."""
+    image = np.asarray(depth)
+    if image.dtype.kind != "f":
+        hint = "; 0.001 * depth for millimeters" if image.dtype.kind in "iu" else ""
+        raise TypeError(f"depth: expected floats, meters, got {image.dtype} {image.shape}{hint}")
+    if image.ndim != 2:
+        raise ValueError(f"depth: expected one value a pixel, (H, W), got {image.dtype} {image.shape}")
+    _check("depth", image.shape, camera)
+    return image
 
 
 def _check(name: str, shape: tuple[int, ...], camera: Intrinsics) -> None:
