@@ -56,6 +56,8 @@ def test_misuse_is_named(drift: Tracker) -> None:
     """It proves that what is no tracker is refused, and a score before init too."""
     with pytest.raises(TypeError, match=r"^tracker: expected a tricue tracker, got str"):
         tricue.as_opencv("csrt")  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match=r"^tracker: expected a tricue tracker, got the class FusedTracker$"):
+        tricue.as_opencv(tricue.FusedTracker)  # type: ignore[arg-type]
     with pytest.raises(RuntimeError, match="expected init first"):
         tricue.as_opencv(drift).getTrackingScore()
 

@@ -94,8 +94,10 @@ def with_known_numbers(track: Track, last: Box) -> Track:
 
 def check_is_tracker(value: Any) -> None:
     """TypeError for anything but a tracker."""
-    if not _is_tracker(value):
-        raise TypeError(f"tracker: expected a tricue tracker, got {type(value).__name__}")
+    is_class = isinstance(value, type)  # a class has the methods, too
+    if is_class or not _is_tracker(value):
+        got = f"the class {value.__name__}" if is_class else type(value).__name__
+        raise TypeError(f"tracker: expected a tricue tracker, got {got}")
 
 
 def is_of_cv2(tracker: Any) -> bool:
