@@ -20,7 +20,9 @@ Waiting = tuple[tuple[float, np.ndarray], ...]  # seconds, and pan and tilt spee
 
 
 class PanTiltCommand(NamedTuple):
-    """A command for the head, as speeds or as angles; pan is positive to the right, tilt upwards."""
+    """A command for the head, as speeds, rad/s, or as angles, radians; pan is positive to the right, tilt
+    upwards.
+    """
 
     pan_speed: float
     """Radians per second."""
@@ -43,9 +45,9 @@ class PanTilt:
         command = camera_head.command(track, pan, tilt, timestamp=frame.timestamp)
         motors.drive(command.pan_speed, command.tilt_speed)
 
-    The axes are assumed to meet at the camera's center: pan about the vertical, then tilt. With
-    ``intrinsics`` the target is in the direction of the box's center, without them in that of the track's
-    ``position``.
+    The axes are assumed to meet at the camera's center: pan about the vertical, positive to the right, then
+    tilt, positive upwards. With ``intrinsics`` the target is in the direction of the box's center, without
+    them in that of the track's ``position``.
 
     gain: 1/s; an error of 1 rad makes a speed of so many rad/s. If the latency is e seconds longer than
     given, the head swings above a gain of about 1 / (2 e). If frames are farther apart than 1 / gain, the
