@@ -32,6 +32,8 @@ class Track:
     box: pixels; it may extend beyond the image.
     score: confidence; in [0, 1] for our trackers.
     position: (3,) float64, meters in the camera frame (x right, y down, z forward), or None without depth.
+        While the target is OCCLUDED or LOST it is a prediction, not None: check the status before a robot
+        moves.
     covariance: (3, 3) of the position, square meters, or None.
     depth: meters along the camera's axis; None until it was measured, and where meters are a guess. A depth
         image gives it without a calibration. If there is a position too, this is its z.
