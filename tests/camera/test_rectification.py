@@ -154,6 +154,32 @@ def test_color_and_gray(tmp_path: Path) -> None:
         np.testing.assert_array_equal(three, np.repeat(one[..., None], 3, axis=2))
 
 
+def test_the_calibration_of_cv2_is_taken_as_it_is() -> None:
+    """cv2.stereoCalibrate gives T as a column and the coefficients as rows; the rig is the same."""
+    (first, second), (m1, m2) = (raw[None] for raw in RAW.distortions), RAW.cameras
+    given = StereoCalibration((m1, m2), (first, second), RAW.rotation, RAW.translation[:, None])
+    assert Rectification(given, SIZE).rig == Rectification(RAW, SIZE).rig
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"translation": np.zeros(3)}, "two cameras apart from each other, got a T of 0"),
+        ({"translation": np.ones(2)}, r"a translation T \(3,\) of finite numbers, got \(2,\)"),
+        ({"rotation": 2 * np.eye(3)}, "a rotation R, got another matrix"),
+        (
+            {"cameras": (np.eye(3), np.eye(3)[:2])},
+            r"a camera matrix \(3, 3\) of finite numbers, got \(2, 3\)",
+        ),
+        ({"distortions": (np.zeros(5), np.zeros(3))}, "4, 5, 8, 12 or 14 distortion coefficients, got 3"),
+    ],
+)
+def test_a_bad_calibration_is_refused(changes: dict[str, Any], message: str) -> None:
+    """It is named as in a file, instead of an error of OpenCV or NumPy."""
+    with pytest.raises(ValueError, match=rf"^rectification: expected {message}$"):
+        Rectification(RAW._replace(**changes), SIZE)
+
+
 def test_it_pickles() -> None:
     """It proves that an unpickled rectification gives the same pair."""
     made = Rectification(RAW, SIZE)

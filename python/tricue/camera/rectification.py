@@ -33,19 +33,27 @@ _ZERO_DISPARITY = 0x400  # cv2.CALIB_ZERO_DISPARITY, which has another name in c
 
 
 class StereoCalibration(NamedTuple):
-    """Two cameras before rectification, left first, as cv2.stereoCalibrate gives them."""
+    """Two cameras before rectification, left first, as cv2.stereoCalibrate gives them.
 
-    cameras: tuple[Matrix, Matrix]  # (3, 3), pixels
-    distortions: tuple[Matrix, Matrix]  # (n,), n of DISTORTION_COUNTS
-    rotation: Matrix  # (3, 3), left to right
-    translation: Matrix  # (3,), left to right, in the unit of the calibration's board
+    cameras: their matrices (3, 3), pixels. distortions: of each, 4, 5, 8, 12 or 14 coefficients, or none.
+    rotation, translation: (3, 3), and three numbers in the unit of the calibration's board, left to right.
+    """
+
+    cameras: tuple[Matrix, Matrix]
+    distortions: tuple[Matrix, Matrix]
+    rotation: Matrix
+    translation: Matrix
 
 
 class RectifyingTransforms(NamedTuple):
-    """The rotations and projection matrices of both rectified cameras, as cv2.stereoRectify gives them."""
+    """The transforms to both rectified cameras, left first, as cv2.stereoRectify gives them.
 
-    rotations: tuple[Matrix, Matrix]  # R1, R2 (3, 3)
-    projections: tuple[Matrix, Matrix]  # P1, P2 (3, 4)
+    rotations: R1 and R2, (3, 3). projections: P1 and P2, (3, 4), in pixels and, for the baseline, the unit of
+    the calibration's board.
+    """
+
+    rotations: tuple[Matrix, Matrix]
+    projections: tuple[Matrix, Matrix]
 
 
 class Rectification:
@@ -91,7 +99,10 @@ class Rectification:
         return made
 
     def __call__(self, left: NDArray[Any], right: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-        """Rectify a stereo pair: uint8 images, BGR (H, W, 3) or gray (H, W), of the calibration's size."""
+        """Rectify a stereo pair: uint8 images, BGR (H, W, 3) or gray (H, W), of the calibration's size.
+
+        ValueError or TypeError for other images.
+        """
         pair = Frame(left, right=right)  # checks both
         camera = self.rig.intrinsics
         if left.shape[:2] != (camera.height, camera.width):
@@ -115,6 +126,7 @@ class Rectification:
         rectified: RectifyingTransforms | None,
         names: str,
     ) -> None:
+        raw = _checked(raw, names, is_posed=rectified is None)
         rotations, projections = rectified or _rectify(raw, size)
         camera, baseline = rig_of_projections(*projections, positive(unit, "unit", "meters"), size, names)
         self.rig = StereoRig(Intrinsics(*camera), baseline)
@@ -132,6 +144,43 @@ class Rectification:
 def is_rotation(matrix: Matrix) -> bool:
     """Whether a matrix (3, 3) is orthonormal, up to a calibration file's rounding."""
     return bool(np.allclose(matrix @ matrix.T, np.eye(3), atol=1e-2))
+
+
+def _checked(raw: StereoCalibration, names: str, is_posed: bool) -> StereoCalibration:
+    """The calibration with a flat T, which cv2 gives as a column. is_posed: whether R and T are used.
+
+    ValueError names what is wrong.
+    """
+    for camera, distortion in zip(raw.cameras, raw.distortions, strict=True):
+        _check_matrix(camera, (3, 3), "a camera matrix", names)
+        if np.size(distortion) not in (0, *DISTORTION_COUNTS):
+            raise ValueError(
+                f"{names}: expected 4, 5, 8, 12 or 14 distortion coefficients, got {np.size(distortion)}"
+            )
+        if min(camera[0, 0], camera[1, 1]) <= 0 or not np.isfinite(distortion).all():
+            raise ValueError(
+                f"{names}: expected focal lengths above 0 and finite distortion coefficients; "
+                "did the calibration fail?"
+            )
+    translation = np.ravel(raw.translation)
+    _check_matrix(raw.rotation, (3, 3), "a rotation R", names)
+    _check_matrix(translation, (3,), "a translation T", names)
+    if is_posed:
+        _check_rotation(raw.rotation, "R", names)
+    if is_posed and not translation.any():
+        raise ValueError(f"{names}: expected two cameras apart from each other, got a T of 0")
+    return raw._replace(translation=translation)
+
+
+def _check_rotation(matrix: Matrix, what: str, names: str) -> None:
+    _check_matrix(matrix, (3, 3), f"a rotation {what}", names)
+    if not is_rotation(matrix):
+        raise ValueError(f"{names}: expected a rotation {what}, got another matrix")
+
+
+def _check_matrix(matrix: Matrix, shape: tuple[int, ...], what: str, names: str) -> None:
+    if matrix.shape != shape or not np.isfinite(matrix).all():
+        raise ValueError(f"{names}: expected {what} {shape} of finite numbers, got {matrix.shape}")
 
 
 def _rectify(raw: StereoCalibration, size: Size) -> RectifyingTransforms:
@@ -184,27 +233,10 @@ class _CalibrationFiles(NamedTuple):
             )
         assert cameras
         assert distortions
-        for camera, distortion in zip(cameras, distortions, strict=True):
-            self._check(camera, (3, 3), "a camera matrix")
-            if distortion.size not in DISTORTION_COUNTS:
-                raise ValueError(
-                    f"{self.names}: expected 4, 5, 8, 12 or 14 distortion coefficients, got {distortion.size}"
-                )
-            if min(camera[0, 0], camera[1, 1]) <= 0 or not np.isfinite(distortion).all():
-                raise ValueError(
-                    f"{self.names}: expected focal lengths above 0 and finite distortion coefficients; "
-                    "did the calibration fail?"
-                )
         if rotation is None or translation is None:
             return StereoCalibration(cameras, distortions, np.eye(3), np.zeros(3))
         rotation = np.asarray(cv2.Rodrigues(rotation)[0]) if rotation.size == 3 else rotation
-        self._check(rotation, (3, 3), "a rotation R")
-        self._check(translation.ravel(), (3,), "a translation T")
-        if posed:
-            self._check_rotation(rotation, "R")
-        if posed and not translation.any():
-            raise ValueError(f"{self.names}: expected two cameras apart from each other, got a T of 0")
-        return StereoCalibration(cameras, distortions, rotation, translation.ravel())
+        return StereoCalibration(cameras, distortions, rotation, translation)
 
     def rectified(self) -> RectifyingTransforms | None:
         """R1, R2, P1 and P2; None unless all four are there."""
@@ -212,7 +244,7 @@ class _CalibrationFiles(NamedTuple):
         if rotations is None or projections is None:
             return None
         for rotation in rotations:
-            self._check_rotation(rotation, "R1, R2")
+            _check_rotation(rotation, "R1, R2", self.names)
         return RectifyingTransforms(rotations, projections)
 
     def pair(self, patterns: Sequence[str]) -> tuple[Matrix, Matrix] | None:
@@ -236,12 +268,3 @@ class _CalibrationFiles(NamedTuple):
     def _first(self, keys: Sequence[str]) -> Matrix | None:
         found = (file.matrix(key) for file in self.files for key in keys)
         return next((matrix for matrix in found if matrix is not None), None)
-
-    def _check_rotation(self, matrix: Matrix, name: str) -> None:
-        self._check(matrix, (3, 3), f"a rotation {name}")
-        if not is_rotation(matrix):
-            raise ValueError(f"{self.names}: expected a rotation {name}, got another matrix")
-
-    def _check(self, matrix: Matrix, shape: tuple[int, ...], what: str) -> None:
-        if matrix.shape != shape or not np.isfinite(matrix).all():
-            raise ValueError(f"{self.names}: expected {what} {shape} of finite numbers, got {matrix.shape}")
