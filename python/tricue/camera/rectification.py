@@ -63,7 +63,8 @@ class Rectification:
         the same size, and are black where the raw ones have no pixels. unit: meters per unit of the
         translation. rectified: the transforms to apply; by default those that change focal length and
         principal point as little as possible.
-    rig: the rig of the rectified images.
+    rig: the rig of the rectified images. Positions are in the frame of its left camera, which is turned by R1
+        from the raw one's.
     """
 
     rig: StereoRig
