@@ -113,7 +113,7 @@ class Intrinsics:
         return np.array([self.fx, self.fy, self.cx, self.cy], np.float64)
 
     def back_project(self, u: ArrayLike, v: ArrayLike, z: ArrayLike) -> NDArray[np.float64]:
-        """Points (..., 3), meters in the camera frame, at pixel coordinates u, v and depths z.
+        """Points (..., 3), meters in the camera frame, at pixel coordinates u, v and depths z in meters.
 
         The arguments broadcast; NaN stays NaN.
         """

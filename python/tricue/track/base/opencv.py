@@ -32,6 +32,10 @@ class OpenCVTracker:
 
 
 def as_opencv(tracker: Tracker) -> OpenCVTracker:
-    """The tracker with the interface of ``cv2.Tracker``; TypeError for anything but a tracker."""
+    """The tracker with the interface of ``cv2.Tracker``.
+
+    ``update`` returns whether the target isn't LOST, and its box in whole pixels. TypeError for anything but
+    a tracker.
+    """
     check_is_tracker(tracker)
     return OpenCVTracker(tracker)

@@ -139,7 +139,9 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
 
     @property
     def blocks(self) -> tuple[tuple[Box, ...], tuple[Box, ...]]:
-        """The target blocks and the occluded blocks of figure 8, pixels; none before ``init``."""
+        """The boxes of the target blocks, and those of the occluded blocks, of figure 8, pixels; none before
+        ``init``.
+        """
         if self._state is None:
             return (), ()
         return block_boxes(self._state, TARGET_BLOCK), block_boxes(self._state, OCCLUDED_BLOCK)

@@ -89,11 +89,12 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         self.rig, self.intrinsics = validation.cameras(rig, intrinsics)
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
-        """Start, or start again, on ``box``, at least 2 pixels wide and high and partly in the image.
+        """Start, or start again, on ``box``: (x, y, width, height), pixels of the color or left image, or of
+        the depth image if there is no color; at least 2 pixels wide and high and partly in the image.
 
-        UserWarning if left and right seem to be swapped or not rectified, or if depth seems not to be
-        registered to color or not to be in meters. Depth that isn't in meters is left out; without color,
-        it raises ValueError.
+        ValueError without a box. UserWarning if left and right seem to be swapped or not rectified, or if
+        depth seems not to be registered to color or not to be in meters. Depth that isn't in meters is left
+        out; without color, it raises ValueError.
         """
         observed = self._observe(frame, None)
         target = Target.of(validation.initial_box(box, observed.shape))

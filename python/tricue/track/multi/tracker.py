@@ -37,7 +37,8 @@ class MultiTracker:
     on_lost: called with id and track when a target becomes LOST, after all were updated; not for a target
         that it has removed meanwhile. If it raises an error, it is still called for the others; then the
         first error is raised.
-    rig, intrinsics: the camera, for all trackers that take one.
+    rig or intrinsics: the camera, for all trackers that take one. Those that take only intrinsics get the
+        rig's left camera.
     seed, kernels: for all targets, as for every tracker. parameters: of the default kind.
 
     Threads may share it: a call waits until that of another thread is done, except for ``on_lost``. A handler
@@ -128,9 +129,9 @@ class MultiTracker:
         What several trackers compute from the whole frame is computed once, and warnings are given once. An
         error of one target names it ("target 2: ...") and leaves all of them as they were, except that a
         third party's tracker keeps what it has done. If a worker process was killed, or was ended because
-        Ctrl-C came in the middle of its answer or found it hanging, a RuntimeError says which targets went
-        with it; the others go on with the next frame. If another error came first, the next call raises this
-        one.
+        Ctrl-C came in the middle of its answer or found it hanging, a WorkerEndedError says which targets
+        went with it; the others go on with the next frame. If another error came first, the next call raises
+        this one.
         """
         shared = SharedFrame.of(as_frame(frame))
         with self._one_call():
