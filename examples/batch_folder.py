@@ -12,6 +12,7 @@ import argparse
 import csv
 import signal
 import sys
+from collections.abc import Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from pathlib import Path
 
@@ -26,13 +27,13 @@ SUFFIXES = {".avi", ".mkv", ".mov", ".mp4", ".webm"}
 def track_video(video: Path, box: list[float] | None, target: Path) -> dict[str, int]:
     """Track one video into a CSV file; the number of frames, in total and by status."""
     source, tracker = tricue.open_source(video), tricue.FusedTracker()
-    box = box or source.first_box
-    if box is None:
+    start = box or source.first_box
+    if start is None:
         raise ValueError(f"no box; give it a line in --boxes, or {video.with_suffix('.csv').name} beside it")
     counts = {"frames": 0, "tracked": 0, "occluded": 0, "lost": 0}
-    rows = [columns()]
+    rows: list[Sequence[object]] = [columns()]
     for number, frame in enumerate(source):
-        track = tracker.update(frame) if number else tracker.init(frame, box)
+        track = tracker.update(frame) if number else tracker.init(frame, start)
         rows.append(row(number, frame.timestamp, track))
         counts["frames"] += 1
         counts[str(track.status)] += 1

@@ -14,7 +14,9 @@ from contextlib import nullcontext
 from pathlib import Path
 
 import cv2
+import numpy as np
 import tricue
+from numpy.typing import NDArray
 from tricue.camera.box import BoxLike
 from tricue.cli.arguments import box
 from tricue.cli.output_files import check_not_read
@@ -52,9 +54,9 @@ def main(arguments: list[str] | None = None) -> None:
         print("ended")
 
 
-def choose_boxes(frame: tricue.Frame, given: list[tricue.Box], window: bool) -> Sequence[BoxLike]:
+def choose_boxes(image: NDArray[np.uint8], given: list[tricue.Box], window: bool) -> Sequence[BoxLike]:
     """The boxes of the command line, or those that are drawn."""
-    boxes: Sequence[BoxLike] = given or (cv2.selectROIs(TITLE, frame.color) if window else [])
+    boxes: Sequence[BoxLike] = given or (cv2.selectROIs(TITLE, image) if window else [])
     if not len(boxes):
         raise ValueError("no boxes; draw some, or give --box x,y,width,height")
     return boxes
@@ -69,10 +71,11 @@ def track(source: Source, options: argparse.Namespace) -> None:
     with writer or nullcontext(), tricue.MultiTracker(on_lost=report) as several:
         for frame in source:
             frame.require("color")
+            assert frame.color is not None
             if several.ids:
                 several.update(frame)
             else:
-                for each in choose_boxes(frame, options.box, window):
+                for each in choose_boxes(frame.color, options.box, window):
                     several.add(frame, each)
             picture = targets_overlay(frame.color, several.tracks)
             if writer is not None:
