@@ -98,6 +98,13 @@ def test_positions_in_the_world(rerun: FakeRerun) -> None:
     assert np.array_equal(points, [[[1.0, 0.0, 7.0]]])
 
 
+def test_the_camera_is_where_the_tracks_pose_is(rerun: FakeRerun) -> None:
+    """It proves that images and positions agree if only the tracker knows the pose, by its own camera."""
+    tricue.rerun.log(frame(0), track(1, pose=Pose(np.eye(3), [0, 0, 5])), camera=CAMERA)
+    (placed,) = [keywords for _, kind, _, keywords in rerun.logged if kind == "Transform3D"]
+    assert np.array_equal(placed["translation"], [0, 0, 5])
+
+
 def test_a_target_without_position_is_cleared(rerun: FakeRerun) -> None:
     """It proves that the last position doesn't stay in view, and that a second target needs no frame."""
     tricue.rerun.log(None, Track(BOX, 0.1, Status.LOST), name="b")

@@ -43,8 +43,8 @@ def log(
     the camera's frame (x right, y down, z forward). Log several targets of a frame under different names;
     ``frame`` may be None after the first.
 
-    camera: of the images, so that Rerun shows them in space, at the pose of the frame or the camera; for a
-        rig, this applies to the left images.
+    camera: of the images, so that Rerun shows them in space, at the pose of the track, the frame or the
+        camera; for a rig, this applies to the left images.
     number: of the frame, for a second timeline. recording: a ``rerun.RecordingStream``; by default the
         current one.
     ImportError if rerun-sdk isn't installed; TypeError or ValueError for anything but a frame.
@@ -52,7 +52,7 @@ def log(
     rr = _library()
     shown = None if frame is None else as_frame(frame)
     _set_time(rr, shown, number, recording)
-    pose = (shown.pose if shown else None) or (camera.pose if camera else None)
+    pose = next((each.pose for each in (track, shown, camera) if each is not None and each.pose), None)
     if pose is not None:
         place = rr.Transform3D(translation=pose.translation, mat3x3=pose.rotation)
         rr.log("camera", place, recording=recording)
