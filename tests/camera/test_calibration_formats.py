@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 import pickle
+import re
 import warnings
 from collections.abc import Callable
 from pathlib import Path
@@ -258,6 +259,25 @@ def test_a_size_other_than_the_files_is_refused(tmp_path: Path, suffix: str) -> 
     ) as error:
         read(path, size=(320, 240))
     assert str(pickle.loads(pickle.dumps(error.value))) == str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("size", "error", "expected"),
+    [
+        (640, TypeError, "(width, height), pixels, got 640"),
+        ((480, 640, 3), ValueError, "(width, height), pixels, got (480, 640, 3)"),  # an image's shape
+        ((640.5, 480), TypeError, "a whole number, pixels, got 640.5"),
+        ((0, 480), ValueError, "pixels above 0, got 0"),
+    ],
+)
+@pytest.mark.parametrize("suffix", SIZED)
+def test_what_is_no_size_is_named(
+    tmp_path: Path, suffix: str, size: Any, error: type[Exception], expected: str
+) -> None:
+    """It proves that the message blames the argument instead of the file."""
+    path = sized_file(tmp_path / f"c.{suffix}")
+    with pytest.raises(error, match=rf"^size: expected {re.escape(expected)}$"):
+        SIZED[suffix](path, size=size)
 
 
 def test_a_part_of_the_size_counts_too(tmp_path: Path) -> None:

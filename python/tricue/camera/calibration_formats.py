@@ -15,7 +15,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from tricue.camera import toml
-from tricue.camera.numbers import pinhole, positive
+from tricue.camera.numbers import pinhole, positive, positive_whole
 from tricue.camera.opencv_file import OpenCVFile
 from tricue.camera.pose import Pose
 from tricue.camera.types import Matrix, PathLike, Size
@@ -155,7 +155,7 @@ def read_princeton_camera(path: PathLike, *, size: Size | None = None) -> Pinhol
             raise ValueError(f"{path}: expected MATLAB's file of a struct frames with the matrix K") from None
     if matrix.shape == (3, 3):
         matrix[:2, 2] -= 1
-    return _camera_of_matrix(matrix, size, path)
+    return _camera_of_matrix(matrix, image_size(None, size, path), path)
 
 
 def read_toml_camera(
@@ -179,9 +179,21 @@ def read_toml_rig(path: PathLike, *, table: str | None = None, size: Size | None
 
 def image_size(own: Size | None, given: Size | None, path: PathLike) -> Size | None:
     """The size in the file, or else the given one; ImageSizeError if they differ."""
-    if own is not None and given is not None and tuple(given) != own:
-        raise other_size(own, given, path)
-    return given if own is None else own
+    if given is None:
+        return own
+    size = checked_size(given)
+    if own not in (None, size):
+        raise other_size(own, size, path)
+    return size
+
+
+def checked_size(size: Any) -> Size:
+    """The width and height of an image; TypeError or ValueError names the argument size."""
+    try:
+        width, height = size
+    except (TypeError, ValueError) as error:  # no sequence, or an image's shape
+        raise type(error)(f"size: expected (width, height), pixels, got {size!r:.80}") from None
+    return positive_whole(width, "size", "pixels"), positive_whole(height, "size", "pixels")
 
 
 def other_size(own: Size, given: Size, path: PathLike, images: str = "images") -> ImageSizeError:
@@ -321,7 +333,7 @@ def _toml_camera(values: Mapping[str, Any], size: Size | None, path: PathLike) -
     if size is None and not ("width" in values and "height" in values):
         raise ValueError(f"{path}: the file doesn't hold the image's size; pass size=(width, height)")
     fx, fy, cx, cy = (_required(values, key, path) for key in ("fx", "fy", "cx", "cy"))
-    width, height = size or (0, 0)
+    width, height = (0, 0) if size is None else checked_size(size)
     width, height = values.get("width", width), values.get("height", height)
     camera = _name_file(
         path, lambda: PinholeParameters(*pinhole(fx, fy, cx, cy, width, height), _toml_pose(values))

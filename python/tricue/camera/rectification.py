@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from tricue.camera.calibration_formats import (
     NUMBERED_DISTORTION_KEYS,
+    checked_size,
     image_size,
     rig_of_projections,
     skew_note,
@@ -127,7 +128,7 @@ class Rectification:
         rectified: RectifyingTransforms | None,
         names: str,
     ) -> None:
-        raw = _checked(raw, names, is_posed=rectified is None)
+        size, raw = checked_size(size), _checked(raw, names, is_posed=rectified is None)
         rotations, projections = rectified or _rectify(raw, size)
         camera, baseline = rig_of_projections(*projections, positive(unit, "unit", "meters"), size, names)
         self.rig = StereoRig(Intrinsics(*camera), baseline)

@@ -96,7 +96,7 @@ class Intrinsics:
         """From the keys fx, fy, cx, cy, width, height of a TOML file or of one of its tables.
 
         The keys ``pose``, the rows of a (4, 4) matrix, or ``rotation`` and ``translation`` may give the
-        camera's pose.
+        camera's pose. size: width and height in pixels, for a file without them.
         """
         from tricue.camera.calibration_formats import read_toml_camera
 
