@@ -7,7 +7,7 @@
 
 namespace tricue {
 
-/// A state after a measurement, and the innovation, which tells whether they agree: y S⁻¹ yᵀ is M on average if the noises are
+/// A state after a measurement, and the innovation, which tells whether they agree: yᵀ S⁻¹ y is M on average if the noises are
 /// right.
 struct Correction {
     Vector mean;                   ///< float64 (D,), x'
@@ -20,8 +20,8 @@ struct Correction {
 ///     y = z - H x,  S = H P Hᵀ + R,  K = P Hᵀ S⁻¹
 ///     x' = x + K y,  P' = (I - K H) P (I - K H)ᵀ + K R Kᵀ
 ///
-/// A measurement that is farther off than max_distance, in standard deviations sqrt(y S⁻¹ yᵀ), shows that the motion model
-/// failed: then P is first multiplied by y S⁻¹ yᵀ / max_distance², and S is computed from this larger P.
+/// A measurement that is farther off than max_distance, in standard deviations sqrt(yᵀ S⁻¹ y), shows that the motion model
+/// failed: then P is first multiplied by yᵀ S⁻¹ y / max_distance², and S is computed from this larger P.
 ///
 /// P' is in Joseph's form, a sum of two squares: an error of K enters it to second order only. With noises more than about 1e12
 /// times smaller than P, no form is safe in double precision.

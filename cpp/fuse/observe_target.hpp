@@ -45,7 +45,7 @@ struct TargetObservation {
 /// @param disparity float32 (H, W), pixels, NaN where there is none; None if not measured: then all pixels of a block count as
 ///     measured, and no block is occluded
 /// @param corners float64 (N, 4): x0, y0, x1, y1 of each block in its grid
-/// @param place (size, x, y, left, top), finite: a corner is in the pixel size corner + (x, y) - (left, top)
+/// @param place (size, x, y, left, top), finite: a corner c of the grid is at size c + (x, y) - (left, top), pixels
 /// @param states int64 (N,): 0 where a block isn't the target's
 /// @param limits (target, tolerance, occluder), disparities, pixels: similar ones differ by less than the tolerance from the
 ///     target's; those above the third are an occluder's

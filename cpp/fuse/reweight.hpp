@@ -16,7 +16,8 @@ struct Reweighted {
 ///     w = L p / (share N(x; mean, root rootᵀ) + (1 - share) p),   p = N(x; previous + drift, diag(scale²))
 ///
 /// over the K numbers of the detection; the others come from the dynamics alone and cancel. So w <= L / (1 - share), and w = L
-/// where share is 0. Previous weights are equal (particles were resampled). Where every likelihood is 0 the weights are uniform.
+/// where share is 0. Previous weights count as equal, as after resampling; for others, L includes them. Where every likelihood is
+/// 0 the weights are uniform.
 ///
 /// The share that `propose` draws is floor(share N) / N: unbiased where share N is a whole number. Clamping to the bounds is
 /// ignored: densities are those without it.

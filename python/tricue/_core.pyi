@@ -654,10 +654,11 @@ def depth_components(
 
     Equally large regions are in the reading order of their first pixels. Pixels without a measurement
     belong to a region, but count neither in its mean nor in its histogram; in a region without
-    measurements the mean is NaN, and the histogram all 0. Depth z has level floor((z - near) (levels /
-    (far - near))) in float64, clamped to [0, levels - 1]. A pixel that is in several bins of its box
-    counts in each by the share of its width that is there; rows likewise. Shares are float64 quotients
-    of whole numbers, rounded to float32.
+    measurements the mean is NaN, and the histogram all 0.
+
+    The level of a depth z is floor((z - near) (levels / (far - near))) in float64, clamped to [0,
+    levels - 1]. A pixel that is in several bins of its box counts in each by the share of its width
+    that is there; rows likewise. Shares are float64 quotients of whole numbers, rounded to float32.
 
     Args:
         labels: uint8 (H, W), 0 where there is no object
@@ -1001,8 +1002,8 @@ def ellipse_search(
         bins: uint16 (H, W), as color_bins gives them, each below L, or 65535 for none; may be empty
         ellipse: float64 (4,): center x, y, semi-axes along x (minor) and y (major), pixels of the bins,
             finite, axes above 0
-        grid: (rows, cols, step), 1 to 1024 each: place (i, j) is (j - cols // 2) step to the right of
-            the ellipse and (i - rows // 2) step below it, pixels
+        grid: (rows, cols, step), 1 to 1024 each: place (i, j) is j - cols // 2 steps to the right of
+            the ellipse and i - rows // 2 steps below it; a step is so many pixels
         model: float64 (L,), finite, none negative, a sum above 0
         margin: scale of the ring's outline, 1 (no ring) to 16; scaled semi-axes are at most 4096 pixels
         mask: uint8 (H, W), not 0 where a pixel is at the target's depth; None for none
@@ -1588,8 +1589,8 @@ def kalman_update(
         y = z - H x,  S = H P Hᵀ + R,  K = P Hᵀ S⁻¹
         x' = x + K y,  P' = (I - K H) P (I - K H)ᵀ + K R Kᵀ
 
-    A measurement that is farther off than max_distance, in standard deviations sqrt(y S⁻¹ yᵀ), shows
-    that the motion model failed: then P is first multiplied by y S⁻¹ yᵀ / max_distance², and S is
+    A measurement that is farther off than max_distance, in standard deviations sqrt(yᵀ S⁻¹ y), shows
+    that the motion model failed: then P is first multiplied by yᵀ S⁻¹ y / max_distance², and S is
     computed from this larger P.
 
     P' is in Joseph's form, a sum of two squares: an error of K enters it to second order only. With
@@ -2056,8 +2057,8 @@ def median_depths(
     A square around a box's center, with its longer side, is divided into samples² squares; a sample is
     the depth of the pixel under such a square's center, computed in float64. Samples outside the image
     or not between 1 mm and 1 km are not measured. With an expected depth, the samples are those in the
-    box's ellipse. Without one, they are all measured ones, whose median is taken as the expected depth.
-    The target's are those less than max_offset from it, in float32.
+    box's ellipse, measured or not. Without one, they are the measured ones of the whole square, and
+    their median is the expected depth. The target's are those less than max_offset from it, in float32.
         spread = 1.4826 median |z_i - z|
 
     Without any of these, or with less than min_share of the samples, all three are NaN.
@@ -2126,8 +2127,8 @@ def observe_target(
         disparity: float32 (H, W), pixels, NaN where there is none; None if not measured: then all
             pixels of a block count as measured, and no block is occluded
         corners: float64 (N, 4): x0, y0, x1, y1 of each block in its grid
-        place: (size, x, y, left, top), finite: a corner is in the pixel size corner + (x, y) - (left,
-            top)
+        place: (size, x, y, left, top), finite: a corner c of the grid is at size c + (x, y) - (left,
+            top), pixels
         states: int64 (N,): 0 where a block isn't the target's
         limits: (target, tolerance, occluder), disparities, pixels: similar ones differ by less than the
             tolerance from the target's; those above the third are an occluder's
@@ -2756,8 +2757,8 @@ def reweight(
         w = L p / (share N(x; mean, root rootᵀ) + (1 - share) p),   p = N(x; previous + drift, diag(scale²))
 
     over the K numbers of the detection; the others come from the dynamics alone and cancel. So w <= L /
-    (1 - share), and w = L where share is 0. Previous weights are equal (particles were resampled).
-    Where every likelihood is 0 the weights are uniform.
+    (1 - share), and w = L where share is 0. Previous weights count as equal, as after resampling; for
+    others, L includes them. Where every likelihood is 0 the weights are uniform.
 
     The share that `propose` draws is floor(share N) / N: unbiased where share N is a whole number.
     Clamping to the bounds is ignored: densities are those without it.

@@ -25,8 +25,8 @@ struct SearchModel {
 ///
 /// @param bins uint16 (H, W), as color_bins gives them, each below L, or 65535 for none; may be empty
 /// @param ellipse float64 (4,): center x, y, semi-axes along x (minor) and y (major), pixels of the bins, finite, axes above 0
-/// @param grid (rows, cols, step), 1 to 1024 each: place (i, j) is (j - cols // 2) step to the right of the ellipse and (i - rows
-///     // 2) step below it, pixels
+/// @param grid (rows, cols, step), 1 to 1024 each: place (i, j) is j - cols // 2 steps to the right of the ellipse and i - rows // 2
+///     steps below it; a step is so many pixels
 /// @param model float64 (L,), finite, none negative, a sum above 0
 /// @param mask uint8 (H, W), not 0 where a pixel is at the target's depth; None for none
 /// @returns float64 (rows, cols, 4): (1) of the ellipse and of the ring, then the shares of the pixels of the ellipse and of the

@@ -35,9 +35,10 @@ struct DepthComponents {
 ///
 /// Equally large regions are in the reading order of their first pixels. Pixels without a measurement belong to a region, but
 /// count neither in its mean nor in its histogram; in a region without measurements the mean is NaN, and the histogram all 0.
-/// Depth z has level floor((z
-/// - near) (levels / (far - near))) in float64, clamped to [0, levels - 1]. A pixel that is in several bins of its box counts in
-/// each by the share of its width that is there; rows likewise. Shares are float64 quotients of whole numbers, rounded to float32.
+///
+/// The level of a depth z is floor((z - near) (levels / (far - near))) in float64, clamped to [0, levels - 1]. A pixel that is in
+/// several bins of its box counts in each by the share of its width that is there; rows likewise. Shares are float64 quotients of
+/// whole numbers, rounded to float32.
 ///
 /// @param labels uint8 (H, W), 0 where there is no object
 /// @param depth float32 (H, W), meters

@@ -18,8 +18,8 @@ struct DepthGate {
 ///
 /// A square around a box's center, with its longer side, is divided into samples² squares; a sample is the depth of the pixel
 /// under such a square's center, computed in float64. Samples outside the image or not between 1 mm and 1 km are not measured.
-/// With an expected depth, the samples are those in the box's ellipse. Without one, they are all measured ones, whose median is
-/// taken as the expected depth. The target's are those less than max_offset from it, in float32.
+/// With an expected depth, the samples are those in the box's ellipse, measured or not. Without one, they are the measured ones of
+/// the whole square, and their median is the expected depth. The target's are those less than max_offset from it, in float32.
 ///     spread = 1.4826 median |z_i - z|
 ///
 /// Without any of these, or with less than min_share of the samples, all three are NaN.
