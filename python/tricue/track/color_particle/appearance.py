@@ -28,9 +28,17 @@ LOG_ODDS, PER_NAT, PER_NAT_OF_LEAD = -0.11, 0.0275, 0.0945  # fitted on the 30 r
 MAX_LEAD = 60.0  # nats; a larger lead doesn't add to the probability
 MAX_LOG_ODDS = 50.0  # beyond this a probability no longer changes
 STEP_BESIDE = 1.5  # semi-axes: windows beside the target overlap it by one seventh (IoU)
-BESIDE = np.tile(np.eye(4), (4, 1, 1))
-BESIDE[range(4), [2, 2, 3, 3], [0, 0, 1, 1]] = [-STEP_BESIDE, STEP_BESIDE, -STEP_BESIDE, STEP_BESIDE]
-BESIDE = np.ascontiguousarray(BESIDE.transpose(1, 0, 2)).reshape(4, 16)  # an ellipse times it: those windows
+
+
+def _pattern_beside() -> Floats:
+    """(4, 16): an ellipse (4,) times it gives the windows to its left, right, above and below."""
+    step = STEP_BESIDE
+    linear = np.tile(np.eye(4), (4, 1, 1))
+    linear[range(4), [2, 2, 3, 3], [0, 0, 1, 1]] = [-step, step, -step, step]
+    return np.ascontiguousarray(linear.transpose(1, 0, 2)).reshape(4, 16)
+
+
+BESIDE = _pattern_beside()
 
 
 class RankMeasurement(NamedTuple):

@@ -9,17 +9,14 @@ ranks of the pixels inside the window can't.
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from tricue.arrays import Floats
+from tricue.arrays import Floats, Image, Singles
 from tricue.kernels import Kernels
 from tricue.track.base.ellipse_pattern import ring
-
-Samples = NDArray[np.uint8]
-Table = NDArray[np.float32]
+from tricue.track.color_particle.observation_model import Samples
 
 CONTRAST_BINS = 16  # per channel
-EMPTY_HISTOGRAM: Table = np.zeros((CONTRAST_BINS, CONTRAST_BINS, CONTRAST_BINS), np.float32)
+EMPTY_HISTOGRAM: Singles = np.zeros((CONTRAST_BINS, CONTRAST_BINS, CONTRAST_BINS), np.float32)
 CONTRAST_SAMPLES = 600  # learned inside the target, and the same number around it
 TARGET_PATTERN = ring(CONTRAST_SAMPLES, 0.0, 1.0)
 SURROUND_PATTERN = ring(CONTRAST_SAMPLES, 1.15, 2.0)
@@ -33,12 +30,12 @@ class ColorContrast(NamedTuple):
     """
 
     weight: float
-    target: Table = EMPTY_HISTOGRAM
-    surround: Table = EMPTY_HISTOGRAM
-    table: Table = EMPTY_HISTOGRAM
+    target: Singles = EMPTY_HISTOGRAM
+    surround: Singles = EMPTY_HISTOGRAM
+    table: Singles = EMPTY_HISTOGRAM
     skipped: bool = False  # whether the last frame was skipped in learning
 
-    def learn(self, k: Kernels, image: Samples, ellipse: Floats, rate: float) -> "ColorContrast":
+    def learn(self, k: Kernels, image: Image, ellipse: Floats, rate: float) -> "ColorContrast":
         """Blend in the colors inside and around the ellipse (4,); a rate of 1 initializes the histograms.
 
         Colors change slowly: only every second call learns, with twice the rate.

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tricue.arrays import Floats, Singles
+from tricue.arrays import Floats, Image, Singles
 from tricue.kernels import Kernels
 from tricue.track.color_particle.observation_model import (
     NO_MODEL,
@@ -43,7 +43,7 @@ class RankSpatial(NamedTuple):
         weights = np.array([1 - p.first_frame_weight, p.first_frame_weight])
         return cls(weights, np.empty((0, 3, len(window_grid(p))), np.float32))
 
-    def observe(self, k: Kernels, image: Samples, ellipse: Floats, grid: Floats) -> RankWindow:
+    def observe(self, k: Kernels, image: Image, ellipse: Floats, grid: Floats) -> RankWindow:
         """The observation of the window of an ellipse (4,)."""
         return RankWindow(*k.rank_window(image, ellipse, grid, self.maps, MIN_RANK_SPREAD))
 

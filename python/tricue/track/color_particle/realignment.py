@@ -58,19 +58,19 @@ def realign(
 
     sizes: bounds of the semi-axes.
     """
-    best, most, here = _look(k, image, first, ellipse, FIRST_LOOK[block % BLOCKS])
-    if most <= max(here, MIN_LOG_LIKELIHOOD):
+    best, highest, here = _look(k, image, first, ellipse, FIRST_LOOK[block % BLOCKS])
+    if highest <= max(here, MIN_LOG_LIKELIHOOD):
         return Realignment(ellipse, here, 0.0)
-    best, most, _ = _look(k, image, first, best, CLOSER_LOOK[block % BLOCKS])
-    (least_minor, least_major), (most_minor, most_major) = sizes
+    best, highest, _ = _look(k, image, first, best, CLOSER_LOOK[block % BLOCKS])
+    (min_minor, min_major), (max_minor, max_major) = sizes
     x, y, minor, major = best.tolist()
-    allowed = min(max(minor, least_minor), most_minor), min(max(major, least_major), most_major)
+    allowed = min(max(minor, min_minor), max_minor), min(max(major, min_major), max_major)
     if allowed != (minor, major):
         best = np.array([x, y, *allowed])
-        most = float(first.log_likelihood(k, image, best[None])[0])
-        if most <= here:
+        highest = float(first.log_likelihood(k, image, best[None])[0])
+        if highest <= here:
             return Realignment(ellipse, here, 0.0)
-    return Realignment(best, most, most - here)
+    return Realignment(best, highest, highest - here)
 
 
 def moved(
@@ -86,8 +86,8 @@ def moved(
 def _look(
     k: Kernels, image: Image, first: Appearance, ellipse: Floats, pattern: Floats
 ) -> tuple[Floats, float, float]:
-    """The window most like the first frame's target, its log-likelihood, and the ellipse's."""
+    """The window most like the first frame's target, its log-likelihood, and that of the ellipse itself."""
     windows = (ellipse @ pattern).reshape(-1, 4)
     log_likelihood = first.log_likelihood(k, image, windows).tolist()
-    most = max(log_likelihood)
-    return windows[log_likelihood.index(most)], most, log_likelihood[0]
+    highest = max(log_likelihood)
+    return windows[log_likelihood.index(highest)], highest, log_likelihood[0]

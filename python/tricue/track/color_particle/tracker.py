@@ -156,13 +156,13 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         first_log_likelihood = None
         if self._comparable:
             sizes = prediction.lower[2:], prediction.upper[2:]
-            seen = realign(k, image, state.first, particles.ellipse, state.frames, sizes)
-            first_log_likelihood = seen.log_likelihood
-            if seen.gain > 0:
-                if seen.gain > GAIN_TO_FORGET:
+            realigned = realign(k, image, state.first, particles.ellipse, state.frames, sizes)
+            first_log_likelihood = realigned.log_likelihood
+            if realigned.gain > 0:
+                if realigned.gain > GAIN_TO_FORGET:
                     state = state._replace(appearance=state.first)
                 bounds = np.array([prediction.lower, prediction.upper])
-                particles = moved(k, image, state.appearance, particles, seen.ellipse, bounds)
+                particles = moved(k, image, state.appearance, particles, realigned.ellipse, bounds)
         motion = motion.update(tuple(particles.ellipse.tolist()), p)
         return self._accept(state, image, particles, motion, first_log_likelihood)
 
