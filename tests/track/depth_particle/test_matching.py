@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 from tricue import _core
-from tricue.track.depth_particle.matching import MAX_COST, MAX_COST_MISSED, best_match
+from tricue.track.depth_particle.matching import FOLLOWED, MISSED, best_match
 from tricue.track.depth_particle.motion import BodyMotion
 from tricue.track.depth_particle.signature import Signature
 
@@ -14,6 +14,7 @@ KNOWN = BodyMotion.start(EXPECTED, np.array([True, True]))
 UNKNOWN = BodyMotion.start(EXPECTED, np.array([False, False]))
 EVEN = Signature.uniform()
 FRAME = 1 / 15
+LENIENT, STRICT = FOLLOWED._replace(max_cost=6.0), FOLLOWED._replace(max_cost=1.0)
 
 
 def moved(*by: float) -> list[float]:
@@ -21,9 +22,9 @@ def moved(*by: float) -> list[float]:
     return (EXPECTED + np.pad(by, (0, 5 - len(by)))).tolist()
 
 
-def match(objects, motion=KNOWN, seconds=FRAME, max_cost=MAX_COST, signature=EVEN, **options):
+def match(objects, motion=KNOWN, seconds=FRAME, limits=FOLLOWED, signature=EVEN, **options):
     """The best match among objects."""
-    return best_match(_core, objects, EXPECTED, motion, signature, seconds, max_cost, **options)
+    return best_match(_core, objects, EXPECTED, motion, signature, seconds, limits, **options)
 
 
 def test_nothing_matches_nothing(objects_of):
@@ -60,18 +61,18 @@ def test_time_widens_the_region(by, objects_of):
 def test_a_stricter_limit_refuses_more(objects_of):
     """An object that passes for a target just seen is refused by a lower limit."""
     there = objects_of([moved(0.4)])
-    assert match(there, max_cost=6.0) == 0
-    assert match(there, max_cost=1.0) is None
+    assert match(there, limits=LENIENT) == 0
+    assert match(there, limits=STRICT) is None
 
 
-@pytest.mark.parametrize(("max_cost", "least"), [(MAX_COST, 0.25), (MAX_COST_MISSED, 0.45)])
-def test_a_small_part_is_no_target(max_cost, least, objects_of):
+@pytest.mark.parametrize(("limits", "least"), [(FOLLOWED, 0.25), (MISSED, 0.45)])
+def test_a_small_part_is_no_target(limits, least, objects_of):
     """An object of under a quarter of the target's area isn't the target, though completed to its size; after
     the target was missed it takes nearly half of it.
     """
     for share in (0.95 * least, 1.05 * least):
         part = objects_of([[0, 0, 3.0, 0.6, share * 1.7]], [[1, 1, 1, 1]])
-        assert match(part, max_cost=max_cost) == (0 if share > least else None)
+        assert match(part, limits=limits) == (0 if share > least else None)
 
 
 def test_what_is_cut_counts_as_completed(objects_of):
@@ -79,16 +80,16 @@ def test_what_is_cut_counts_as_completed(objects_of):
     somebody narrow who stands aside.
     """
     half = [0.15, 0, 3.0, 0.3, 1.7]
-    assert match(objects_of([half], [[1, 0, 0, 0]]), max_cost=1.0) == 0
-    assert match(objects_of([half]), max_cost=1.0) is None
+    assert match(objects_of([half], [[1, 0, 0, 0]]), limits=STRICT) == 0
+    assert match(objects_of([half]), limits=STRICT) is None
     assert match(objects_of([half, half], [[0, 0, 0, 0], [1, 0, 0, 0]])) == 1
 
 
 def test_an_unknown_size_may_grow(objects_of):
     """A larger object is the target where its size was only a lower bound, and isn't where it was known."""
     larger = objects_of([moved(0, 0, 0, 0.4, 1.0)])
-    assert match(larger, UNKNOWN, max_cost=6.0) == 0
-    assert match(larger, KNOWN, max_cost=6.0) is None
+    assert match(larger, UNKNOWN, limits=LENIENT) == 0
+    assert match(larger, KNOWN, limits=LENIENT) is None
 
 
 def test_an_unknown_size_rather_grows_than_shrinks(objects_of):
@@ -123,8 +124,8 @@ def test_other_costs_come_on_top(objects_of):
 def test_what_is_cut_may_count_as_it_is(objects_of):
     """Without completion the half that is visible beside an occluder is somebody narrow who stands aside."""
     half = objects_of([[0.15, 0, 3.0, 0.3, 1.7]], [[1, 0, 0, 0]])
-    assert match(half, max_cost=1.0) == 0
-    assert match(half, max_cost=1.0, complete=False) is None
+    assert match(half, limits=STRICT) == 0
+    assert match(half, limits=STRICT, complete=False) is None
 
 
 def test_matching_changes_nothing(objects_of):

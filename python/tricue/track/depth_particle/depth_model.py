@@ -95,13 +95,13 @@ class DepthModel(NamedTuple):
     def _rectangles(self, fg: Foreground, states: Floats) -> tuple[Floats, float]:
         """The rectangles (N, 5) in pixels, and half of the histogram's range around their depths, meters."""
         rectangles = np.array([project_rectangle(state, fg.camera) for state in states])
-        middle, reach = levels(self.p)
+        middle, reach = histogram_range(self.p)
         if middle:
             rectangles[:, 4] = middle
         return rectangles, reach
 
 
-def levels(p: DepthParticleParams) -> tuple[float, float]:
+def histogram_range(p: DepthParticleParams) -> tuple[float, float]:
     """Center and half width of the histogram's range, meters; the center is 0 if it is the rectangle's depth.
 
     An absolute histogram is relative to the middle of the camera's range.
@@ -114,7 +114,7 @@ def levels(p: DepthParticleParams) -> tuple[float, float]:
 def filter_settings(p: DepthParticleParams) -> FilterSettings:
     """The parameters of the kernel filter_rectangles, from ``levels`` to ``likelihood``."""
     return (
-        levels(p),
+        histogram_range(p),
         p.grid,
         (p.margin, SURROUND_SAMPLES),
         p.histogram_reach,

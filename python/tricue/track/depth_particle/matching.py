@@ -21,8 +21,6 @@ UNKNOWN_CENTER_WEIGHT = 0.5  # of the position, along an axis where the size is 
 LARGER_SIZE_WEIGHT = 0.3  # of a size that exceeds such a lower bound
 UNKNOWN_WEIGHTS = UNKNOWN_CENTER_WEIGHT, LARGER_SIZE_WEIGHT
 SIGNATURE_COST = 3.0  # nats, of the most different signature
-MIN_AREA_SHARE, MIN_AREA_SHARE_MISSED = 0.25, 0.45  # of the target's area must be visible; after a miss
-MAX_COST, MAX_COST_MISSED = 8.0, 2.0  # nats, for an object to be the target; after a miss
 NO_COSTS = np.empty(0)
 
 PIECE_REGION = 1.3  # times the expected rectangle, the region in which pieces of the body are looked for
@@ -30,6 +28,19 @@ MIN_PIECE_INSIDE = 0.8  # of a piece's area, in that region
 MAX_JOINED_SIZE = 1.15  # times the mean size, for a body with its pieces
 MAX_PIECE_DEPTH = 0.4  # meters from the body's depth to that of a stretched arm or leg
 PIECES = PIECE_REGION, MIN_PIECE_INSIDE, MAX_JOINED_SIZE, MAX_PIECE_DEPTH
+
+
+class MatchLimits(NamedTuple):
+    """What an object needs to be the target.
+
+    max_cost: its cost is below this, nats. min_area_share: it shows at least this share of the target's area.
+    """
+
+    max_cost: float
+    min_area_share: float
+
+
+FOLLOWED, MISSED = MatchLimits(8.0, 0.25), MatchLimits(2.0, 0.45)  # stricter after a miss
 
 
 class TargetObject(NamedTuple):
@@ -56,12 +67,12 @@ def best_match(
     motion: BodyMotion,
     signature: Signature,
     seconds: float,
-    max_cost: float,
+    limits: MatchLimits,
     *,
     complete: bool = True,
     other_costs: Floats = NO_COSTS,
 ) -> int | None:
-    """The index of the object with the lowest cost relative to the expected state (5,), if below max_cost.
+    """The index of the object with the lowest cost relative to the expected state (5,), within the limits.
 
     The cost, in nats, is that of position, size and signature, plus ``other_costs`` (C,) of each object.
     complete: whether objects are compared after completing them where they are cut. seconds: since the target
@@ -69,7 +80,6 @@ def best_match(
     """
     (x, y, z), (x_rate, y_rate, z_rate) = POSITION_DEVIATION, POSITION_DEVIATION_RATE
     width, height = motion.mean_size.tolist()
-    min_area = (MIN_AREA_SHARE if max_cost >= MAX_COST else MIN_AREA_SHARE_MISSED) * width * height
     index = k.match_object(
         *objects,
         other_costs,
@@ -79,7 +89,7 @@ def best_match(
         (x + x_rate * seconds, y + y_rate * seconds, z + z_rate * seconds, *SIZE_DEVIATION),
         UNKNOWN_WEIGHTS,
         SIGNATURE_COST,
-        (max_cost, min_area),
+        (limits.max_cost, limits.min_area_share * width * height),
         complete,
     )
     return None if index < 0 else index

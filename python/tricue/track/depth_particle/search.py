@@ -11,8 +11,8 @@ from tricue.track.depth_objects.foreground import Foreground
 from tricue.track.depth_objects.objects import Objects
 from tricue.track.depth_particle.initialize import find_people
 from tricue.track.depth_particle.matching import (
-    MAX_COST,
-    MAX_COST_MISSED,
+    FOLLOWED,
+    MISSED,
     NO_COSTS,
     SIGNATURE_COST,
     TargetObject,
@@ -52,7 +52,6 @@ def find_target(
     expected = state.motion.state + prediction.drift
     time = min(seconds + state.missed_seconds, MAX_SEARCH_TIME if state.is_lost(p) else MAX_NOISE_TIME)
     candidates, occluder = _candidates(state, objects, seconds, p)
-    max_cost = MAX_COST if state.missed_seconds == 0 else MAX_COST_MISSED
     best = best_match(
         k,
         candidates,
@@ -60,7 +59,7 @@ def find_target(
         state.motion,
         state.signature,
         time,
-        max_cost,
+        FOLLOWED if state.missed_seconds == 0 else MISSED,
         complete=p.complete,
         other_costs=_other_costs(k, state, fg, candidates, p),
     )
