@@ -26,6 +26,9 @@ from tricue.camera.numbers import positive, to_float
 if typing.TYPE_CHECKING:
     from typing_extensions import Self
 
+OURS = "our experiment: benchmarks/README.md"
+"""The source of a default that we found by experiment."""
+
 _PACKAGE = __name__.partition(".")[0]
 _BOUNDS = {"low": "at least", "above": "above", "high": "at most", "below": "below"}
 _TYPE_NAMES = {int: "an integer", float: "a number", bool: "True or False", str: "a string"}

@@ -4,12 +4,11 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from tricue.track.base.params import Params, parameter, seconds_of_frames
+from tricue.track.base.params import OURS, Params, parameter, seconds_of_frames
 
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-OURS = "our experiment: benchmarks/README.md"
 NEVER = 1e9  # nats or seconds: beyond any that occur
 ObservationName = Literal["region", "gaussian", "lookup", "histogram", "rank-sections", "rank-spatial"]
 

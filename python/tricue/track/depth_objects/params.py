@@ -3,9 +3,7 @@
 
 from dataclasses import dataclass
 
-from tricue.track.base.params import Params, parameter
-
-OURS = "our experiment: benchmarks/README.md"
+from tricue.track.base.params import OURS, Params, parameter
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

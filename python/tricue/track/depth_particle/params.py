@@ -4,13 +4,12 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from tricue.track.base.params import parameter
+from tricue.track.base.params import OURS, parameter
 from tricue.track.depth_objects.params import SegmentationParams
 
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-OURS = "our experiment: benchmarks/README.md"
 SR_3000_NEAR, SR_3000_FAR = 0.3, 7.5  # meters, section V
 ANY_SPEED = 1e9  # m/s, which no target has
 

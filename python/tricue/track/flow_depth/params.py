@@ -5,12 +5,11 @@ import typing
 from dataclasses import dataclass
 from typing import Literal
 
-from tricue.track.base.params import Params, parameter
+from tricue.track.base.params import OURS, Params, parameter
 
 if typing.TYPE_CHECKING:
     from typing_extensions import Self
 
-OURS = "our experiment: benchmarks/README.md"
 NEVER = 1e9  # seconds
 ANY_CHANGE = 1e12  # cells, so that no peak is preferred to a higher one
 MAX_VOTES = 1_000_000_000  # frames, over a year of video

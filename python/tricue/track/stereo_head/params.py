@@ -5,14 +5,13 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from tricue.track.base.params import Params, parameter
+from tricue.track.base.params import OURS, Params, parameter
 
 if TYPE_CHECKING:
     from typing_extensions import Self
 
 MAX_COLOR_BINS = 65535  # that 16 bits can number, with one value left for "none"
 NEVER = 1e9  # seconds or standard deviations, never reached
-OURS = "our experiment: benchmarks/README.md"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
