@@ -85,7 +85,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         return np.empty((0, 4)) if self._state is None else read_only(self._state.particles.particles)
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
-        """Start, or restart, on the target in ``box``: (x, y, width, height), pixels.
+        """Start, or start again, on the target in ``box``: (x, y, width, height), pixels.
 
         The box may extend beyond the image. Without a box it starts on the head that stands out in a stereo
         pair or in depth, if the frame has them, or else on the largest frontal face. ValueError if no part of

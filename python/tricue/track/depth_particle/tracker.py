@@ -123,7 +123,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         return [] if self._state is None else self._state.objects.boxes(self._state.camera)
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
-        """Start, or restart, on the target in ``box``: (x, y, width, height), pixels of the depth image.
+        """Start, or start again, on the target in ``box``: (x, y, width, height), depth image pixels.
 
         Without a box, start on the most prominent person. ValueError if no part of the box is inside the
         image, if no depth in the middle of the box is in range, or, without a box, if no person is detected.

@@ -104,8 +104,8 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
 
-        The time between frames is that of their timestamps, or 1 / ``rate`` if there are none.
-        RuntimeError before ``init``. An error leaves the tracker as it was.
+        The time between frames follows from their timestamps, or from ``rate`` without them. RuntimeError
+        before ``init``. An error leaves the tracker unchanged.
         """
         before = validation.require_initialized(self._state)
         camera = self.rig or self.intrinsics

@@ -109,10 +109,10 @@ class FusedTracker(TrackerBase[FusedParams, State]):
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
 
-        Timestamps give the time since the last frame; without them ``rate`` does. Depth that isn't in meters,
-        or stays the same for half a second while color changes, is left out, with a UserWarning the first
-        time. ValueError if depth isn't in meters and there is no color. RuntimeError before ``init``. An
-        error leaves the tracker as it was.
+        The time between frames follows from their timestamps, or from ``rate`` without them. Depth that isn't
+        in meters, or stays the same for half a second while color changes, is left out, with a UserWarning
+        the first time. ValueError if depth isn't in meters and there is no color. RuntimeError before
+        ``init``. An error leaves the tracker unchanged.
         """
         before = validation.require_initialized(self._state)
         observed = self._observe(frame, before.shape)

@@ -14,7 +14,7 @@ from tricue.track.base.position_limit import limit_covariance
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.stereo_geometry import Point
 
-MEASUREMENT_SIZE = 7  # (7): X, Y, Z, three colors, the intersection; a velocity, if any, comes after these
+MEASUREMENT_SIZE = 7  # X, Y, Z, three colors, the intersection, as in equation (7); then the velocity, if any
 INTERSECTION_DRIFT = 1.0  # standard deviation, section 4.1: unity
 MOVING = np.array([0, 1, 2, 7, 8, 9])  # the position and, if a state has one, the velocity
 COASTING_RATE = 30.0  # Hz
@@ -88,7 +88,9 @@ def mahalanobis_distance(predicted: HeadFilter, measured: Point, noise: Floats) 
 def correct(
     k: Kernels, predicted: HeadFilter, measured: Floats, noise: Floats, p: StereoHeadParams
 ) -> HeadFilter:
-    """The correction, steps 3 to 5 of section 4.2, by a measurement (8), (7,), and its covariance (7, 7).
+    """The correction, steps 3 to 5 of section 4.2.
+
+    measured: (7,) the measurement, z of equation (8). noise: (7, 7) its covariance.
 
     Z stays between near and far: where distances are uncertain, X and Y, which depend on them, can move it
     beyond both the predicted and the measured one.

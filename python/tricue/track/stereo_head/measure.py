@@ -22,8 +22,8 @@ MIN_SCORE_LOSS = 0.02  # the least assumed difference of a mean score from 1
 class HeadMeasurement(NamedTuple):
     """A measured head.
 
-    match, depth: its best match and the disparity there. histogram: (L,) of its colors, C in (2).
-    noise: (7, 7) covariance of the measurement (8).
+    match, depth: its best match and the disparity there. histogram: (L,) of its colors, C of equation (2).
+    noise: (7, 7) covariance of the measurement, R of section 4.1.
     """
 
     match: EllipseMatch
@@ -33,7 +33,7 @@ class HeadMeasurement(NamedTuple):
     noise: Floats
 
     def values(self, color: Floats) -> Floats:
-        """The measurement (8), (7,), with the mean color (3,) of the updated model."""
+        """(7,) the measurement, z of equation (8), with the mean color (3,) of the updated model."""
         return np.array([*self.position, *color.tolist(), self.match.intersection])
 
     def inflated(self, mean_score: float, p: StereoHeadParams) -> "HeadMeasurement":

@@ -32,11 +32,11 @@ def search_local(
     search: tuple[int, int],
     p: StereoHeadParams,
 ) -> tuple[EllipseMatch, Floats]:
-    """The best match around an ellipse, and its color histogram, C in (2), (L,) with sum 1, or 0 without
-    cells.
+    """The best match around an ellipse, and the histogram (L,) of its colors, C of equation (2).
 
     histogram: (L,) the model. search: how far the center may move, cells, sideways and up or down. With
-    ``learn="coherent"`` only the cells at the head's depth count for the colors.
+    ``learn="coherent"`` only the cells at the head's depth count for the colors. Without any cells the
+    colors' histogram is 0; otherwise its sum is 1.
     """
     across, down = search
     cells, grid = region.to_cells(ellipse, step), (2 * down + 1, 2 * across + 1, 1)

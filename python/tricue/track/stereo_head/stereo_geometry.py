@@ -73,7 +73,7 @@ class StereoGeometry(NamedTuple):
 
 
 def _cubic_noise(geometry: StereoGeometry, point: Point, p: StereoHeadParams) -> Floats:
-    """e of (9), (3,) meters: the error of each coordinate, as a cubic polynomial of it."""
+    """(3,) meters: the error of each coordinate as a cubic polynomial of it, e of equation (9)."""
     errors = [
         np.polyval(each, value) for each, value in zip(fit_polynomials(geometry, p), point, strict=True)
     ]

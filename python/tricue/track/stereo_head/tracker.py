@@ -114,8 +114,8 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
     def update(self, frame: FrameLike) -> Track:
         """Follow the head into the next stereo pair, of the same size as the first.
 
-        The time between frames is that of their timestamps, or 1 / ``rate`` if there are none.
-        RuntimeError before ``init``. An error leaves the tracker as it was.
+        The time between frames follows from their timestamps, or from ``rate`` without them. RuntimeError
+        before ``init``. An error leaves the tracker unchanged.
         """
         before = validation.require_initialized(self._state)
         left, right, timestamp = validation.stereo_pair(frame, before.shape, self.rig)
