@@ -45,7 +45,7 @@ def test_failure_keeps_the_last_box_and_says_lost(patrol):
             return answer
 
     frames, boxes = patrol
-    result = run(baselines.OpenCvTracker(Fails), frames[:5], boxes[0])
+    result = run(baselines.OpenCVBaseline(Fails), frames[:5], boxes[0])
     np.testing.assert_array_equal(result.boxes, [boxes[0], *[[5, 6, 7, 8]] * 4])
     assert result.statuses == (Status.TRACKED,) * 2 + (Status.LOST,) * 3
 

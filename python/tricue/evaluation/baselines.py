@@ -41,8 +41,8 @@ class StillBox:
         return self._track
 
 
-class OpenCvTracker:
-    """A ``cv2.Tracker``, created by ``make`` at each init."""
+class OpenCVBaseline:
+    """A ``cv2.Tracker``, created by ``make`` at each init, with the interface of tricue's trackers."""
 
     def __init__(self, make: Callable[[], Any]) -> None:
         self._make = make
@@ -180,7 +180,7 @@ def available() -> dict[str, Maker]:
     """Makers of the baselines that the installed cv2 has, by name; few use their seed."""
 
     def opencv(make: Callable[[], Any]) -> Maker:
-        return lambda seed: OpenCvTracker(make)
+        return lambda seed: OpenCVBaseline(make)
 
     return {
         **{name: opencv(make) for name, make in _opencv_makers().items()},

@@ -42,7 +42,10 @@ class Reliability:
 
 
 def lost(overlaps: ArrayLike, absent: ArrayLike | None = None, threshold: float = LOST_OVERLAP) -> Flags:
-    """Which frames have an overlap below the threshold or no target: (M,) bool from (M,) and (M,) bool."""
+    """(M,) whether each frame is lost: its overlap is below the threshold, or the target is absent.
+
+    overlaps: (M,) in [0, 1]; an unknown one, NaN, isn't below. absent: (M,) bool; None if never.
+    """
     overlap = np.asarray(overlaps, dtype=np.float64)
     below: Flags = overlap < threshold
     return below if absent is None else below | as_flags(absent, "absent", overlap.shape)

@@ -91,10 +91,10 @@ class Host:
 
             return TraxProgram(self._place.removeprefix(TRAX))
         if self._place.startswith(CV2):
-            return baselines.OpenCvTracker(cv2_maker(self._place))
+            return baselines.OpenCVBaseline(cv2_maker(self._place))
         made = registry.create(self._place, seed=seed, **keywords)
         if is_of_cv2(inner := getattr(made, "tracker", None)):  # from a function that makes one of cv2's
-            return baselines.OpenCvTracker(lambda: inner)
+            return baselines.OpenCVBaseline(lambda: inner)
         return made
 
 
