@@ -26,7 +26,7 @@ def arrays() -> list[NDArray[Any]]:
 
 def script(*arguments: Any) -> tuple[list[Any], ...]:
     """The baseline: one block after the other, with Python's numbers."""
-    *numbers, (target, tolerance, occluder), least, (add, remove, release, unproven) = arguments
+    *numbers, (target, tolerance, occluder), least, (add, remove, release, max_idle) = arguments
     rows = []
     for block in zip(*(each.tolist() for each in numbers), strict=True):
         state, votes, against, core, trusted, idle, cells, pixels, measured, mean, same = block
@@ -35,7 +35,7 @@ def script(*arguments: Any) -> tuple[list[Any], ...]:
         hidden = known and mean > occluder and not found
         similar = known and abs(mean - target) <= tolerance
         idle = 0 if found else idle + (close and not hidden)
-        core = core and idle < unproven
+        core = core and idle < max_idle
         votes = votes + 1 if found or (close and core) else max(votes - (cells > 0), 0)
         if known and not (found or close or hidden) and (state == 1 or (state == 2 and not similar)):
             against += 1
@@ -45,7 +45,7 @@ def script(*arguments: Any) -> tuple[list[Any], ...]:
         if state == 0 and votes >= add:
             after = 1
         elif state == 1:
-            after = 0 if against >= remove or idle >= unproven else 2 if hidden else 1
+            after = 0 if against >= remove or idle >= max_idle else 2 if hidden else 1
         elif state == 2:
             after = 1 if similar else 0 if against >= release else 2
         votes = 0 if after == 0 and state else min(votes, add)

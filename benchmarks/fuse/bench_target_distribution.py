@@ -16,7 +16,7 @@ RIPPLE = 0.05
 
 
 def script(
-    histogram: Floats, smoothing: float, ripple: float, expected: float, spread: float
+    histogram: Floats, smoothing: float, min_prominence: float, expected: float, spread: float
 ) -> tuple[Floats, float]:
     """The baseline: blurred as an image of one row, then a search for the minimum on each side."""
     size = (2 * int(np.ceil(4 * smoothing)) + 1, 1)
@@ -34,7 +34,7 @@ def script(
     density, at = smooth.copy(), smooth[top]
     for step in (-1, 1):
         least = i = top
-        while 0 <= i < len(smooth) and smooth[i] <= smooth[least] + ripple * at:
+        while 0 <= i < len(smooth) and smooth[i] <= smooth[least] + min_prominence * at:
             least = i if smooth[i] < smooth[least] else least
             i += step
         if 0 <= i < len(smooth):

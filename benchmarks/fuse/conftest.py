@@ -29,7 +29,7 @@ class Target:
 
 def target(width: int, height: int) -> Target:
     """A target of a quarter of the width and half of the height, in front of a background that moves
-    differently; a third of the readings is missing.
+    differently; a third of the values is missing.
     """
     rng = np.random.default_rng(0)
     x0, y0, x1, y1 = width * 3 // 8, height // 4, width * 5 // 8, height * 3 // 4

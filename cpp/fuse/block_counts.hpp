@@ -14,7 +14,7 @@ constexpr double kMinMeasuredShare = 0.2;
 struct BlockCounts {
     Indices pixels;    ///< int64 (N,): pixels of each block that are in the image
     Indices targets;   ///< int64 (N,): those set in the mask
-    Indices readings;  ///< int64 (N,): those with a finite disparity
+    Indices measured;  ///< int64 (N,): those with a finite disparity
     Vector mean;       ///< float64 (N,): mean of these disparities, pixels; NaN without any
     Indices similar;   ///< int64 (N,): those that differ by less than the tolerance from the expected one
 };

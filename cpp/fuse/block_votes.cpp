@@ -9,7 +9,6 @@
 
 #include "base/check.hpp"
 #include "base/simd.hpp"
-#include "fuse/block_counts.hpp"
 
 namespace tricue {
 namespace {
@@ -20,12 +19,14 @@ constexpr std::int64_t kOther = 0, kTarget = 1, kOccluded = 2, kTrustedFrames = 
 /// Not 0 if a state isn't 0, 1 or 2, or a number of frames is negative or above kMaxFrames.
 TRICUE_MULTIVERSION
 std::uint64_t find_strange(const std::int64_t* states, const std::int64_t* votes, const std::int64_t* against,
-                           const std::int64_t* trusted, const std::int64_t* unproven, std::ptrdiff_t n) {
+                           const std::int64_t* trusted, const std::int64_t* without_pixels,
+                           std::ptrdiff_t n) {
     constexpr std::uint64_t kValid = kMaxFrames;
     std::uint64_t strange = 0;
     for (std::ptrdiff_t i = 0; i < n; ++i) {
         const auto state = static_cast<std::uint64_t>(states[i]);
-        const auto frames = static_cast<std::uint64_t>(votes[i] | against[i] | trusted[i] | unproven[i]);
+        const auto frames =
+            static_cast<std::uint64_t>(votes[i] | against[i] | trusted[i] | without_pixels[i]);
         strange |= (frames & ~kValid) | (state & ~std::uint64_t{3}) | (state & state >> 1);
     }
     return strange;
@@ -34,12 +35,12 @@ std::uint64_t find_strange(const std::int64_t* states, const std::int64_t* votes
 /// Frame counts are incremented, so they must be below the largest integer.
 void require_counts(const BlockVotes& blocks) {
     if (find_strange(blocks.states.data(), blocks.votes.data(), blocks.against.data(), blocks.trusted.data(),
-                     blocks.unproven.data(), blocks.states.size()) == 0)
+                     blocks.without_pixels.data(), blocks.states.size()) == 0)
         return;
     for (const auto& [frames, name] : {std::pair{&blocks.votes, "votes"},
                                        {&blocks.against, "against"},
                                        {&blocks.trusted, "trusted"},
-                                       {&blocks.unproven, "unproven"}})
+                                       {&blocks.without_pixels, "without_pixels"}})
         for (const std::int64_t count : *frames)
             if (count < 0 || count > kMaxFrames)
                 refuse(name, "0 to 2147483647 frames", std::to_string(count));
@@ -47,7 +48,7 @@ void require_counts(const BlockVotes& blocks) {
         if (state < kOther || state > kOccluded) refuse("states", "0, 1 or 2", std::to_string(state));
 }
 
-void require_arguments(const BlockVotes& blocks, const BlockObservations& seen) {
+void require_arguments(const BlockVotes& blocks, const BlockCounts& seen) {
     const Eigen::Index count = blocks.states.size();
     const auto require = [count](Eigen::Index size, const char* name) {
         if (size != count) refuse(name, std::to_string(count) + " numbers", std::to_string(size));
@@ -56,8 +57,8 @@ void require_arguments(const BlockVotes& blocks, const BlockObservations& seen) 
     require(blocks.against.size(), "against");
     require(blocks.core.size(), "core");
     require(blocks.trusted.size(), "trusted");
-    require(blocks.unproven.size(), "unproven");
-    require(seen.cells.size(), "cells");
+    require(blocks.without_pixels.size(), "without_pixels");
+    require(seen.pixels.size(), "pixels");
     require(seen.targets.size(), "targets");
     require(seen.measured.size(), "measured");
     require(seen.mean.size(), "mean");
@@ -69,15 +70,14 @@ void require_arguments(const BlockVotes& blocks, const BlockObservations& seen) 
 struct Observed {
     bool inside, found, same_depth, has_mean, hidden, similar;
 
-    Observed(const BlockObservations& seen, Eigen::Index i, const VoteRules& rules)
-        : inside(seen.cells[i] > 0) {
-        const auto cells = static_cast<double>(seen.cells[i]);
+    Observed(const BlockCounts& seen, Eigen::Index i, const VoteRules& rules) : inside(seen.pixels[i] > 0) {
+        const auto pixels = static_cast<double>(seen.pixels[i]);
         const auto has_share = [&](std::int64_t count) {
-            return inside && static_cast<double>(count) >= rules.min_share * cells;
+            return inside && static_cast<double>(count) >= rules.min_share * pixels;
         };
         found = has_share(seen.targets[i]);
         same_depth = has_share(seen.similar[i]);
-        has_mean = inside && static_cast<double>(seen.measured[i]) >= kMinMeasuredShare * cells;
+        has_mean = inside && static_cast<double>(seen.measured[i]) >= kMinMeasuredShare * pixels;
         hidden = has_mean && seen.mean[i] > rules.occluder && !found;
         similar = has_mean && std::abs(seen.mean[i] - rules.target) <= rules.tolerance;
     }
@@ -85,16 +85,16 @@ struct Observed {
 
 }  // namespace
 
-BlockVotes block_votes(BlockVotes blocks, const BlockObservations& seen, const VoteRules& rules) {
+BlockVotes block_votes(BlockVotes blocks, const BlockCounts& seen, const VoteRules& rules) {
     require_arguments(blocks, seen);
     for (Eigen::Index i = 0; i < blocks.states.size(); ++i) {
         const Observed now(seen, i, rules);
         const std::int64_t before = blocks.states[i];
         const bool target = before == kTarget, occluded = before == kOccluded;
 
-        std::int64_t& unproven = blocks.unproven[i];
-        unproven = now.found ? 0 : unproven + (now.same_depth && !now.hidden);
-        const bool kept = unproven < rules.max_unproven;
+        std::int64_t& without_pixels = blocks.without_pixels[i];
+        without_pixels = now.found ? 0 : without_pixels + (now.same_depth && !now.hidden);
+        const bool kept = without_pixels < rules.max_without_pixels;
         blocks.core[i] = blocks.core[i] && kept;
 
         std::int64_t votes = blocks.votes[i], against = blocks.against[i];

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "base/arrays.hpp"
+#include "fuse/block_counts.hpp"
 
 namespace tricue {
 
@@ -16,20 +17,13 @@ struct BlockVotes {
     Indices against;  ///< int64 (N,): frames for it to leave its state
     BlockFlags core;  ///< bool (N,): blocks for which the target's disparity alone is a vote
     Indices trusted;  ///< int64 (N,): frames for which a block counts in the model after it had target pixels
-    Indices unproven;  ///< int64 (N,): frames with the target's disparity since it had target pixels
-};
-
-/// The measurements of a frame in N blocks.
-struct BlockObservations {
-    Indices cells, targets, measured;
-    Vector mean;
-    Indices similar;
+    Indices without_pixels;  ///< int64 (N,): frames with the target's disparity since it had target pixels
 };
 
 /// The disparities that a block's mean is compared with, and how many votes decide.
 struct VoteRules {
     double target, tolerance, occluder, min_share;
-    std::int64_t to_add, to_remove, to_release, max_unproven;
+    std::int64_t to_add, to_remove, to_release, max_without_pixels;
 };
 
 /// The blocks of the target window after the votes of a frame.
@@ -45,8 +39,8 @@ struct VoteRules {
 /// @param against as votes
 /// @param core bool (N,)
 /// @param trusted as votes
-/// @param unproven as votes
-/// @param cells int64 (N,): pixels of each block inside the image
+/// @param without_pixels as votes
+/// @param pixels int64 (N,): pixels of each block inside the image, as in block_counts
 /// @param targets int64 (N,): those of the target
 /// @param measured int64 (N,): those with a disparity; the mean counts from a fifth of the pixels on
 /// @param mean float64 (N,): their mean disparity
@@ -54,10 +48,10 @@ struct VoteRules {
 /// @param disparities (target, tolerance, occluder): a mean is similar if it differs by at most the tolerance from the target's
 ///     disparity, and an occluder's if it is above the third
 /// @param min_share of a block's pixels, for a vote
-/// @param frames (to add, to remove, to release, unproven): votes that make a block the target's, votes against it that end this,
-///     and those that release an occluded block; frames for which disparity alone keeps a block
+/// @param frames (to add, to remove, to release, without_pixels): votes that make a block the target's, votes against it that end
+///     this, and those that release an occluded block; frames for which disparity alone keeps a block
 /// @throws std::invalid_argument on sizes that differ, states other than 0 to 2, and numbers of frames out of range
 /// Source: Okada, Shirai, Miura 1996, section 4.4 and figure 7; core blocks, trust and release are ours.
-BlockVotes block_votes(BlockVotes blocks, const BlockObservations& seen, const VoteRules& rules);
+BlockVotes block_votes(BlockVotes blocks, const BlockCounts& seen, const VoteRules& rules);
 
 }  // namespace tricue

@@ -17,7 +17,7 @@ double occluded_share(const BlockCounts& counts, BlockNumbers states, double occ
     for (Eigen::Index i = 0; i < states.size(); ++i) {
         const auto pixels = static_cast<double>(counts.pixels[i]);
         const bool here = (states[i] != 0) & (counts.pixels[i] > 0);
-        const bool has_mean = static_cast<double>(counts.readings[i]) >= kMinMeasuredShare * pixels;
+        const bool has_mean = static_cast<double>(counts.measured[i]) >= kMinMeasuredShare * pixels;
         mine += here;
         hidden += here & has_mean & (counts.mean[i] > occluder);
     }
@@ -40,7 +40,7 @@ TargetObservation observe_target(const std::vector<Cue>& cues, const TargetPlace
     BlockCounts counts =
         count_blocks(view(window.mask), disparities, block_pixels(grid, rows, cols),
                      static_cast<float>(limits.target), static_cast<float>(limits.tolerance));
-    if (!disparity) counts.readings = counts.pixels;
+    if (!disparity) counts.measured = counts.pixels;
     const double share = occluded_share(counts, states, limits.occluder);
     return {std::move(window), std::move(counts), share};
 }

@@ -35,9 +35,9 @@ struct TargetObservation {
 /// aren't in the image don't count.
 ///
 /// @param planes float32 (H, W), one to three: observations u, v or d, NaN where there is none
-/// @param densities float64 (K, bins), one for each: P(reading | target), of sum 1 or 0
+/// @param densities float64 (K, bins), one for each: P(value | target), of sum 1 or 0
 /// @param ranges (low, high) for each plane: range of its bins, finite, low < high
-/// @param alternatives float64 (K, bins): P(reading | not the target), above 0, of a sum of at most 1
+/// @param alternatives float64 (K, bins): P(value | not the target), above 0, of a sum of at most 1
 /// @param window (x0, y0, x1, y1), where the prior of target_pixels is 1, pixels, finite
 /// @param candidate (x0, y0, x1, y1), outside of which this prior is 0, pixels, finite
 /// @param threshold smallest posterior of a target pixel, in (0, 1]
@@ -52,7 +52,7 @@ struct TargetObservation {
 /// @returns box (x0, y0, x1, y1), pixels, of the temporal window
 /// @returns count number of target pixels
 /// @returns mask uint8 (H, W): 1 at the target's pixels, else 0
-/// @returns counts (pixels, targets, readings, mean, similar), (N,) each: the contents of the blocks, as in block_counts
+/// @returns counts (pixels, targets, measured, mean, similar), (N,) each: the contents of the blocks, as in block_counts
 /// @returns occluded share of the target's blocks in the image that something nearer hides, in [0, 1]
 /// @throws std::invalid_argument as these kernels, on different sizes, and on a place that is not finite
 /// Source: Okada, Shirai, Miura 1996, sections 4.1 to 4.4.

@@ -21,14 +21,16 @@ struct Peak {
     Index bin;  ///< the bin that contains the peak
 };
 
-void require_arguments(VectorRef histogram, double smoothing, double ripple, double expected, double spread) {
+void require_arguments(VectorRef histogram, double smoothing, double min_prominence, double expected,
+                       double spread) {
     if (histogram.size() < 1) refuse("histogram", "at least one bin", "none");
     for (const double value : histogram)
         if (!(value >= 0.0 && std::isfinite(value)))
             refuse("histogram", "finite numbers, none negative", value);
     if (!(smoothing >= 0.0 && smoothing <= static_cast<double>(histogram.size())))
         refuse("smoothing", "a number in [0, " + std::to_string(histogram.size()) + "]", smoothing);
-    if (!(ripple >= 0.0 && ripple < 1.0)) refuse("ripple", "a number in [0, 1)", ripple);
+    if (!(min_prominence >= 0.0 && min_prominence < 1.0))
+        refuse("min_prominence", "a number in [0, 1)", min_prominence);
     if (std::isinf(expected)) refuse("expected", "a finite number or NaN", expected);
     if (!(spread > 0.0)) refuse("spread", "a number above 0", spread);
 }
@@ -120,16 +122,17 @@ void extend_line(const Vector& smooth, const Peak& peak, Index minimum, Index st
 
 }  // namespace
 
-TargetDistribution target_distribution(VectorRef histogram, double smoothing, double ripple, double expected,
-                                       double spread) {
-    require_arguments(histogram, smoothing, ripple, expected, spread);
+TargetDistribution target_distribution(VectorRef histogram, double smoothing, double min_prominence,
+                                       double expected, double spread) {
+    require_arguments(histogram, smoothing, min_prominence, expected, spread);
     const double most = histogram.maxCoeff();
     if (most == 0.0) return {Vector::Zero(histogram.size()), std::numeric_limits<double>::quiet_NaN()};
     const Vector smooth = smoothed(histogram / most, smoothing);
     const bool anywhere = std::isnan(expected) || std::isinf(spread);
     const Peak peak = find_peak(anywhere ? smooth : weighted(smooth, expected, spread));
     const double height = smooth[peak.bin];
-    const double equal = kRelativeTolerance * height, rise = std::max(ripple, kRelativeTolerance) * height;
+    const double equal = kRelativeTolerance * height,
+                 rise = std::max(min_prominence, kRelativeTolerance) * height;
     Vector density = smooth;
     for (const Index step : {Index{-1}, Index{1}}) {
         const Index minimum = find_minimum(smooth, peak.bin, step, equal, rise);

@@ -23,7 +23,7 @@ using Index = Eigen::Index;
 
 constexpr std::size_t kMaxMaps = 3;
 constexpr std::size_t kTables = 4;    // as in weighted_histogram, because neighbors mostly share a bin
-constexpr float kMaxReading = 1e6F;   // of readings in the sum of all weights; above any in an image
+constexpr float kMaxValue = 1e6F;     // of values in the sum of all weights; above any in an image
 constexpr double kLeastSum = 1e-300;  // keeps a density of zeros from a division by 0
 constexpr float kMaxFloat = std::numeric_limits<float>::max();
 
@@ -46,16 +46,16 @@ void require_arguments(const std::vector<CueMap>& maps, const std::vector<Expect
         refuse("expected", std::to_string(maps.size()) + ", as many as maps",
                std::to_string(expected.size()));
     for (const CueMap& map : maps)
-        for (const PlaneView& plane : {map.readings, map.weights})
-            require_same_shape(plane, maps[0].readings, "maps");
+        for (const PlaneView& plane : {map.values, map.weights})
+            require_same_shape(plane, maps[0].values, "maps");
     if (rules.bins < 2) refuse("bins", "2 to 65536", std::to_string(rules.bins));
     for (const ExpectedPeak& peak : expected) {
         require_range(range_of(peak, rules.bins));
         if (!(peak.deviation > 0.0)) refuse("expected", "deviations above 0", peak.deviation);
     }
     if (!(rules.smoothing > 0.0)) refuse("smoothing", "a number above 0", rules.smoothing);
-    for (const auto& [share, name] :
-         {std::pair{rules.memory, "memory"}, std::pair{rules.surround, "surround"}})
+    for (const auto& [share, name] : {std::pair{rules.density_memory, "density_memory"},
+                                      std::pair{rules.surround_weight, "surround_weight"}})
         if (!(share >= 0.0 && share < 1.0)) refuse(name, "a number in [0, 1)", share);
     if (blocks) {
         require_numbers(blocks->grid, blocks->states, "states");
@@ -76,10 +76,10 @@ Labels target_mask(const std::optional<TargetBlocks>& blocks, int rows, int cols
 }
 
 TRICUE_MULTIVERSION
-void mark_near(const float* __restrict readings, float disparity, float tolerance, int n,
+void mark_near(const float* __restrict values, float disparity, float tolerance, int n,
                std::uint8_t* __restrict near) {
     for_overlapping_blocks<16>(
-        n, [=](std::ptrdiff_t x) { near[x] = !(std::abs(readings[x] - disparity) > tolerance); });
+        n, [=](std::ptrdiff_t x) { near[x] = !(std::abs(values[x] - disparity) > tolerance); });
 }
 
 /// (H, W) 1 where flow counts: at the target's depth, or where no depth is known; padded as well.
@@ -140,7 +140,7 @@ void choose_tables(const std::uint8_t* target, const std::uint8_t* near, int n, 
 
 /// A row of an observation, and the mask where its weights count.
 struct MapRow {
-    const float *readings, *weights;
+    const float *values, *weights;
     const std::int32_t* counted;
 };
 
@@ -178,10 +178,10 @@ TRICUE_INLINE void place_weights_by(const MapRow& row, const PixelRow& pixels, i
     const FloatRange bins = range;
     const WeightRow out = to;
     const auto place = [=](std::ptrdiff_t x) {
-        const float reading = from.readings[x], weight = from.weights[x];
+        const float value = from.values[x], weight = from.weights[x];
         const bool valid = (weight > 0.0F) & (weight <= kMaxFloat);
-        const bool known = (reading >= -kMaxReading) & (reading < kMaxReading);
-        out.slot[x] = value_bin(reading, bins) + at.table[x];
+        const bool known = (value >= -kMaxValue) & (value < kMaxValue);
+        out.slot[x] = value_bin(value, bins) + at.table[x];
         out.kept[x] = valid & (from.counted[x] != 0) ? weight : 0.0F;
         out.around[x] = valid & known & (at.outside[x] != 0) ? weight : 0.0F;
     };
@@ -241,7 +241,7 @@ private:
 /// Both histograms of each observation in one pass, each as weighted_histogram sums it. Labels have room for whole blocks.
 std::vector<Histograms> histograms(const std::vector<CueMap>& maps, const std::vector<ValueRange>& ranges,
                                    const Region& window, const Labels& target, const Labels& near) {
-    const int rows = maps[0].readings.rows, cols = maps[0].readings.cols, bins = ranges[0].bins;
+    const int rows = maps[0].values.rows, cols = maps[0].values.cols, bins = ranges[0].bins;
     const std::size_t count = maps.size(), size = static_cast<std::size_t>(bins) + 1;
     HistogramRows room(count, whole_blocks(cols));
     const PixelRow pixels = room.pixels();
@@ -267,7 +267,7 @@ std::vector<Histograms> histograms(const std::vector<CueMap>& maps, const std::v
         choose_tables(target.row(y).data(), near.row(y).data(), whole_blocks(cols), columns, inside, pixels);
         for (std::size_t k = 0; k < count; ++k) {
             const std::int32_t* counted = k + 1 < count ? pixels.near : pixels.counted;
-            place_weights({maps[k].readings.row(y), maps[k].weights.row(y), counted}, pixels, cols, floats[k],
+            place_weights({maps[k].values.row(y), maps[k].weights.row(y), counted}, pixels, cols, floats[k],
                           weights[k], totals[k]);
         }
         add(weights.data(), tables.data(), cols);
@@ -337,9 +337,9 @@ Vector smoothed(const Vector& histogram, const Vector& gaussian) {
 
 Vector alternative(const Histograms& found, const Vector& gaussian, const HistogramRules& rules) {
     const double uniform = 1.0 / rules.bins;
-    if (!(rules.surround > 0.0 && found.total > 0.0)) return Vector::Constant(rules.bins, uniform);
-    return rules.surround * smoothed(found.surround, gaussian) / found.total +
-           (1.0 - rules.surround) * uniform;
+    if (!(rules.surround_weight > 0.0 && found.total > 0.0)) return Vector::Constant(rules.bins, uniform);
+    return rules.surround_weight * smoothed(found.surround, gaussian) / found.total +
+           (1.0 - rules.surround_weight) * uniform;
 }
 
 }  // namespace
@@ -349,7 +349,7 @@ TargetModel target_model(const std::vector<CueMap>& maps, const std::vector<Expe
                          const std::optional<DepthLimit>& depth, const std::optional<FormerModel>& before,
                          const HistogramRules& rules) {
     require_arguments(maps, expected, blocks, before, rules);
-    const PlaneView& last = maps.back().readings;
+    const PlaneView& last = maps.back().values;
     const Region inside = rectangle_pixels(window, last.rows, last.cols, "window");
     const Labels target = target_mask(blocks, last.rows, last.cols);
     const Labels near = depth_mask(depth, last);
@@ -363,15 +363,15 @@ TargetModel target_model(const std::vector<CueMap>& maps, const std::vector<Expe
         const auto k = static_cast<std::size_t>(i);
         const double width = 2.0 * expected[k].half_range / rules.bins, middle = rules.bins / 2.0;
         const Histograms& found = all[k];
-        auto [density, peak] = target_distribution(found.target, rules.smoothing, rules.ripple, middle,
-                                                   expected[k].deviation / width);
+        auto [density, peak] = target_distribution(found.target, rules.smoothing, rules.min_prominence,
+                                                   middle, expected[k].deviation / width);
         if (i == 0)
             gaussian = gaussian_of(rules.smoothing);  // not before target_distribution has checked its size
         if (std::isnan(peak))
             peak = middle;
-        else if (before && rules.memory > 0.0) {
+        else if (before && rules.density_memory > 0.0) {
             const double former = (before->peaks[k] - before->lows[k]) / width;
-            density = blended(density, before->densities.row(i).data(), former - peak, rules.memory);
+            density = blended(density, before->densities.row(i).data(), former - peak, rules.density_memory);
         }
         model.densities.row(i) = density;
         model.alternatives.row(i) = alternative(found, gaussian, rules);

@@ -56,7 +56,7 @@ ValueRange range_of(const Cue& cue) {
 
 void require_arguments(const std::vector<Cue>& cues, double threshold) {
     if (cues.empty() || cues.size() > kMaxCues) refuse("planes", "1 to 3", std::to_string(cues.size()));
-    for (const Cue& cue : cues) require_same_shape(cue.readings, cues[0].readings, "planes");
+    for (const Cue& cue : cues) require_same_shape(cue.values, cues[0].values, "planes");
     for (const Cue& cue : cues) {
         require_range(range_of(cue));
         require_density(cue.density);
@@ -96,9 +96,9 @@ std::vector<float> linear_prior(double inner, double inner_end, double outer, do
     return prior;
 }
 
-/// The readings of a cue in a row, or in some, and the ratio of each of their bins.
+/// The values of a cue in a row, or in some, and the ratio of each of their bins.
 struct CueRow {
-    const float* readings;
+    const float* values;
     const FloatRange* range;
     const float* table;
 };
@@ -131,10 +131,10 @@ TRICUE_INLINE void multiply_in_registers(const CueRow* cues, std::size_t count, 
         const std::ptrdiff_t length = std::min(kChunk, n), first = std::min(begin, n - length);
         for (std::size_t k = 0; k < count; ++k) {
             const FloatRange range = *cues[k].range;
-            const float* readings = cues[k].readings + first;
+            const float* values = cues[k].values + first;
             std::int32_t* found = bins[k];
             for_overlapping_blocks<kRowBlock>(
-                length, [=](std::ptrdiff_t x) { found[x] = value_bin(readings[x], range); });
+                length, [=](std::ptrdiff_t x) { found[x] = value_bin(values[x], range); });
         }
         for (std::ptrdiff_t x = 0; x < length; x += kRowBlock) {
             const std::ptrdiff_t at = std::min(x, length - kRowBlock);
@@ -163,7 +163,7 @@ void multiply_one_by_one(const CueRow* cues, std::size_t count, std::ptrdiff_t n
     for (std::ptrdiff_t begin = 0; begin < n; begin += kBandPixels) {
         const int length = static_cast<int>(std::min<std::ptrdiff_t>(kBandPixels, n - begin));
         for (std::size_t k = 0; k < count; ++k) {
-            find_value_bins(cues[k].readings + begin, length, *cues[k].range, bins);
+            find_value_bins(cues[k].values + begin, length, *cues[k].range, bins);
             multiply_by(bins, length, cues[k].table, ratio + begin);
         }
     }
@@ -201,7 +201,7 @@ TargetPixels target_pixels(const std::vector<Cue>& cues, const TargetPlace& plac
     require_arguments(cues, threshold);
     const auto& [window, candidate] = place;
     require_corners(window, "window");
-    const PlaneView& first = cues[0].readings;
+    const PlaneView& first = cues[0].values;
     const Region visible = rectangle_pixels(candidate, first.rows, first.cols, "candidate");
     const auto columns =
         linear_prior(window.x0, window.x1, candidate.x0, candidate.x1, visible.x0, visible.x1);
@@ -216,14 +216,14 @@ TargetPixels target_pixels(const std::vector<Cue>& cues, const TargetPlace& plac
     TargetPixels target{Labels::Zero(first.rows, first.cols), Floats::Zero(first.rows, first.cols)};
     const int band = std::max(kBandPixels / std::max(first.cols, 1), 1);
     std::vector<float> ratio(static_cast<std::size_t>(band) * static_cast<std::size_t>(first.cols));
-    const bool contiguous = std::all_of(
-        cues.begin(), cues.end(), [](const Cue& cue) { return cue.readings.stride == cue.readings.cols; });
+    const bool contiguous = std::all_of(cues.begin(), cues.end(),
+                                        [](const Cue& cue) { return cue.values.stride == cue.values.cols; });
     std::vector<CueRow> inputs(cues.size());
     for (int y0 = visible.y0; y0 < visible.y1; y0 += band) {
         const int y1 = std::min(y0 + band, visible.y1), together = contiguous ? y1 - y0 : 1;
         for (int y = y0; y < y1; y += together) {
             for (std::size_t k = 0; k < cues.size(); ++k)
-                inputs[k] = {cues[k].readings.row(y), &ranges[k], tables[k].data()};
+                inputs[k] = {cues[k].values.row(y), &ranges[k], tables[k].data()};
             multiply_ratios(inputs.data(), cues.size(), std::ptrdiff_t{together} * first.cols,
                             ratio.data() + std::ptrdiff_t{y - y0} * first.cols);
         }

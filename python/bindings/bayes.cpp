@@ -46,19 +46,21 @@ Array<float> combine_posteriors_arrays(const Array<float>& first, const Array<fl
 Array<double> weighted_histogram_arrays(const Array<float>& values, const Array<float>& weights,
                                         const Corners& region, double low, double high, int bins,
                                         const std::optional<Bytes>& mask) {
-    const auto readings = plane(values, "values"), reliability = plane(weights, "weights");
+    const auto observed = plane(values, "values"), reliability = plane(weights, "weights");
     const ImageView counted = mask ? mask_view(*mask, "mask") : ImageView{nullptr, 0, 0, 1, 0};
     const Rectangle part = rectangle(region);
-    return give(unlocked(pixels(readings), [&] {
-        return weighted_histogram(readings, reliability, part, {low, high, bins}, counted);
+    return give(unlocked(pixels(observed), [&] {
+        return weighted_histogram(observed, reliability, part, {low, high, bins}, counted);
     }));
 }
 
 std::tuple<Array<double>, double> target_distribution_arrays(const Array<double>& histogram, double smoothing,
-                                                             double ripple, double expected, double spread) {
+                                                             double min_prominence, double expected,
+                                                             double spread) {
     const auto weights = vector(histogram, "histogram");
-    auto found = unlocked(weights.size(),
-                          [&] { return target_distribution(weights, smoothing, ripple, expected, spread); });
+    auto found = unlocked(weights.size(), [&] {
+        return target_distribution(weights, smoothing, min_prominence, expected, spread);
+    });
     return {give(std::move(found.density)), found.peak};
 }
 
@@ -92,7 +94,7 @@ std::tuple<Bytes, Array<float>> target_pixels_arrays(const std::vector<Array<flo
                                                      const std::optional<Densities>& alternatives) {
     const auto each = cues(planes, densities, ranges, alternatives);
     const TargetPlace place{rectangle(window), rectangle(candidate)};
-    const auto work = each.empty() ? 0 : pixels(each[0].readings);
+    const auto work = each.empty() ? 0 : pixels(each[0].values);
     auto target = unlocked(work, [&] { return target_pixels(each, place, threshold); });
     return {give(std::move(target.mask)), give(std::move(target.posterior))};
 }
@@ -113,12 +115,13 @@ std::tuple<Counts, Counts, Counts, Array<double>, Counts> block_counts_arrays(co
                                                                               double expected,
                                                                               double tolerance) {
     const auto set = mask_view(mask, "mask");
-    const auto readings = plane(disparity, "disparity");
+    const auto distances = plane(disparity, "disparity");
     const auto each = states(blocks, "blocks");
-    auto seen = unlocked(pixels(readings), [&] {
-        return block_counts(set, readings, each, static_cast<float>(expected), static_cast<float>(tolerance));
+    auto seen = unlocked(pixels(distances), [&] {
+        return block_counts(set, distances, each, static_cast<float>(expected),
+                            static_cast<float>(tolerance));
     });
-    return {give(std::move(seen.pixels)), give(std::move(seen.targets)), give(std::move(seen.readings)),
+    return {give(std::move(seen.pixels)), give(std::move(seen.targets)), give(std::move(seen.measured)),
             give(std::move(seen.mean)), give(std::move(seen.similar))};
 }
 
@@ -131,7 +134,7 @@ Eigen::Map<const Eigen::Array<Scalar, Eigen::Dynamic, 1>> list(const Array<Scala
 
 std::tuple<Counts, Counts, Counts, Array<bool>, Counts, Counts> block_votes_arrays(
     const Counts& states, const Counts& votes, const Counts& against, const Array<bool>& core,
-    const Counts& trusted, const Counts& unproven, const Counts& cells, const Counts& targets,
+    const Counts& trusted, const Counts& without_pixels, const Counts& pixels, const Counts& targets,
     const Counts& measured, const Array<double>& mean, const Counts& similar,
     const std::tuple<double, double, double>& disparities, double min_share,
     const std::tuple<std::int64_t, std::int64_t, std::int64_t, std::int64_t>& frames) {
@@ -140,17 +143,17 @@ std::tuple<Counts, Counts, Counts, Array<bool>, Counts, Counts> block_votes_arra
     };
     const BlockVotes blocks{counts(states, "states"),   counts(votes, "votes"),
                             counts(against, "against"), list<bool>(core, "core", "bool (N,)"),
-                            counts(trusted, "trusted"), counts(unproven, "unproven")};
-    const BlockObservations seen{counts(cells, "cells"), counts(targets, "targets"),
-                                 counts(measured, "measured"), vector(mean, "mean"),
-                                 counts(similar, "similar")};
+                            counts(trusted, "trusted"), counts(without_pixels, "without_pixels")};
+    const BlockCounts seen{counts(pixels, "pixels"), counts(targets, "targets"), counts(measured, "measured"),
+                           vector(mean, "mean"), counts(similar, "similar")};
     const auto [target, tolerance, occluder] = disparities;
-    const auto [to_add, to_remove, to_release, max_unproven] = frames;
+    const auto [to_add, to_remove, to_release, max_without_pixels] = frames;
     const VoteRules rules{target, tolerance, occluder,   min_share,
-                          to_add, to_remove, to_release, max_unproven};
+                          to_add, to_remove, to_release, max_without_pixels};
     auto after = unlocked(blocks.states.size(), [&] { return block_votes(blocks, seen, rules); });
-    return {give(std::move(after.states)), give(std::move(after.votes)),   give(std::move(after.against)),
-            give(std::move(after.core)),   give(std::move(after.trusted)), give(std::move(after.unproven))};
+    return {give(std::move(after.states)),  give(std::move(after.votes)),
+            give(std::move(after.against)), give(std::move(after.core)),
+            give(std::move(after.trusted)), give(std::move(after.without_pixels))};
 }
 
 using Place = std::tuple<double, double, double, double, double>;
@@ -191,9 +194,9 @@ std::tuple<Array<double>, Array<double>, Array<double>> target_model_arrays(
     const auto former = former_model(before);
     std::optional<DepthLimit> limit;
     if (depth) limit = {depth->first, depth->second};
-    const auto [bins, smoothing, ripple, memory, surround] = rules;
-    const HistogramRules how{bins, smoothing, ripple, memory, surround};
-    const auto work = each.empty() ? 0 : pixels(each[0].readings);
+    const auto [bins, smoothing, min_prominence, density_memory, surround_weight] = rules;
+    const HistogramRules how{bins, smoothing, min_prominence, density_memory, surround_weight};
+    const auto work = each.empty() ? 0 : pixels(each[0].values);
     auto model =
         unlocked(work, [&] { return target_model(each, at, rectangle(window), mine, limit, former, how); });
     return {give(std::move(model.densities)), give(std::move(model.alternatives)),
@@ -229,7 +232,7 @@ std::tuple<RegionTuple, std::int64_t, Bytes, Seen, double> observe_target_arrays
     const auto numbers = list<std::int64_t>(of_blocks, "states", "int64 (N,)");
     const auto [neighbors, share, trim] = clean;
     const auto [similar, tolerance, occluder] = limits;
-    auto found = unlocked(cues.empty() ? 0 : pixels(cues[0].readings),
+    auto found = unlocked(cues.empty() ? 0 : pixels(cues[0].values),
                           [&, neighbors = neighbors, share = share, trim = trim, similar = similar,
                            tolerance = tolerance, occluder = occluder] {
                               return observe_target(cues, {rectangle(window), rectangle(candidate)},
@@ -240,7 +243,7 @@ std::tuple<RegionTuple, std::int64_t, Bytes, Seen, double> observe_target_arrays
     return {
         tuple_of(kept.box), kept.count, give(std::move(kept.mask)),
         Seen{give(std::move(counts.pixels)), give(std::move(counts.targets)),
-             give(std::move(counts.readings)), give(std::move(counts.mean)), give(std::move(counts.similar))},
+             give(std::move(counts.measured)), give(std::move(counts.mean)), give(std::move(counts.similar))},
         occluded};
 }
 
@@ -271,15 +274,15 @@ void define_bayes(py::module_& m) {
           py::arg("expected") = std::numeric_limits<double>::quiet_NaN(), py::arg("tolerance") = 0.0,
           docs::block_counts);
     m.def("block_votes", block_votes_arrays, py::arg("states"), py::arg("votes"), py::arg("against"),
-          py::arg("core"), py::arg("trusted"), py::arg("unproven"), py::arg("cells"), py::arg("targets"),
-          py::arg("measured"), py::arg("mean"), py::arg("similar"), py::arg("disparities"),
-          py::arg("min_share"), py::arg("frames"), docs::block_votes);
+          py::arg("core"), py::arg("trusted"), py::arg("without_pixels"), py::arg("pixels"),
+          py::arg("targets"), py::arg("measured"), py::arg("mean"), py::arg("similar"),
+          py::arg("disparities"), py::arg("min_share"), py::arg("frames"), docs::block_votes);
     m.def("block_mask", block_mask_array, py::arg("blocks"), py::arg("height"), py::arg("width"),
           docs::block_mask);
     m.def("combine_posteriors", combine_posteriors_arrays, py::arg("first"), py::arg("second"),
           docs::combine_posteriors);
     m.def("target_distribution", target_distribution_arrays, py::arg("histogram"), py::arg("smoothing"),
-          py::arg("ripple") = 0.05, py::arg("expected") = std::numeric_limits<double>::quiet_NaN(),
+          py::arg("min_prominence") = 0.05, py::arg("expected") = std::numeric_limits<double>::quiet_NaN(),
           py::arg("spread") = 1.0, docs::target_distribution);
     m.def("target_pixels", target_pixels_arrays, py::arg("planes"), py::arg("densities"), py::arg("ranges"),
           py::arg("window"), py::arg("candidate"), py::arg("threshold") = 0.5,

@@ -74,10 +74,10 @@ Bytes divide_depth_arrays(const Array<float>& depth, const Bytes& mask, const Ar
     return give(unlocked(pixels(view), [&] { return divide_depth(view, under, limits); }));
 }
 
-Array<float> fill_gaps_arrays(const Array<float>& depth, double gap, double slope, double ragged,
+Array<float> fill_gaps_arrays(const Array<float>& depth, double gap, double slope, double max_gap_share,
                               int passes) {
     const auto view = depth_image(depth, "depth");
-    return give(unlocked(pixels(view), [&] { return fill_gaps(view, gap, slope, ragged, passes); }));
+    return give(unlocked(pixels(view), [&] { return fill_gaps(view, gap, slope, max_gap_share, passes); }));
 }
 
 std::tuple<Array<float>, Array<double>, RegionTuple> find_foreground_arrays(
@@ -87,8 +87,8 @@ std::tuple<Array<float>, Array<double>, RegionTuple> find_foreground_arrays(
     const auto view = depth_image(depth, "depth");
     const auto lens = vector(camera, "camera");
     const auto ground = vector(plane, "plane");
-    const auto [gap, slope, ragged, passes] = gaps;
-    const Gaps filled{gap, slope, ragged, passes};
+    const auto [gap, slope, max_gap_share, passes] = gaps;
+    const Gaps filled{gap, slope, max_gap_share, passes};
     const auto [near, far, clear] = space;
     const Space within{near, far, clear};
     auto found = unlocked(pixels(view), [&] {
@@ -185,7 +185,7 @@ void define_depth(py::module_& m) {
           py::arg("camera"), py::arg("plane"), py::arg("floor"), py::arg("space"), py::arg("margin"),
           docs::find_foreground);
     m.def("fill_gaps", fill_gaps_arrays, py::arg("depth"), py::arg("gap"), py::arg("slope"),
-          py::arg("ragged"), py::arg("passes"), docs::fill_gaps);
+          py::arg("max_gap_share"), py::arg("passes"), docs::fill_gaps);
     m.def("floor_plane", floor_plane_arrays, py::arg("depth"), py::arg("camera"), py::arg("triples"),
           py::arg("tolerance"), py::arg("up"), py::arg("min_cosine"), docs::floor_plane);
     m.def("ground_distance", ground_distance_arrays, py::arg("depth"), py::arg("camera"), py::arg("up"),

@@ -168,7 +168,7 @@ def block_counts(
     Returns:
         pixels: int64 (N,): pixels of each block that are in the image
         targets: int64 (N,): those set in the mask
-        readings: int64 (N,): those with a finite disparity
+        measured: int64 (N,): those with a finite disparity
         mean: float64 (N,): mean of these disparities, pixels; NaN without any
         similar: int64 (N,): those that differ by less than the tolerance from the expected one
 
@@ -204,8 +204,8 @@ def block_votes(
     against: numpy.typing.NDArray[numpy.int64],
     core: numpy.typing.NDArray[numpy.bool],
     trusted: numpy.typing.NDArray[numpy.int64],
-    unproven: numpy.typing.NDArray[numpy.int64],
-    cells: numpy.typing.NDArray[numpy.int64],
+    without_pixels: numpy.typing.NDArray[numpy.int64],
+    pixels: numpy.typing.NDArray[numpy.int64],
     targets: numpy.typing.NDArray[numpy.int64],
     measured: numpy.typing.NDArray[numpy.int64],
     mean: numpy.typing.NDArray[numpy.float64],
@@ -238,8 +238,8 @@ def block_votes(
         against: as votes
         core: bool (N,)
         trusted: as votes
-        unproven: as votes
-        cells: int64 (N,): pixels of each block inside the image
+        without_pixels: as votes
+        pixels: int64 (N,): pixels of each block inside the image, as in block_counts
         targets: int64 (N,): those of the target
         measured: int64 (N,): those with a disparity; the mean counts from a fifth of the pixels on
         mean: float64 (N,): their mean disparity
@@ -247,8 +247,8 @@ def block_votes(
         disparities: (target, tolerance, occluder): a mean is similar if it differs by at most the
             tolerance from the target's disparity, and an occluder's if it is above the third
         min_share: of a block's pixels, for a vote
-        frames: (to add, to remove, to release, unproven): votes that make a block the target's, votes
-            against it that end this, and those that release an occluded block; frames for which
+        frames: (to add, to remove, to release, without_pixels): votes that make a block the target's,
+            votes against it that end this, and those that release an occluded block; frames for which
             disparity alone keeps a block
 
     Returns:
@@ -257,7 +257,7 @@ def block_votes(
         against: int64 (N,): frames for it to leave its state
         core: bool (N,): blocks for which the target's disparity alone is a vote
         trusted: int64 (N,): frames for which a block counts in the model after it had target pixels
-        unproven: int64 (N,): frames with the target's disparity since it had target pixels
+        without_pixels: int64 (N,): frames with the target's disparity since it had target pixels
 
     Raises:
         ValueError: on sizes that differ, states other than 0 to 2, and numbers of frames out of range
@@ -1048,18 +1048,18 @@ def evidence_peak(
     """
 
 def fill_gaps(
-    depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float, ragged: float, passes: int
+    depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float, max_gap_share: float, passes: int
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
     Fills the gaps of a depth image that is riddled with small ones, and would fall apart into pieces;
     leaves any other as it is.
 
-    Small gaps are one to three unmeasured pixels between two measured ones of a row. An image is ragged
-    if they are more than the share `ragged` of the measured pixels. Then, until they are at most half
-    that share, and at most `passes` times, each unmeasured pixel with at least two neighbors (of 8) on
-    the nearest surface becomes their mean. On it are the neighbors z' with z' <= z + (gap + slope (z
-    z)), z the nearest. Nearer surfaces win, because a sensor loses their outlines first; so a pass also
-    widens a surface that ends at a large gap by a pixel.
+    Small gaps are one to three unmeasured pixels between two measured ones of a row. An image has many
+    if they are more than the share `max_gap_share` of the measured pixels. Then, until they are at most
+    half that share, and at most `passes` times, each unmeasured pixel with at least two neighbors
+    (of 8) on the nearest surface becomes their mean. On it are the neighbors z' with z' <= z + (gap +
+    slope (z z)), z the nearest. Nearer surfaces win, because a sensor loses their outlines first; so a
+    pass also widens a surface that ends at a large gap by a pixel.
 
     All in float32, in this order; sums over the neighbors are in reading order. A pass reads the result
     of the one before.
@@ -1068,7 +1068,7 @@ def fill_gaps(
         depth: float32 (H, W), meters
         gap: meters, finite, at least 0
         slope: 1 / meter, finite, at least 0: noise of stereo and of structured light grows with z²
-        ragged: small gaps per measured pixel, in [0, 1]
+        max_gap_share: small gaps per measured pixel, in [0, 1]
         passes: 0 to 1000
 
     Returns:
@@ -1177,7 +1177,7 @@ def find_foreground(
     Args:
         depth: float32 (H, W), meters
         step: pixels, at least 1
-        gaps: (gap, slope, ragged, passes), as in fill_gaps
+        gaps: (gap, slope, max_gap_share, passes), as in fill_gaps
         camera: float64 (4,): fx, fy, cx, cy of the thinned image, pixels, fx and fy above 0
         plane: float64 (4,): the floor, as in above_floor; zeros for none
         floor: (tolerance, step), as in plane_support
@@ -2117,9 +2117,9 @@ def observe_target(
 
     Args:
         planes: float32 (H, W), one to three: observations u, v or d, NaN where there is none
-        densities: float64 (K, bins), one for each: P(reading | target), of sum 1 or 0
+        densities: float64 (K, bins), one for each: P(value | target), of sum 1 or 0
         ranges: (low, high) for each plane: range of its bins, finite, low < high
-        alternatives: float64 (K, bins): P(reading | not the target), above 0, of a sum of at most 1
+        alternatives: float64 (K, bins): P(value | not the target), above 0, of a sum of at most 1
         window: (x0, y0, x1, y1), where the prior of target_pixels is 1, pixels, finite
         candidate: (x0, y0, x1, y1), outside of which this prior is 0, pixels, finite
         threshold: smallest posterior of a target pixel, in (0, 1]
@@ -2137,7 +2137,7 @@ def observe_target(
         box: (x0, y0, x1, y1), pixels, of the temporal window
         count: number of target pixels
         mask: uint8 (H, W): 1 at the target's pixels, else 0
-        counts: (pixels, targets, readings, mean, similar), (N,) each: the contents of the blocks, as in
+        counts: (pixels, targets, measured, mean, similar), (N,) each: the contents of the blocks, as in
             block_counts
         occluded: share of the target's blocks in the image that something nearer hides, in [0, 1]
 
@@ -3258,7 +3258,7 @@ def support_pixels(
 def target_distribution(
     histogram: numpy.typing.NDArray[numpy.float64],
     smoothing: float,
-    ripple: float = 0.05,
+    min_prominence: float = 0.05,
     expected: float = ...,
     spread: float = 1.0,
 ) -> tuple[numpy.typing.NDArray[numpy.float64], float]:
@@ -3275,16 +3275,16 @@ def target_distribution(
     uses the smoothed histogram as it is.
 
     P_+ is the minimum to the right of the peak: the lowest bin, of equals the nearest to the peak, from
-    the peak's own up to the first rise by more than `ripple` times the peak's height above the lowest
-    so far. Up to P_+ the density is the smoothed histogram; beyond, it is the line through P_obj and
-    P_+ down to 0, or 0 if P_+ is the peak's own bin. Without such a rise it is the smoothed histogram
-    to the end. The left side is alike. Values that differ by less than 1e-9 of the peak are equal. The
-    density is divided by its sum.
+    the peak's own up to the first rise by more than `min_prominence` times the peak's height above the
+    lowest so far. Up to P_+ the density is the smoothed histogram; beyond, it is the line through P_obj
+    and P_+ down to 0, or 0 if P_+ is the peak's own bin. Without such a rise it is the smoothed
+    histogram to the end. The left side is alike. Values that differ by less than 1e-9 of the peak are
+    equal. The density is divided by its sum.
 
     Args:
         histogram: float64 (L,), L at least 1, finite, none negative
         smoothing: bins, in [0, L]
-        ripple: in [0, 1); 0 takes every minimum, as in the paper
+        min_prominence: in [0, 1); 0 takes every minimum, as in the paper
         expected: bins, as the peak, in the range or off it; NaN for the highest peak, as in the paper
         spread: bins, above 0; infinity means no expectation
 
@@ -3293,10 +3293,10 @@ def target_distribution(
         peak: in bins, bin i being [i, i + 1); NaN for a histogram of zeros
 
     Raises:
-        ValueError: on another histogram, smoothing, ripple or spread, or an infinite expected peak
+        ValueError: on another histogram, smoothing, prominence or spread, or an infinite expected peak
 
-    Source: Okada, Shirai, Miura 1996, section 4.2 and figure 6; the ripple and the expectation (after
-    section 4.1) are ours.
+    Source: Okada, Shirai, Miura 1996, section 4.2 and figure 6; the prominence and the expectation
+    (after section 4.1) are ours.
     """
 
 def target_model(
@@ -3328,17 +3328,18 @@ def target_model(
     velocity and disparity: its model in a frame before its pixels are known.
 
     For each observation there is a weighted_histogram of the pixels of the target's blocks in the
-    window, with `bins` that span value ± half_range. Its target_distribution, with a ripple and the
-    peak expected in the middle, is the density, and its peak the representative value; without readings
-    that is the expected one. Histograms of flow, those of all but the last observation, only count
-    pixels that have no disparity or one near the target's.
+    window, with `bins` that span value ± half_range. Its target_distribution, with min_prominence and
+    the peak expected in the middle, is the density, and its peak the representative value; without
+    values that is the expected one. Histograms of flow, those of all but the last observation, only
+    count pixels that have no disparity or one near the target's.
 
-    The density is mixed with the one before, moved to the new peak: memory before + (1 - memory)
-    density, divided by the sum. The one before is linear between bins, and 0 beyond them.
+    The density is mixed with the one before, moved to the new peak: m before + (1 - m) density, m the
+    density_memory, divided by the sum. The one before is linear between bins, and 0 beyond them.
 
-    The alternative is surround S + (1 - surround) / bins, with S the histogram of all pixels that
-    aren't in the target's blocks over the sum of their weights (of readings in [-1e6, 1e6)), smoothed
-    by a Gaussian of sum 1, cut off at ceil(3 smoothing) bins; without such pixels it is 1 / bins.
+    The alternative is w S + (1 - w) / bins, with w the surround_weight and S the histogram of all
+    pixels that aren't in the target's blocks over the sum of their weights (of values in [-1e6, 1e6)),
+    smoothed by a Gaussian of sum 1, cut off at ceil(3 smoothing) bins; without such pixels it is 1 /
+    bins.
 
     Args:
         maps: (values, weights) of each observation, one to three, as in weighted_histogram: float32 (H,
@@ -3352,12 +3353,12 @@ def target_model(
         depth: (disparity, tolerance), pixels: flow counts only near this disparity; None for any
         before: (densities, lows, peaks) of the frame before, with the lowest value of each histogram;
             None for none
-        rules: (bins, smoothing, ripple, memory, surround): 2 to 65536 bins, smoothing, above 0, and
-            ripple as in target_distribution, the others in [0, 1)
+        rules: (bins, smoothing, min_prominence, density_memory, surround_weight): 2 to 65536 bins,
+            smoothing, above 0, and min_prominence as in target_distribution, the others in [0, 1)
 
     Returns:
-        densities: float64 (K, bins), of sum 1 or 0: P(reading | target)
-        alternatives: float64 (K, bins), above 0: P(reading | not the target)
+        densities: float64 (K, bins), of sum 1 or 0: P(value | target)
+        alternatives: float64 (K, bins), above 0: P(value | not the target)
         peaks: float64 (K,): representative velocity and disparity
 
     Raises:
@@ -3411,10 +3412,10 @@ def target_pixels(
 ) -> tuple[numpy.typing.NDArray[numpy.uint8], numpy.typing.NDArray[numpy.float32]]:
     """
     Which pixels belong to the target, by Bayes' rule, prior and posterior in one pass:
-        P(obj | F) = P(obj) L / (P(obj) L + A),   L = Π P(reading | obj),   A = Π P(reading | not obj)
+        P(obj | F) = P(obj) L / (P(obj) L + A),   L = Π P(value | obj),   A = Π P(value | not obj)
 
-    L / A is, in float32, the product of each cue's ratio at the bin of its reading: density times bins,
-    or density / alternative, at most 1e12, rounded to float32. It is 0 without a reading or outside the
+    L / A is, in float32, the product of each cue's ratio at the bin of its value: density times bins,
+    or density / alternative, at most 1e12, rounded to float32. It is 0 without a value or outside the
     range: a target pixel needs every cue. Bins are those of weighted_histogram.
 
     The prior P(obj) is 1 in the window and falls linearly to 0 at the edge of the candidate region:
@@ -3423,16 +3424,16 @@ def target_pixels(
     float64, rounded to float32. Pixels whose centers are not in the candidate region are 0.
 
     Args:
-        planes: float32 (H, W), one to three: readings u, v or d, the vector F of (10), NaN where there
+        planes: float32 (H, W), one to three: values of u, v or d, the vector F of (10), NaN where there
             is none
-        densities: float64 (bins,) for each plane: P(reading | obj), of sum 1, or all 0, as
+        densities: float64 (bins,) for each plane: P(value | obj), of sum 1, or all 0, as
             target_distribution gives it
         ranges: (low, high) for each plane: range of its bins, finite, low < high
         window: (x0, y0, x1, y1), where the prior is 1, pixels, finite
         candidate: (x0, y0, x1, y1), outside of which the prior is 0, pixels, finite
         threshold: smallest posterior of a target pixel, in (0, 1]
-        alternatives: float64 (bins,) for each plane: P(reading | not obj), above 0, of a sum of at most
-            1, as readings may lie outside the range; None for 1 / bins each
+        alternatives: float64 (bins,) for each plane: P(value | not obj), above 0, of a sum of at most
+            1, as values may lie outside the range; None for 1 / bins each
 
     Returns:
         mask: uint8 (H, W): 1 where the posterior is at least the threshold, else 0
@@ -3573,8 +3574,8 @@ class Kernels(Protocol):
         against: numpy.typing.NDArray[numpy.int64],
         core: numpy.typing.NDArray[numpy.bool],
         trusted: numpy.typing.NDArray[numpy.int64],
-        unproven: numpy.typing.NDArray[numpy.int64],
-        cells: numpy.typing.NDArray[numpy.int64],
+        without_pixels: numpy.typing.NDArray[numpy.int64],
+        pixels: numpy.typing.NDArray[numpy.int64],
         targets: numpy.typing.NDArray[numpy.int64],
         measured: numpy.typing.NDArray[numpy.int64],
         mean: numpy.typing.NDArray[numpy.float64],
@@ -3772,7 +3773,12 @@ class Kernels(Protocol):
         contrast_weight: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def fill_gaps(
-        self, depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float, ragged: float, passes: int
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        gap: float,
+        slope: float,
+        max_gap_share: float,
+        passes: int,
     ) -> numpy.typing.NDArray[numpy.float32]: ...
     def filter_rectangles(
         self,
@@ -4360,7 +4366,7 @@ class Kernels(Protocol):
         self,
         histogram: numpy.typing.NDArray[numpy.float64],
         smoothing: float,
-        ripple: float = 0.05,
+        min_prominence: float = 0.05,
         expected: float = ...,
         spread: float = 1.0,
     ) -> tuple[numpy.typing.NDArray[numpy.float64], float]: ...

@@ -72,12 +72,12 @@ def test_agrees_with_opencv(kernels: Kernels) -> None:
     mask, disparity = seen((60, 80))
     read = np.isfinite(disparity).astype(np.uint8)
     blocks = grid(2, 3, 7, 8, 11)
-    pixels, targets, readings, mean, _ = kernels.block_counts(mask, disparity, blocks)
+    pixels, targets, measured, mean, _ = kernels.block_counts(mask, disparity, blocks)
     for i, (x0, y0, x1, y1) in enumerate(blocks.astype(int)):
         part = np.s_[y0 : min(y1, 60), x0 : min(x1, 80)]
         assert pixels[i] == mask[part].size
         assert targets[i] == cv2.countNonZero(mask[part])
-        assert readings[i] == cv2.countNonZero(read[part])
+        assert measured[i] == cv2.countNonZero(read[part])
         assert_allclose(mean[i], cv2.mean(disparity[part], read[part])[0], rtol=1e-12)
 
 
@@ -90,10 +90,10 @@ def test_agrees_with_integral_images(kernels: Kernels) -> None:
     for image in (mask > 0, np.isfinite(disparity), filled):
         total = cv2.integral(image.astype(np.float64))
         sums.append((total[6:, 6:] - total[6:, :-6] - total[:-6, 6:] + total[:-6, :-6]).ravel())
-    pixels, targets, readings, mean, _ = kernels.block_counts(mask, disparity, blocks)
+    pixels, targets, measured, mean, _ = kernels.block_counts(mask, disparity, blocks)
     assert_array_equal(pixels, 36)
     assert_array_equal(targets, sums[0])
-    assert_array_equal(readings, sums[1])
+    assert_array_equal(measured, sums[1])
     assert_allclose(mean, sums[2] / sums[1], atol=1e-10)
 
 
@@ -104,10 +104,10 @@ def test_example_by_hand(kernels: Kernels) -> None:
     blocks = np.array(
         [[0, 0, 3, 2], [0.5, 0, 1.5, 9], [0.6, 0, 1.6, 2], [1, 0, 9, 1], [-5, -5, 0, 0], [2, 1, 0, 0]]
     )
-    pixels, targets, readings, mean, _ = kernels.block_counts(mask, disparity, blocks)
+    pixels, targets, measured, mean, _ = kernels.block_counts(mask, disparity, blocks)
     assert_array_equal(pixels, [6, 2, 2, 2, 0, 0])
     assert_array_equal(targets, [3, 1, 0, 1, 0, 0])
-    assert_array_equal(readings, [4, 2, 1, 1, 0, 0])
+    assert_array_equal(measured, [4, 2, 1, 1, 0, 0])
     assert_array_equal(mean, [1.75, -1.5, 2, 2, np.nan, np.nan])
 
 
@@ -139,12 +139,12 @@ def test_grid_counts_each_pixel_once(seed: int, size: float, x: float, y: float)
             )
         ]
     )
-    pixels, targets, readings, mean, _ = _core.block_counts(mask, disparity, blocks)
+    pixels, targets, measured, mean, _ = _core.block_counts(mask, disparity, blocks)
     read = np.isfinite(disparity)
     assert pixels.sum() == mask.size
     assert targets.sum() == np.count_nonzero(mask)
-    assert readings.sum() == np.count_nonzero(read)
-    total = (mean * readings)[readings > 0].sum()
+    assert measured.sum() == np.count_nonzero(read)
+    total = (mean * measured)[measured > 0].sum()
     assert_allclose(total, disparity[read].sum(dtype=float), rtol=0, atol=1e-9)
 
 
@@ -162,10 +162,10 @@ def test_each_by_itself(kernels: Kernels) -> None:
 def test_constant_disparity(kernels: Kernels) -> None:
     """Of one disparity the mean is that one, however many pixels have it."""
     disparity = np.full((480, 640), 0.1, np.float32)
-    _, _, readings, mean, _ = kernels.block_counts(
+    _, _, measured, mean, _ = kernels.block_counts(
         np.zeros((480, 640), np.uint8), disparity, np.array([[0.0, 0, 640, 480]])
     )
-    assert readings[0] == 480 * 640
+    assert measured[0] == 480 * 640
     assert_allclose(mean, np.float64(np.float32(0.1)), rtol=1e-12)
 
 

@@ -12,15 +12,15 @@ from tricue import _core, reference
 from tricue.kernels import Kernels
 
 OTHER, TARGET, OCCLUDED = 0, 1, 2
-NAMES = ("states", "votes", "against", "core", "trusted", "unproven")
-CELLS = 40
+NAMES = ("states", "votes", "against", "core", "trusted", "without_pixels")
+PIXELS = 40
 
 
 def case(seed: int = 0, count: int = 200, **changes: Any) -> dict[str, Any]:
     """Blocks in any state, of which some are outside the image, and what a frame measures in them."""
     rng = np.random.default_rng(seed)
-    cells = rng.choice(np.array([0, 5, CELLS]), count)
-    counts = [(rng.random(count) ** 2 * (cells + 1)).astype(np.int64) for _ in range(3)]
+    pixels = rng.choice(np.array([0, 5, PIXELS]), count)
+    counts = [(rng.random(count) ** 2 * (pixels + 1)).astype(np.int64) for _ in range(3)]
     mean = np.where(counts[1] > 0, rng.uniform(0, 20, count), np.nan)
     return {
         "states": rng.integers(0, 3, count),
@@ -28,8 +28,8 @@ def case(seed: int = 0, count: int = 200, **changes: Any) -> dict[str, Any]:
         "against": rng.integers(0, 9, count),
         "core": rng.random(count) < 0.5,
         "trusted": rng.integers(0, 4, count),
-        "unproven": rng.integers(0, 25, count),
-        "cells": cells,
+        "without_pixels": rng.integers(0, 25, count),
+        "pixels": pixels,
         "targets": counts[0],
         "measured": counts[1],
         "mean": mean,
@@ -54,7 +54,7 @@ def one(state: int, core: bool = True, **changes: Any) -> dict[str, Any]:
         "mean": np.array([np.nan]),
     }
     arrays = {name: np.array([value]) for name, value in changes.items()}
-    return {**start, "cells": np.array([CELLS]), **arrays}
+    return {**start, "pixels": np.array([PIXELS]), **arrays}
 
 
 def after_frames(kernels: Kernels, arguments: dict[str, Any], frames: int) -> list[int]:
@@ -89,20 +89,20 @@ def test_each_by_itself(kernels: Kernels) -> None:
 
 def test_votes_in_a_row_make_a_target(kernels: Kernels) -> None:
     """Three frames with target pixels in a fourth of a block make it the target's; fewer pixels never do."""
-    assert after_frames(kernels, one(OTHER, targets=CELLS // 4), 4) == [OTHER, OTHER, TARGET, TARGET]
-    assert after_frames(kernels, one(OTHER, targets=CELLS // 4 - 1), 4) == [OTHER] * 4
+    assert after_frames(kernels, one(OTHER, targets=PIXELS // 4), 4) == [OTHER, OTHER, TARGET, TARGET]
+    assert after_frames(kernels, one(OTHER, targets=PIXELS // 4 - 1), 4) == [OTHER] * 4
 
 
 def test_another_disparity_ends_a_target(kernels: Kernels) -> None:
     """Four frames at another disparity end a target block; with few disparities none does."""
-    away = one(TARGET, measured=CELLS // 5, mean=4.0)
+    away = one(TARGET, measured=PIXELS // 5, mean=4.0)
     assert after_frames(kernels, away, 5) == [TARGET] * 3 + [OTHER] * 2
-    assert after_frames(kernels, {**away, "measured": np.array([CELLS // 5 - 1])}, 9) == [TARGET] * 9
+    assert after_frames(kernels, {**away, "measured": np.array([PIXELS // 5 - 1])}, 9) == [TARGET] * 9
 
 
 def test_depth_alone_keeps_a_core_block_for_a_while(kernels: Kernels) -> None:
     """At the target's disparity a core block lives 20 frames without target pixels; only it is voted in."""
-    same = {"measured": CELLS, "mean": 12.0, "similar": CELLS}
+    same = {"measured": PIXELS, "mean": 12.0, "similar": PIXELS}
     states = after_frames(kernels, one(TARGET, **same), 21)
     assert states == [TARGET] * 19 + [OTHER] * 2
     assert after_frames(kernels, one(OTHER, **same), 4)[-1] == TARGET
@@ -111,16 +111,16 @@ def test_depth_alone_keeps_a_core_block_for_a_while(kernels: Kernels) -> None:
 
 def test_an_occlusion_ends_at_the_targets_disparity(kernels: Kernels) -> None:
     """What is nearer hides a target block; it is back at a similar disparity, and gone after long without."""
-    assert after_frames(kernels, one(TARGET, measured=CELLS, mean=15.1), 2) == [OCCLUDED] * 2
-    assert after_frames(kernels, one(TARGET, measured=CELLS, mean=15.0), 2) == [TARGET] * 2
-    assert after_frames(kernels, one(OCCLUDED, measured=CELLS, mean=14.0), 1) == [TARGET]
-    behind = after_frames(kernels, one(OCCLUDED, measured=CELLS, mean=4.0), 9)
+    assert after_frames(kernels, one(TARGET, measured=PIXELS, mean=15.1), 2) == [OCCLUDED] * 2
+    assert after_frames(kernels, one(TARGET, measured=PIXELS, mean=15.0), 2) == [TARGET] * 2
+    assert after_frames(kernels, one(OCCLUDED, measured=PIXELS, mean=14.0), 1) == [TARGET]
+    behind = after_frames(kernels, one(OCCLUDED, measured=PIXELS, mean=4.0), 9)
     assert behind == [OCCLUDED] * 7 + [OTHER] * 2
 
 
 def test_outside_the_image_nothing_changes(kernels: Kernels) -> None:
     """A block without pixels in the image keeps its state and its votes."""
-    start = one(TARGET, cells=0, votes=2, against=3)
+    start = one(TARGET, pixels=0, votes=2, against=3)
     states, votes, against, *_ = kernels.block_votes(**start)
     assert (states[0], votes[0], against[0]) == (TARGET, 2, 3)
 
@@ -135,7 +135,7 @@ BAD: list[tuple[str, Any, str]] = [
             ("votes", 2**31),
             ("against", 2**63 - 1),
             ("trusted", -(2**63)),
-            ("unproven", -1),
+            ("without_pixels", -1),
         )
     ),
     ("states", np.array([0, 3]), "states: expected 0, 1 or 2, got 3"),

@@ -40,12 +40,12 @@ def bumps(count: int, *parts: tuple[float, float, float]) -> Floats:
 
 
 @given(stairs | slopes, smoothings, ripples)
-def test_twin_cuts_the_same(histogram: Floats, share: float, ripple: float) -> None:
+def test_twin_cuts_the_same(histogram: Floats, share: float, min_prominence: float) -> None:
     """Native and reference agree on any histogram. Three values rounded to some 1e-15 of the peak, and a
     curvature above 2e-9 of it, place a peak to 1e-6, and so the line; most are placed far better.
     """
     smoothing = share * min(len(histogram), 12)
-    ours, theirs = (k.target_distribution(histogram, smoothing, ripple) for k in (_core, reference))
+    ours, theirs = (k.target_distribution(histogram, smoothing, min_prominence) for k in (_core, reference))
     assert ours[0].shape == theirs[0].shape == histogram.shape
     assert_allclose(ours[1], theirs[1], rtol=0, atol=2e-6)
     assert_allclose(ours[0], theirs[0], rtol=0, atol=8e-6)
@@ -107,13 +107,13 @@ def test_finds_a_known_velocity(kernels: Kernels, mean: float) -> None:
 
 @given(stairs | slopes, smoothings, ripples, expectations, spreads)
 def test_twin_expects_the_same(
-    histogram: Floats, share: float, ripple: float, expected: float, spread: float
+    histogram: Floats, share: float, min_prominence: float, expected: float, spread: float
 ) -> None:
     """Native and reference agree on any expectation, however far off or narrow, as closely as without: the
     weighted values are one rounding of exp less certain.
     """
     smoothing = share * min(len(histogram), 12)
-    arguments = histogram, smoothing, ripple, expected, spread
+    arguments = histogram, smoothing, min_prominence, expected, spread
     ours, theirs = (k.target_distribution(*arguments) for k in (_core, reference))
     assert_allclose(ours[1], theirs[1], rtol=0, atol=2e-6)
     assert_allclose(ours[0], theirs[0], rtol=0, atol=8e-6)
@@ -168,7 +168,7 @@ def test_shoulder_by_hand(kernels: Kernels) -> None:
 
 
 def test_slight_rise_is_no_shoulder(kernels: Kernels) -> None:
-    """What rises from the peak by at most the ripple of its height, and falls again, stays."""
+    """What rises from the peak by at most the prominence, and falls again, stays."""
     histogram = np.array([0.0, 40, 100, 103, 50, 0])
     kept, _ = kernels.target_distribution(histogram, 0.0, 0.04, 2.5, 0.3)
     assert_allclose(kept, histogram / histogram.sum())
@@ -272,10 +272,12 @@ def test_gap_ends_the_target(kernels: Kernels) -> None:
     assert_allclose(density, np.array([0, 0, 3, 8, 2, 0, 0, 0, 0, 0]) / 13)
 
 
-def test_ripple(kernels: Kernels) -> None:
-    """What rises by no more than the ripple ends no minimum, and the least before the rise is the minimum."""
+def test_min_prominence(kernels: Kernels) -> None:
+    """A rise of at most the prominence ends no minimum, and the least before a larger one is the minimum."""
     histogram = np.array([100.0, 50, 30, 33, 20, 24, 90])
-    (uneven, _), (even, _) = (kernels.target_distribution(histogram, 0.0, ripple) for ripple in (0.0, 0.04))
+    (uneven, _), (even, _) = (
+        kernels.target_distribution(histogram, 0.0, min_prominence) for min_prominence in (0.0, 0.04)
+    )
     assert_allclose(uneven / uneven[0], [1, 0.5, 0.3, 0, 0, 0, 0])
     assert_allclose(even / even[0], [1, 0.5, 0.3, 0.33, 0.2, 0, 0])
     just, _ = kernels.target_distribution(histogram, 0.0, 0.039)
@@ -300,12 +302,12 @@ def test_flat(kernels: Kernels, smoothing: float) -> None:
 
 
 @given(stairs | slopes, smoothings, ripples)
-def test_is_a_density(histogram: Floats, share: float, ripple: float) -> None:
+def test_is_a_density(histogram: Floats, share: float, min_prominence: float) -> None:
     """It has a sum of 1 and nothing below 0, and its peak lies in a bin that is as high as any."""
     assume(histogram.any())
     smoothing = share * min(len(histogram), 12)
     for k in (_core, reference):
-        density, peak = k.target_distribution(histogram, smoothing, ripple)
+        density, peak = k.target_distribution(histogram, smoothing, min_prominence)
         assert density.min() >= 0
         assert_allclose(density.sum(), 1, rtol=1e-12)
         assert 0.5 <= peak <= len(histogram) - 0.5
@@ -315,26 +317,26 @@ def test_is_a_density(histogram: Floats, share: float, ripple: float) -> None:
 
 @given(stairs | slopes, smoothings, ripples, expectations, spreads)
 def test_is_a_density_where_expected(
-    histogram: Floats, share: float, ripple: float, expected: float, spread: float
+    histogram: Floats, share: float, min_prominence: float, expected: float, spread: float
 ) -> None:
     """So it is with any expectation, its peak lies in a bin that isn't empty, and outwards from there no bin
-    is higher than the least before by more than the ripple.
+    is higher than the least before by more than the prominence.
     """
     assume(histogram.any())
     smoothing = share * min(len(histogram), 12)
     for k in (_core, reference):
-        density, peak = k.target_distribution(histogram, smoothing, ripple, expected, spread)
+        density, peak = k.target_distribution(histogram, smoothing, min_prominence, expected, spread)
         assert density.min() >= 0
         assert_allclose(density.sum(), 1, rtol=1e-12)
         assert 0.5 <= peak <= len(histogram) - 0.5
         at = int(peak)
         assert density[at] > 0
-        assert max(rises(density[at:]), rises(density[at::-1])) <= (ripple + 1e-8) * density[at]
+        assert max(rises(density[at:]), rises(density[at::-1])) <= (min_prominence + 1e-8) * density[at]
 
 
 @given(slopes, smoothings, ripples, places, st.floats(0.7, 20))
 def test_mirror_of_the_expected(
-    histogram: Floats, share: float, ripple: float, expected: float, spread: float
+    histogram: Floats, share: float, min_prominence: float, expected: float, spread: float
 ) -> None:
     """Leftward velocities are expected as rightward ones are."""
     smoothing = share * min(len(histogram), 12)
@@ -342,19 +344,19 @@ def test_mirror_of_the_expected(
     assume(values.max() > 1e-250)
     assume(np.count_nonzero(values >= values.max() * (1 - 1e-6)) == 1)  # of equal peaks the first is taken
     count = len(histogram)
-    here = _core.target_distribution(histogram, smoothing, ripple, expected, spread)
+    here = _core.target_distribution(histogram, smoothing, min_prominence, expected, spread)
     turned = np.ascontiguousarray(histogram[::-1])
-    there = _core.target_distribution(turned, smoothing, ripple, count - expected, spread)
+    there = _core.target_distribution(turned, smoothing, min_prominence, count - expected, spread)
     assert_allclose(there[1], count - here[1], atol=1e-6)
     assert_allclose(there[0][::-1], here[0], rtol=0, atol=4e-6)
 
 
 @given(slopes, smoothings, ripples)
-def test_mirror(histogram: Floats, share: float, ripple: float) -> None:
+def test_mirror(histogram: Floats, share: float, min_prominence: float) -> None:
     """Leftward velocities are estimated as rightward ones are."""
     smoothing = share * min(len(histogram), 12)
-    here = _core.target_distribution(histogram, smoothing, ripple)
-    there = _core.target_distribution(np.ascontiguousarray(histogram[::-1]), smoothing, ripple)
+    here = _core.target_distribution(histogram, smoothing, min_prominence)
+    there = _core.target_distribution(np.ascontiguousarray(histogram[::-1]), smoothing, min_prominence)
     smooth = smoothed(histogram, smoothing) if smoothing > 0.1 else histogram
     assume(np.count_nonzero(smooth >= smooth.max() * (1 - 1e-6)) == 1)  # of equal peaks the first is taken
     assert_allclose(there[1], len(histogram) - here[1], atol=1e-6)
@@ -362,11 +364,11 @@ def test_mirror(histogram: Floats, share: float, ripple: float) -> None:
 
 
 @given(slopes, smoothings, ripples, st.integers(-30, 30))
-def test_units_of_the_weights(histogram: Floats, share: float, ripple: float, power: int) -> None:
+def test_units_of_the_weights(histogram: Floats, share: float, min_prominence: float, power: int) -> None:
     """How much all weights are together makes no difference."""
     smoothing = share * len(histogram)
-    here = _core.target_distribution(histogram, smoothing, ripple)
-    there = _core.target_distribution(2.0**power * histogram, smoothing, ripple)
+    here = _core.target_distribution(histogram, smoothing, min_prominence)
+    there = _core.target_distribution(2.0**power * histogram, smoothing, min_prominence)
     assert_array_equal(here[0], there[0])
     assert_array_equal(here[1], there[1])
 
@@ -387,17 +389,19 @@ BAD_VALUES: list[tuple[Floats, float, float, str]] = [
     (np.ones(4), -0.1, 0.0, r"smoothing: expected a number in \[0, 4\], got -0.1"),
     (np.ones(4), 4.5, 0.0, r"smoothing: expected a number in \[0, 4\], got 4.5"),
     (np.ones(4), np.nan, 0.0, r"smoothing: expected a number in \[0, 4\], got nan"),
-    (np.ones(4), 0.0, -0.1, r"ripple: expected a number in \[0, 1\), got -0.1"),
-    (np.ones(4), 0.0, 1.0, r"ripple: expected a number in \[0, 1\), got 1"),
-    (np.ones(4), 0.0, np.nan, r"ripple: expected a number in \[0, 1\), got nan"),
+    (np.ones(4), 0.0, -0.1, r"min_prominence: expected a number in \[0, 1\), got -0.1"),
+    (np.ones(4), 0.0, 1.0, r"min_prominence: expected a number in \[0, 1\), got 1"),
+    (np.ones(4), 0.0, np.nan, r"min_prominence: expected a number in \[0, 1\), got nan"),
 ]
 
 
-@pytest.mark.parametrize(("histogram", "smoothing", "ripple", "message"), BAD_VALUES)
-def test_refuses(kernels: Kernels, histogram: Floats, smoothing: float, ripple: float, message: str) -> None:
-    """What is no histogram, and a smoothing or ripple that is none, is named."""
+@pytest.mark.parametrize(("histogram", "smoothing", "min_prominence", "message"), BAD_VALUES)
+def test_refuses(
+    kernels: Kernels, histogram: Floats, smoothing: float, min_prominence: float, message: str
+) -> None:
+    """What is no histogram, and a smoothing or prominence that is none, is named."""
     with pytest.raises(ValueError, match=message):
-        kernels.target_distribution(histogram, smoothing, ripple)
+        kernels.target_distribution(histogram, smoothing, min_prominence)
 
 
 BAD_EXPECTATIONS: list[tuple[float, float, str]] = [

@@ -20,7 +20,7 @@ RULES = (BINS, 1.5, 0.05, 0.8, 0.8)
 
 
 def case(seed: int = 0, cues: int = 3, **changes: Any) -> dict[str, Any]:
-    """A target in the middle, in two of three blocks; some readings are missing, some weights are none."""
+    """A target in the middle, in two of three blocks; some values are missing, some weights are none."""
     rng = np.random.default_rng(seed)
     inside = np.zeros((H, W), np.bool_)
     inside[10:30, 20:40] = True
@@ -175,9 +175,9 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"expected": [*EXPECTED[:2], (1.0, 1.0, 0.0)]}, "high: expected a finite number above low"),
     ({"rules": (1, 1.5, 0.05, 0.8, 0.8)}, "bins: expected 2 to 65536, got 1"),
     ({"rules": (BINS, 0.0, 0.05, 0.8, 0.8)}, "smoothing: expected a number above 0, got 0"),
-    ({"rules": (BINS, 1.5, 1.0, 0.8, 0.8)}, "ripple: expected"),
-    ({"rules": (BINS, 1.5, 0.05, 1.0, 0.8)}, r"memory: expected a number in \[0, 1\), got 1"),
-    ({"rules": (BINS, 1.5, 0.05, 0.8, -1.0)}, r"surround: expected a number in \[0, 1\), got -1"),
+    ({"rules": (BINS, 1.5, 1.0, 0.8, 0.8)}, "min_prominence: expected"),
+    ({"rules": (BINS, 1.5, 0.05, 1.0, 0.8)}, r"density_memory: expected a number in \[0, 1\), got 1"),
+    ({"rules": (BINS, 1.5, 0.05, 0.8, -1.0)}, r"surround_weight: expected a number in \[0, 1\), got -1"),
     ({"blocks": (BLOCKS, PLACE, np.zeros(2, np.int64), np.zeros(3, np.int64))}, "states: expected 3 numbers"),
     (
         {"blocks": (BLOCKS, PLACE, np.zeros(3, np.int64), np.zeros(2, np.int64))},

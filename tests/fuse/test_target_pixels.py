@@ -168,7 +168,7 @@ def test_what_is_hardly_round_the_target(kernels: Kernels) -> None:
 @pytest.mark.parametrize("measured", [False, True])
 def test_says_what_is_likely(kernels: Kernels, measured: bool) -> None:
     """Drawn as the model says, target pixels from the densities, others evenly, or from the alternatives, a
-    tenth of each reading outside its range, P target pixels to 1 other by the prior: of pixels with a
+    tenth of each value outside its range, P target pixels to 1 other by the prior: of pixels with a
     posterior of about q a share q belongs to the target, within four standard deviations.
     """
     rng = np.random.default_rng(0)
@@ -196,7 +196,7 @@ def test_says_what_is_likely(kernels: Kernels, measured: bool) -> None:
 
 
 def prior(kernels: Kernels, shape: tuple[int, int], window: Any, candidate: Any) -> Floats:
-    """What the posterior says where readings say nothing."""
+    """What the posterior says where values say nothing."""
     arguments = case(shape, 1, 4, window=window, candidate=candidate, densities=[np.full(4, 0.25)])
     arguments["planes"] = [np.zeros(shape, np.float32)]
     share = kernels.target_pixels(**arguments)[1].astype(float)
@@ -234,7 +234,7 @@ def test_window_as_large_as_the_candidate(kernels: Kernels, window: Any) -> None
 
 
 def test_needs_every_cue(kernels: Kernels) -> None:
-    """A pixel that lacks one reading, or has one outside the range, isn't the target's, however sure the
+    """A pixel that lacks one value, or has one outside the range, isn't the target's, however sure the
     others are.
     """
     sure = np.zeros(8)
@@ -252,7 +252,7 @@ def test_needs_every_cue(kernels: Kernels) -> None:
 
 
 def test_no_density(kernels: Kernels) -> None:
-    """Of a density of zeros, which a histogram without readings has, nothing is the target's."""
+    """Of a density of zeros, which a histogram without values has, nothing is the target's."""
     arguments = case()
     arguments["densities"][1] = np.zeros(64)
     for found in kernels.target_pixels(**arguments):
@@ -271,7 +271,7 @@ def test_threshold(kernels: Kernels) -> None:
 
 @given(st.integers(0, 2**32), st.integers(0, 9), st.integers(0, 9))
 def test_moves_along(seed: int, right: int, down: int) -> None:
-    """Moved by whole pixels, rectangles and readings give the same pixels, moved."""
+    """Moved by whole pixels, rectangles and values give the same pixels, moved."""
     arguments = case((20, 30), seed=seed, window=(8, 4, 20, 15), candidate=(5, 2, 22, 17))
     moved = arguments | {
         name: tuple(np.add(arguments[name], (right, down, right, down))) for name in ("window", "candidate")

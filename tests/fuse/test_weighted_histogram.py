@@ -151,7 +151,7 @@ def test_parts_make_the_whole(kernels: Kernels) -> None:
 
 
 def test_all_that_counts_is_somewhere(kernels: Kernels) -> None:
-    """With a range that holds all readings the histogram's sum is that of the weights."""
+    """With a range that holds all values the histogram's sum is that of the weights."""
     rng = np.random.default_rng(8)
     values, weights = (rng.random((31, 43)).astype(np.float32) for _ in range(2))
     arguments = case((31, 43), values=values, weights=weights, low=0.0, high=1.0, bins=7)

@@ -17,14 +17,14 @@ FAR = np.float32(1e4)
 RING = np.uint8([[1, 1, 1], [1, 0, 1], [1, 1, 1]])
 
 
-def script(depth: Depth, gap: float, slope: float, ragged: float, passes: int) -> Depth:
+def script(depth: Depth, gap: float, slope: float, max_gap_share: float, passes: int) -> Depth:
     """The baseline: the nearest depth by erosion, then NumPy on the eight shifted views of a padded copy."""
     height, width = depth.shape
     for number in range(passes):
         known = depth > 0
         wide = np.pad(known, ((0, 0), (0, 4)))
         gaps = known & ~wide[:, 1:-3] & (wide[:, 2:-2] | wide[:, 3:-1] | wide[:, 4:])
-        if gaps.sum() <= (ragged / 2 if number > 0 else ragged) * known.sum():
+        if gaps.sum() <= (max_gap_share / 2 if number > 0 else max_gap_share) * known.sum():
             break
         far = np.where(known, depth, FAR)
         nearest = cv2.erode(far, RING, borderType=cv2.BORDER_CONSTANT, borderValue=float(FAR))

@@ -108,11 +108,12 @@ void fill_pass(PaddedDepth& image, float gap, float slope) {
 void require_gaps(const Gaps& gaps) {
     require_not_negative(gaps.gap, "gap");
     require_not_negative(gaps.slope, "slope");
-    if (!(gaps.ragged >= 0.0 && gaps.ragged <= 1.0)) refuse("ragged", "a share from 0 to 1", gaps.ragged);
+    if (!(gaps.max_gap_share >= 0.0 && gaps.max_gap_share <= 1.0))
+        refuse("max_gap_share", "a share from 0 to 1", gaps.max_gap_share);
     require_count(gaps.passes, 0, kMaxPasses, "passes");
 }
 
-bool is_ragged(const DepthView& depth, double share) {
+bool has_many_gaps(const DepthView& depth, double share) {
     const int words = (depth.cols + kWord - 1) / kWord + 1;
     std::vector<std::uint8_t> known(static_cast<std::size_t>(words) * kWord);
     std::int64_t measured = 0, gaps = 0;
@@ -125,17 +126,18 @@ bool is_ragged(const DepthView& depth, double share) {
     return static_cast<double>(gaps) > share * static_cast<double>(measured);
 }
 
-Floats fill_ragged(const DepthView& depth, const Gaps& gaps) {
+Floats run_passes(const DepthView& depth, const Gaps& gaps) {
     PaddedDepth image(depth);
-    for (int pass = 0; pass == 0 || (pass < gaps.passes && is_ragged(image.view(), gaps.ragged / 2)); ++pass)
+    for (int pass = 0;
+         pass == 0 || (pass < gaps.passes && has_many_gaps(image.view(), gaps.max_gap_share / 2)); ++pass)
         fill_pass(image, static_cast<float>(gaps.gap), static_cast<float>(gaps.slope));
     return copy_measured(image.view());
 }
 
-Floats fill_gaps(const DepthView& depth, double gap, double slope, double ragged, int passes) {
-    const Gaps gaps{gap, slope, ragged, passes};
+Floats fill_gaps(const DepthView& depth, double gap, double slope, double max_gap_share, int passes) {
+    const Gaps gaps{gap, slope, max_gap_share, passes};
     require_gaps(gaps);
-    return passes > 0 && is_ragged(depth, ragged) ? fill_ragged(depth, gaps) : copy_measured(depth);
+    return passes > 0 && has_many_gaps(depth, max_gap_share) ? run_passes(depth, gaps) : copy_measured(depth);
 }
 
 }  // namespace tricue

@@ -72,9 +72,9 @@ DepthForeground find_foreground(const DepthView& depth, int step, const Gaps& ga
     require_gaps(gaps);
     const Floats thinned = step > 1 ? thin(depth, step) : Floats();
     const DepthView whole = step > 1 ? view_of(thinned) : depth;
-    const bool ragged = gaps.passes > 0 && is_ragged(whole, gaps.ragged);
-    const Floats filled = ragged ? fill_ragged(whole, gaps) : Floats();
-    const DepthView seen = ragged ? view_of(filled) : whole;
+    const bool filling = gaps.passes > 0 && has_many_gaps(whole, gaps.max_gap_share);
+    const Floats filled = filling ? run_passes(whole, gaps) : Floats();
+    const DepthView seen = filling ? view_of(filled) : whole;
     return {above_floor(seen, camera, plane, space),
             plane_support(seen, camera, plane, floor.tolerance, floor.step), find_measured(seen, margin)};
 }

@@ -29,7 +29,7 @@ struct DepthForeground {
 ///
 /// @param depth float32 (H, W), meters
 /// @param step pixels, at least 1
-/// @param gaps (gap, slope, ragged, passes), as in fill_gaps
+/// @param gaps (gap, slope, max_gap_share, passes), as in fill_gaps
 /// @param camera float64 (4,): fx, fy, cx, cy of the thinned image, pixels, fx and fy above 0
 /// @param plane float64 (4,): the floor, as in above_floor; zeros for none
 /// @param floor (tolerance, step), as in plane_support

@@ -33,13 +33,13 @@ struct Pixels {
 
 struct Totals {
     double sum = 0.0;
-    std::int64_t readings = 0, targets = 0, similar = 0;
+    std::int64_t measured = 0, targets = 0, similar = 0;
 };
 
 /// Sums down four columns.
 struct ColumnSums {
     Doubles4 sum = {};
-    Ints4 readings = {}, similar = {};
+    Ints4 measured = {}, similar = {};
 };
 
 TRICUE_INLINE void add_four(const float* disparity, const Pixels& pixels, const Ints4& counted,
@@ -47,7 +47,7 @@ TRICUE_INLINE void add_four(const float* disparity, const Pixels& pixels, const 
     Floats4 values;
     load(disparity, values);
     const Ints4 finite = (values >= -kMaxFloat) & (values <= kMaxFloat) & counted;
-    sums.readings -= finite;
+    sums.measured -= finite;
     const Floats4 off = values - pixels.expected;
     sums.similar -= (off < pixels.tolerance) & (off > -pixels.tolerance) & finite;
     Ints4 bits;
@@ -89,7 +89,7 @@ TRICUE_INLINE void add_columns(const Pixels& pixels, int x, int begin, int end, 
     }
     totals.sum += sum(left.sum) + sum(right.sum);
     totals.targets += static_cast<std::int64_t>(targets);
-    totals.readings += sum_of(left.readings) + sum_of(right.readings);
+    totals.measured += sum_of(left.measured) + sum_of(right.measured);
     totals.similar += sum_of(left.similar) + sum_of(right.similar);
 }
 
@@ -99,7 +99,7 @@ inline void add_column(const Pixels& pixels, int x, Totals& totals) {
         const float value = pixels.disparity[y * pixels.disparity_stride + x];
         const bool finite = std::abs(value) <= kMaxFloat;
         totals.sum += static_cast<double>(finite ? value : 0.0f);
-        totals.readings += finite;
+        totals.measured += finite;
         totals.similar += finite && std::abs(value - pixels.expected) < pixels.tolerance;
         totals.targets += pixels.mask[y * pixels.mask_stride + x] != 0;
     }
@@ -131,12 +131,12 @@ BlockCounts count_blocks(const ImageView& mask, const PlaneView& disparity, cons
             add_block({disparity.row(part.y0), disparity.stride, mask.row(part.y0), mask.stride, rows,
                        expected, tolerance},
                       part.x0, part.x1, disparity.cols, totals);
-        const auto readings = static_cast<double>(totals.readings);
+        const auto measured = static_cast<double>(totals.measured);
         counts.pixels[i] = std::int64_t{rows} * cols;
         counts.targets[i] = totals.targets;
-        counts.readings[i] = totals.readings;
+        counts.measured[i] = totals.measured;
         counts.similar[i] = totals.similar;
-        counts.mean[i] = readings > 0.0 ? totals.sum / readings : std::numeric_limits<double>::quiet_NaN();
+        counts.mean[i] = measured > 0.0 ? totals.sum / measured : std::numeric_limits<double>::quiet_NaN();
     }
     return counts;
 }

@@ -50,10 +50,12 @@ def by_hand(depth: Depth, gap: float, slope: float) -> NDArray[np.float64]:
     st.sampled_from([0.0, 0.25, 1.0]),
     st.integers(0, 3),
 )
-def test_twin_fills_the_same(depth: Depth, gap: float, slope: float, ragged: float, passes: int) -> None:
+def test_twin_fills_the_same(
+    depth: Depth, gap: float, slope: float, max_gap_share: float, passes: int
+) -> None:
     """Native and reference agree to the last bit in any depth: both compute in float32, in one order."""
-    native = _core.fill_gaps(depth, gap, slope, ragged, passes)
-    assert_array_equal(native, reference.fill_gaps(depth, gap, slope, ragged, passes), strict=True)
+    native = _core.fill_gaps(depth, gap, slope, max_gap_share, passes)
+    assert_array_equal(native, reference.fill_gaps(depth, gap, slope, max_gap_share, passes), strict=True)
 
 
 @pytest.mark.parametrize("passes", [1, 3])
@@ -117,21 +119,21 @@ def test_ragged_is_a_share_of_the_measured(kernels: Kernels) -> None:
 
 @pytest.mark.parametrize(("length", "small"), [(1, True), (3, True), (4, False), (0, False)])
 def test_small_gaps_are_up_to_three_pixels_between_others(kernels: Kernels, length: int, small: bool) -> None:
-    """Only gaps of one to three pixels make an image ragged: not four, nor what a row begins or ends with."""
+    """Only gaps of one to three pixels count: not of four, nor what a row begins or ends with."""
     depth = np.full((2, 12), np.nan, np.float32)
     depth[:, 2:4] = depth[:, 4 + length : 6 + length] = 2
     changed = np.isfinite(kernels.fill_gaps(depth, GAP, SLOPE, 0.0, 1)) & np.isnan(depth)
     assert changed.any() == small
 
 
-@pytest.mark.parametrize(("ragged", "left"), [(0.06, 3), (0.04, 0)])
-def test_goes_on_until_half_as_ragged(kernels: Kernels, ragged: float, left: int) -> None:
+@pytest.mark.parametrize(("max_gap_share", "left"), [(0.06, 3), (0.04, 0)])
+def test_goes_on_until_half_as_many(kernels: Kernels, max_gap_share: float, left: int) -> None:
     """After one pass a gap is left in the middle of the widest, on 39 pixels of a row, 0.026: that is less
     than half of 0.06, and more than half of 0.04, though less than 0.04 itself.
     """
     depth = np.full((3, 40), 2, np.float32)
     depth[:, 4:28:6] = depth[:, 33:36] = np.nan
-    assert np.isnan(kernels.fill_gaps(depth, GAP, SLOPE, ragged, 2)).sum() == left
+    assert np.isnan(kernels.fill_gaps(depth, GAP, SLOPE, max_gap_share, 2)).sum() == left
 
 
 def test_nearer_surface_wins(kernels: Kernels) -> None:
@@ -147,7 +149,7 @@ def test_each_pass_reaches_a_pixel_farther(kernels: Kernels) -> None:
     depth = np.full((9, 30), np.nan, np.float32)
     depth[:, :9] = 3
     depth[2:7, 2:7] = np.nan
-    depth[4, [25, 27]] = 1, 5  # two surfaces of one pixel: this gap stays, and the image ragged
+    depth[4, [25, 27]] = 1, 5  # two surfaces of one pixel: this gap stays, and there are many
     filled = (kernels.fill_gaps(depth, GAP, SLOPE, 0.0, passes)[:, :9] for passes in range(5))
     left = [int(np.isnan(each).sum()) for each in filled]
     assert left == [25, 9, 1, 0, 0]
@@ -177,9 +179,9 @@ def test_all_holes_are_gaps(kernels: Kernels, hole: float) -> None:
         ((-0.1, 0.0, 0.0, 1), "gap: expected a finite number, not negative, got -0.1"),
         ((np.nan, 0.0, 0.0, 1), "gap: expected a finite number, not negative, got nan"),
         ((0.0, np.inf, 0.0, 1), "slope: expected a finite number, not negative, got inf"),
-        ((0.0, 0.0, -0.5, 1), "ragged: expected a share from 0 to 1, got -0.5"),
-        ((0.0, 0.0, 1.5, 1), "ragged: expected a share from 0 to 1, got 1.5"),
-        ((0.0, 0.0, np.nan, 1), "ragged: expected a share from 0 to 1, got nan"),
+        ((0.0, 0.0, -0.5, 1), "max_gap_share: expected a share from 0 to 1, got -0.5"),
+        ((0.0, 0.0, 1.5, 1), "max_gap_share: expected a share from 0 to 1, got 1.5"),
+        ((0.0, 0.0, np.nan, 1), "max_gap_share: expected a share from 0 to 1, got nan"),
         ((0.0, 0.0, 0.0, -1), "passes: expected 0 to 1000, got -1"),
     ],
 )

@@ -39,10 +39,12 @@ def assert_same(values: dict[str, Any]) -> None:
 
 
 @pytest.mark.parametrize("step", [1, 2, 3, 2**31 - 1])
-@pytest.mark.parametrize("ragged", [0.0, 0.06, 1.0])
-def test_twin_finds_the_same_in_pictures(picture: Depth, camera: Floats, step: int, ragged: float) -> None:
+@pytest.mark.parametrize("max_gap_share", [0.0, 0.06, 1.0])
+def test_twin_finds_the_same_in_pictures(
+    picture: Depth, camera: Floats, step: int, max_gap_share: float
+) -> None:
     """Native and reference agree on pictures of awkward sizes and layouts, thinned or not, filled or not."""
-    assert_same(arguments(picture, camera, step=step, gaps=(0.06, 0.01, ragged, 3)))
+    assert_same(arguments(picture, camera, step=step, gaps=(0.06, 0.01, max_gap_share, 3)))
 
 
 @pytest.mark.parametrize("passes", [0, 3])
@@ -91,7 +93,7 @@ def test_nothing_measured(kernels: Kernels, camera: Floats) -> None:
         ({"step": 0}, "step: expected at least 1, got 0"),
         ({"margin": 1.5}, r"margin: expected a number in \[0, 1\], got 1.5"),
         ({"gaps": (-1.0, 0.0, 0.0, 0)}, "gap: expected a finite number, not negative, got -1"),
-        ({"gaps": (1.0, 0.0, 2.0, 0)}, "ragged: expected a share from 0 to 1, got 2"),
+        ({"gaps": (1.0, 0.0, 2.0, 0)}, "max_gap_share: expected a share from 0 to 1, got 2"),
         ({"camera": np.ones(3)}, r"camera: expected shape \(4,\), got \(3,\)"),
         ({"plane": np.ones(3)}, r"plane: expected shape \(4,\), got \(3,\)"),
         ({"floor": (0.0, 1)}, "tolerance: expected a finite number above 0, got 0"),

@@ -23,15 +23,15 @@ def block_counts(
     """Counts the pixels of one block at a time."""
     require_shape("mask", mask, disparity.shape)
     require_shape("blocks", blocks, (len(blocks), 4))
-    pixels, targets, readings, similar = (np.zeros(len(blocks), np.int64) for _ in range(4))
+    pixels, targets, measured, similar = (np.zeros(len(blocks), np.int64) for _ in range(4))
     mean = np.full(len(blocks), np.nan)
     for i, (x0, y0, x1, y1) in enumerate(blocks):
         inside = rectangle_pixels((x0, y0, x1, y1), mask.shape, "blocks")
         seen = disparity[inside]
         seen_finite = seen[np.isfinite(seen)]
         similar[i] = np.count_nonzero(np.abs(seen_finite - np.float32(expected)) < np.float32(tolerance))
-        pixels[i], readings[i] = seen.size, seen_finite.size
+        pixels[i], measured[i] = seen.size, seen_finite.size
         targets[i] = np.count_nonzero(mask[inside])
         if seen_finite.size:
             mean[i] = seen_finite.astype(np.float64).mean()
-    return pixels, targets, readings, mean, similar
+    return pixels, targets, measured, mean, similar

@@ -21,8 +21,8 @@ def block_votes(
     against: Counts,
     core: Flags,
     trusted: Counts,
-    unproven: Counts,
-    cells: Counts,
+    without_pixels: Counts,
+    pixels: Counts,
     targets: Counts,
     measured: Counts,
     mean: Floats,
@@ -36,27 +36,27 @@ def block_votes(
     for name in tuple(arguments)[1:11]:
         if len(arguments[name]) != len(states):
             refuse(name, f"{len(states)} numbers", len(arguments[name]))
-    for name in ("votes", "against", "trusted", "unproven"):
+    for name in ("votes", "against", "trusted", "without_pixels"):
         for count in arguments[name]:
             if not 0 <= count <= MAX_FRAMES:
                 refuse(name, f"0 to {MAX_FRAMES} frames", count)
     for state in states:
         if state not in (OTHER, TARGET, OCCLUDED):
             refuse("states", "0, 1 or 2", state)
-    (target_disparity, tolerance, occluder), (to_add, to_remove, to_release, max_unproven) = (
+    (target_disparity, tolerance, occluder), (to_add, to_remove, to_release, max_without_pixels) = (
         disparities,
         frames,
     )
-    inside = cells > 0
-    has_mean = (measured >= MIN_MEASURED_SHARE * cells) & inside
-    found = (targets >= min_share * cells) & inside
-    same_depth = (similar >= min_share * cells) & inside
+    inside = pixels > 0
+    has_mean = (measured >= MIN_MEASURED_SHARE * pixels) & inside
+    found = (targets >= min_share * pixels) & inside
+    same_depth = (similar >= min_share * pixels) & inside
     hidden = (mean > occluder) & has_mean & ~found
     near = (np.abs(mean - target_disparity) <= tolerance) & has_mean
     target, occluded = states == TARGET, states == OCCLUDED
 
-    unproven = np.where(found, 0, unproven + (same_depth & ~hidden))
-    core = core & (unproven < max_unproven)
+    without_pixels = np.where(found, 0, without_pixels + (same_depth & ~hidden))
+    core = core & (without_pixels < max_without_pixels)
     votes = np.where(found | (same_depth & core), votes + 1, np.maximum(votes - inside, 0))
     away = ~found & ~same_depth & ~hidden & has_mean
     against = np.where(
@@ -69,8 +69,8 @@ def block_votes(
     after[target & hidden] = OCCLUDED
     after[occluded & (against >= to_release)] = OTHER
     after[occluded & near] = TARGET
-    after[target & ((against >= to_remove) | (unproven >= max_unproven))] = OTHER
+    after[target & ((against >= to_remove) | (without_pixels >= max_without_pixels))] = OTHER
     votes = np.where((after == OTHER) & (target | occluded), 0, np.minimum(votes, to_add))
     against = np.where(after == states, against, 0)
     trusted = np.where(found, TRUSTED_FRAMES, np.where(hidden, trusted, np.maximum(trusted - 1, 0)))
-    return after, votes, against, core, trusted, unproven
+    return after, votes, against, core, trusted, without_pixels

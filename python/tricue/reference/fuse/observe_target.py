@@ -48,10 +48,11 @@ def observe_target(
         require_shape("disparity", disparity, kept.shape)
     distances = np.full(kept.shape, np.nan, np.float32) if disparity is None else disparity
     target, tolerance, occluder = limits
-    pixels, targets, readings, mean, similar = block_counts(
+    pixels, targets, measured, mean, similar = block_counts(
         kept, distances, placed(corners, place), target, tolerance
     )
-    measured = pixels if disparity is None else readings
+    if disparity is None:
+        measured = pixels
     mine = (states != 0) & (pixels > 0)
     hidden = mine & (measured >= MIN_MEASURED_SHARE * pixels) & (mean > occluder)
     share = int(np.count_nonzero(hidden)) / max(int(np.count_nonzero(mine)), 1)

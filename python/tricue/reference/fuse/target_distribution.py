@@ -10,10 +10,14 @@ EQUAL = 1e-9  # of the peak; heights that differ by less are equal
 
 
 def target_distribution(
-    histogram: Floats, smoothing: float, ripple: float = 0.05, expected: float = np.nan, spread: float = 1.0
+    histogram: Floats,
+    smoothing: float,
+    min_prominence: float = 0.05,
+    expected: float = np.nan,
+    spread: float = 1.0,
 ) -> tuple[Floats, float]:
     """Smooths, finds the peak, then cuts off each side at its minimum."""
-    _require(histogram, smoothing, ripple, expected, spread)
+    _require(histogram, smoothing, min_prominence, expected, spread)
     if not histogram.any():
         return np.zeros(len(histogram)), np.nan
     smooth = _smoothed(histogram / histogram.max(), smoothing)
@@ -21,7 +25,7 @@ def target_distribution(
     height = float(smooth[peak])  # P_obj is (at, height)
     density = smooth.copy()
     for bins in (np.arange(peak, -1, -1), np.arange(peak, len(smooth))):
-        minimum = _minimum(smooth[bins], height, max(ripple, EQUAL))
+        minimum = _minimum(smooth[bins], height, max(min_prominence, EQUAL))
         if minimum is not None:
             beyond, least = bins[minimum + 1 :], smooth[bins[minimum]]  # P_+ or P_-
             density[beyond] = 0
@@ -98,7 +102,9 @@ def _minimum(side: Floats, height: float, rise: float) -> int | None:
     return None
 
 
-def _require(histogram: Floats, smoothing: float, ripple: float, expected: float, spread: float) -> None:
+def _require(
+    histogram: Floats, smoothing: float, min_prominence: float, expected: float, spread: float
+) -> None:
     if len(histogram) < 1:
         refuse("histogram", "at least one bin", "none")
     strange = histogram[~(np.isfinite(histogram) & (histogram >= 0))]
@@ -106,8 +112,8 @@ def _require(histogram: Floats, smoothing: float, ripple: float, expected: float
         refuse("histogram", "finite numbers, none negative", float(strange[0]))
     if not 0 <= smoothing <= len(histogram):
         refuse("smoothing", f"a number in [0, {len(histogram)}]", float(smoothing))
-    if not 0 <= ripple < 1:
-        refuse("ripple", "a number in [0, 1)", float(ripple))
+    if not 0 <= min_prominence < 1:
+        refuse("min_prominence", "a number in [0, 1)", float(min_prominence))
     if np.isinf(expected):
         refuse("expected", "a finite number or NaN", float(expected))
     if not spread > 0:

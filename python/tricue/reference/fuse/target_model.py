@@ -22,7 +22,7 @@ Peak = tuple[float, float, float]
 Blocks = tuple[Floats, Place, Counts, Counts]
 Former = tuple[Floats, Sequence[float], Sequence[float]]
 
-MAX_READING = 1e6  # pixels: above any disparity or flow
+MAX_VALUE = 1e6  # pixels: above any disparity or flow
 MIN_DENSITY_SUM = 1e-300  # keeps a density of zeros from a division by 0
 
 
@@ -36,7 +36,7 @@ def target_model(
     rules: tuple[int, float, float, float, float],
 ) -> tuple[Floats, Floats, Floats]:
     """Computes the histograms and densities of one map at a time."""
-    bins, smoothing, ripple, memory, surround = rules
+    bins, smoothing, min_prominence, density_memory, surround_weight = rules
     _require(maps, expected, blocks, before, rules, window)
     last = maps[-1][0]
     target = _target_mask(blocks, last.shape)
@@ -49,15 +49,15 @@ def target_model(
         low, high, width = value - half_range, value + half_range, 2 * half_range / bins
         counted = target if i + 1 == len(maps) else target & near
         histogram = weighted_histogram(values, weights, window, low, high, bins, counted)
-        density, peak = target_distribution(histogram, smoothing, ripple, bins / 2, deviation / width)
+        density, peak = target_distribution(histogram, smoothing, min_prominence, bins / 2, deviation / width)
         if math.isnan(peak):
             peak = bins / 2
-        elif before is not None and memory:
+        elif before is not None and density_memory:
             former, lows, places = before
-            density = _blend(density, former[i], (places[i] - lows[i]) / width - peak, memory)
+            density = _blend(density, former[i], (places[i] - lows[i]) / width - peak, density_memory)
         densities.append(density)
         alternatives.append(
-            _alternative(values, weights, (low, high), 1 - target, (bins, smoothing, surround))
+            _alternative(values, weights, (low, high), 1 - target, (bins, smoothing, surround_weight))
         )
         peaks.append(low + peak * width)
     return np.array(densities), np.array(alternatives), np.array(peaks)
@@ -89,7 +89,7 @@ def _alternative(
     bins, smoothing, share = rules
     height, width = surround.shape
     whole = 0.0, 0.0, float(width), float(height)
-    total = weighted_histogram(values, weights, whole, -MAX_READING, MAX_READING, 1, surround)[0]
+    total = weighted_histogram(values, weights, whole, -MAX_VALUE, MAX_VALUE, 1, surround)[0]
     if not (share and total > 0):
         return np.full(bins, 1 / bins)
     histogram = weighted_histogram(values, weights, whole, *ends, bins, surround)
@@ -135,11 +135,17 @@ def _require_maps(maps: Sequence[tuple[Plane, Plane]]) -> None:
                 refuse("maps", f"shape {maps[0][0].shape}", plane.shape)
 
 
-def _require_rules(bins: int, smoothing: float, ripple: float, memory: float, surround: float) -> None:
+def _require_rules(
+    bins: int, smoothing: float, min_prominence: float, density_memory: float, surround_weight: float
+) -> None:
     if bins < 2:
         refuse("bins", "2 to 65536", bins)
     if not smoothing > 0:
         refuse("smoothing", "a number above 0", float(smoothing))
-    for name, share in (("ripple", ripple), ("memory", memory), ("surround", surround)):
+    for name, share in (
+        ("min_prominence", min_prominence),
+        ("density_memory", density_memory),
+        ("surround_weight", surround_weight),
+    ):
         if not 0 <= share < 1:
             refuse(name, "a number in [0, 1)", float(share))

@@ -39,7 +39,7 @@ def target_pixels(
 
 
 def _ratios(density: Floats, alternative: Floats | None) -> Plane:
-    """(bins + 1,): the likelihood ratio of target and alternative; the last, 0, is for no reading."""
+    """(bins + 1,): the likelihood ratio of target and alternative; the last, 0, is for no value."""
     if alternative is None:
         return np.append(density * len(density), 0).astype(np.float32)
     with np.errstate(over="ignore"):

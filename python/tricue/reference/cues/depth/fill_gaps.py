@@ -14,19 +14,19 @@ VOTES = 2  # smallest number of neighbors on the nearest surface
 
 
 def fill_gaps(
-    depth: NDArray[np.float32], gap: float, slope: float, ragged: float, passes: int
+    depth: NDArray[np.float32], gap: float, slope: float, max_gap_share: float, passes: int
 ) -> NDArray[np.float32]:
-    """Fills from the 8 shifted images, again as long as the image is ragged."""
+    """Fills from the 8 shifted images, again as long as the image has many gaps."""
     for name, value in (("gap", gap), ("slope", slope)):
         if not 0 <= value < np.inf:
             refuse(name, "a finite number, not negative", float(value))
-    if not 0 <= ragged <= 1:
-        refuse("ragged", "a share from 0 to 1", float(ragged))
+    if not 0 <= max_gap_share <= 1:
+        refuse("max_gap_share", "a share from 0 to 1", float(max_gap_share))
     require_count("passes", passes, 0, MAX_PASSES)
     image = np.where(has_depth(depth), depth, np.float32(np.nan))
     for number in range(passes):
         measured = np.isfinite(image)
-        least = ragged / 2 if number > 0 else ragged
+        least = max_gap_share / 2 if number > 0 else max_gap_share
         if _small_gaps(measured) <= least * measured.sum():
             break
         image = np.where(measured, image, _surfaces(image, gap, slope))
