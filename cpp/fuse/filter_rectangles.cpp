@@ -52,14 +52,14 @@ public:
         : depth_(depth),
           camera_(camera),
           by_(by),
-          contrast_(depth, camera, contrast_model(), by.places, by.nearer) {}
+          contrast_(depth, camera, contrast_model(), by.places, by.occluder_margin) {}
 
     /// (N, 4) as by depth_contrast, but with the distance from the model in the model's own levels.
     States measure(StatesRef states, bool with_nearer) {
         States measured = contrast_.measure(states, with_nearer);
         if (!is_one_range())
             measured.col(0) = depth_distance(depth_, project(camera_, states, by_.middle), by_.model,
-                                             grid_pattern(by_.places), by_.nearer)
+                                             grid_pattern(by_.places), by_.occluder_margin)
                                   .col(0);
         return measured;
     }

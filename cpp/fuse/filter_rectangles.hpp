@@ -29,7 +29,7 @@ struct DepthLikelihood {
     DepthModel model;
     double middle;
     Places places;
-    double reach, nearer;
+    double reach, occluder_margin;
     bool linear;
     double sharpness, contrast;
 };
@@ -67,7 +67,7 @@ struct FilteredRectangles {
 /// @param grid (rows, columns), as in depth_contrast
 /// @param ring (margin, along), as in depth_contrast
 /// @param reach of the shares inside and around, meters, as in depth_contrast
-/// @param nearer meters, as in depth_contrast
+/// @param occluder_margin meters, as in depth_contrast
 /// @param likelihood (linear, sharpness, contrast): nats
 /// @param mean_size (size, spread), as in rectangle_prior
 /// @param measured (state, deviation, max_cost), as in rectangle_prior

@@ -34,14 +34,15 @@ PlaneView view(const Floats& plane) {
     return {plane.data(), static_cast<int>(plane.rows()), static_cast<int>(plane.cols()), plane.cols()};
 }
 
-/// The contrast of the posterior between the target's box and the frame around it; empty if there is no posterior.
+/// The contrast of the posterior between the target's box and its surround; empty if there is no posterior.
 Floats find_contrast(const ImageView& patch, FloatsRef table, const PlaneView& other,
                      const TargetSearch& search) {
-    const FramedBox box{search.width, search.height, search.outer};
-    if (table.size() == 0) return other.rows == 0 ? Floats() : box_contrast(other, box, search.around);
+    const SurroundedBox box{search.width, search.height, search.surround_size};
+    if (table.size() == 0)
+        return other.rows == 0 ? Floats() : box_contrast(other, box, search.surround_weight);
     Floats posterior = color_posterior(patch, table);
     if (other.rows > 0) posterior = combine_posteriors(view(posterior), other);
-    return box_contrast(view(posterior), box, search.around);
+    return box_contrast(view(posterior), box, search.surround_weight);
 }
 
 using Four = Pack<double, 4>;

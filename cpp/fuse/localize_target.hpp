@@ -18,7 +18,7 @@ struct TargetLook {
 /// How a target is searched for in a patch.
 struct TargetSearch {
     double width, height;                   ///< of the target's box, patch pixels, finite, above 0
-    double outer, around;                   ///< as box_contrast has them
+    double surround_size, surround_weight;  ///< as box_contrast has them
     double filter_weight, contrast_weight;  ///< as evidence_peak has them
     double inner;                           ///< share of the box's sides whose colors are compared, above 0
 };
@@ -46,7 +46,7 @@ struct LocalizedTarget {
 /// @param other float32 (2R, 2C), P(target) of the pixels by another cue, or (0, 0) where there is none
 /// @param roots float64 (B³,), B a power of two up to 64
 /// @param width, height of the box, patch pixels, finite, above 0
-/// @param outer, around as box_contrast takes them
+/// @param surround_size, surround_weight as box_contrast takes them
 /// @param filter_weight, contrast_weight as evidence_peak takes them; without any posterior there is no contrast
 /// @param inner finite, above 0
 /// @throws std::invalid_argument on other shapes, or numbers out of range

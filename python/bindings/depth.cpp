@@ -59,11 +59,11 @@ Bytes depth_picture_arrays(const Array<float>& depth, double z, double reach) {
 
 std::tuple<Array<float>, Bytes> depth_posterior_arrays(const Array<float>& depth, double x0, double y0,
                                                        double step, int rows, int columns, double expected,
-                                                       double sigma, double near_margin) {
+                                                       double sigma, double occluder_margin) {
     const auto view = depth_image(depth, "depth");
     const SampleGrid grid{x0, y0, step, rows, columns};
     auto found = unlocked(work_of(rows, columns),
-                          [&] { return depth_posterior(view, grid, {expected, sigma, near_margin}); });
+                          [&] { return depth_posterior(view, grid, {expected, sigma, occluder_margin}); });
     return {give(std::move(found.posterior)), give(std::move(found.nearer))};
 }
 
@@ -178,7 +178,7 @@ void define_depth(py::module_& m) {
           docs::depth_picture);
     m.def("depth_posterior", depth_posterior_arrays, py::arg("depth"), py::arg("x0"), py::arg("y0"),
           py::arg("step"), py::arg("rows"), py::arg("columns"), py::arg("expected"), py::arg("sigma"),
-          py::arg("near_margin"), docs::depth_posterior);
+          py::arg("occluder_margin"), docs::depth_posterior);
     m.def("divide_depth", divide_depth_arrays, py::arg("depth"), py::arg("mask"), py::arg("dividers"),
           docs::divide_depth);
     m.def("find_foreground", find_foreground_arrays, py::arg("depth"), py::arg("step"), py::arg("gaps"),

@@ -13,7 +13,7 @@ std::tuple<Doubles, Doubles, Doubles, Doubles, Doubles, Doubles> filter_rectangl
     double offset, const Doubles& noise, std::pair<Doubles, Doubles> dynamics,
     std::pair<Doubles, Doubles> bounds, std::tuple<Doubles, Doubles, double> detection,
     std::pair<Doubles, double> refinement, const Doubles& model, std::pair<double, double> levels,
-    std::pair<int, int> grid, std::pair<double, int> ring, double reach, double nearer,
+    std::pair<int, int> grid, std::pair<double, int> ring, double reach, double occluder_margin,
     std::tuple<bool, double, double> likelihood, std::pair<Doubles, Doubles> mean_size,
     std::tuple<Doubles, Doubles, double> measured) {
     const auto image = depth_image(depth, "depth");
@@ -30,7 +30,7 @@ std::tuple<Doubles, Doubles, Doubles, Doubles, Doubles, Doubles> filter_rectangl
                              levels.first,
                              {grid.first, grid.second, ring.first, ring.second},
                              reach,
-                             nearer,
+                             occluder_margin,
                              linear,
                              sharpness,
                              contrast};
@@ -52,8 +52,8 @@ void define_depth_filter(py::module_& m) {
     m.def("filter_rectangles", filter_rectangles_arrays, py::arg("depth"), py::arg("camera"),
           py::arg("particles"), py::arg("weights"), py::arg("offset"), py::arg("noise"), py::arg("dynamics"),
           py::arg("bounds"), py::arg("detection"), py::arg("refinement"), py::arg("model"), py::arg("levels"),
-          py::arg("grid"), py::arg("ring"), py::arg("reach"), py::arg("nearer"), py::arg("likelihood"),
-          py::arg("mean_size"), py::arg("measured"), docs::filter_rectangles);
+          py::arg("grid"), py::arg("ring"), py::arg("reach"), py::arg("occluder_margin"),
+          py::arg("likelihood"), py::arg("mean_size"), py::arg("measured"), docs::filter_rectangles);
 }
 
 }  // namespace tricue::bindings

@@ -42,13 +42,13 @@ depth_components_arrays(const Array<std::uint8_t>& labels, const Array<float>& d
 
 Array<double> depth_distance_arrays(const Array<float>& depth, const Array<double>& rectangles,
                                     const Array<double>& model, const Array<double>& pattern, double reach,
-                                    double nearer) {
+                                    double occluder_margin) {
     const auto meters = depth_image(depth, "depth");
     const auto each = states(rectangles, "rectangles");
     const DepthModel target{vector(model, "model"), reach};
     const auto places = states(pattern, "pattern");
     return give(unlocked(each.rows() * places.rows(),
-                         [&] { return depth_distance(meters, each, target, places, nearer); }));
+                         [&] { return depth_distance(meters, each, target, places, occluder_margin); }));
 }
 
 Array<double> rectangle_histogram_arrays(const Array<float>& depth, const Array<double>& rectangle,
@@ -63,25 +63,26 @@ Array<double> rectangle_histogram_arrays(const Array<float>& depth, const Array<
 Array<double> depth_contrast_arrays(const Array<float>& depth, const Array<double>& camera,
                                     const Array<double>& states_, const Array<double>& model,
                                     std::pair<int, int> grid, std::pair<double, int> ring, double reach,
-                                    double nearer) {
+                                    double occluder_margin) {
     const auto meters = depth_image(depth, "depth");
     const auto lens = vector(camera, "camera");
     const auto each = states(states_, "states");
     const DepthModel target{vector(model, "model"), reach};
     const Places places{grid.first, grid.second, ring.first, ring.second};
     const auto work = work_of(grid.first, grid.second, each.rows());
-    return give(unlocked(work, [&] { return depth_contrast(meters, lens, each, target, places, nearer); }));
+    return give(
+        unlocked(work, [&] { return depth_contrast(meters, lens, each, target, places, occluder_margin); }));
 }
 
 Array<bool> cut_sides_arrays(const Array<float>& depth, const Array<double>& table,
-                             const Array<double>& camera, int border, double beside, double nearer,
+                             const Array<double>& camera, int border, double beside, double occluder_margin,
                              double share) {
     const auto meters = depth_image(depth, "depth");
     const auto boxes = states(table, "table");
     const auto lens = vector(camera, "camera");
     const auto work = boxes.rows() * 48;  // places
-    return give(
-        unlocked(work, [&] { return cut_sides(meters, boxes, lens, {border, beside, nearer, share}); }));
+    return give(unlocked(
+        work, [&] { return cut_sides(meters, boxes, lens, {border, beside, occluder_margin, share}); }));
 }
 
 Eigen::Map<const Flags> flags(const Array<bool>& object, const char* name, int columns) {
@@ -169,8 +170,8 @@ std::tuple<Array<double>, Array<bool>, Array<float>, Array<float>> segment_depth
     const auto [near, far, count] = levels;
     const Divisions divisions{{near, far, count}, edges.first,    edges.second,
                               density.first,      density.second, min_area};
-    const auto [border, beside, nearer, share] = cut;
-    const Cut sides{border, beside, nearer, share};
+    const auto [border, beside, occluder_margin, share] = cut;
+    const Cut sides{border, beside, occluder_margin, share};
     auto found = unlocked(std::ptrdiff_t{meters.rows} * meters.cols, [&] {
         return segment_depth(meters, searched, lens, floor, region_of(measured), divisions, sides, feet);
     });
@@ -189,9 +190,10 @@ void define_depth_objects(py::module_& m) {
           py::arg("deviation"), py::arg("unknown"), py::arg("signature_cost"), py::arg("gate"),
           py::arg("complete"), docs::match_object);
     m.def("cut_sides", cut_sides_arrays, py::arg("depth"), py::arg("table"), py::arg("camera"),
-          py::arg("border"), py::arg("beside"), py::arg("nearer"), py::arg("share"), docs::cut_sides);
+          py::arg("border"), py::arg("beside"), py::arg("occluder_margin"), py::arg("share"),
+          docs::cut_sides);
     m.def("depth_contrast", depth_contrast_arrays, py::arg("depth"), py::arg("camera"), py::arg("states"),
-          py::arg("model"), py::arg("grid"), py::arg("ring"), py::arg("reach"), py::arg("nearer"),
+          py::arg("model"), py::arg("grid"), py::arg("ring"), py::arg("reach"), py::arg("occluder_margin"),
           docs::depth_contrast);
     m.def("depth_density", depth_density_arrays, py::arg("histogram"), py::arg("bandwidth"),
           docs::depth_density);
@@ -205,7 +207,7 @@ void define_depth_objects(py::module_& m) {
           py::arg("far"), py::arg("levels"), py::arg("bins"), py::arg("min_area"), py::arg("image"),
           docs::depth_components);
     m.def("depth_distance", depth_distance_arrays, py::arg("depth"), py::arg("rectangles"), py::arg("model"),
-          py::arg("pattern"), py::arg("reach"), py::arg("nearer"), docs::depth_distance);
+          py::arg("pattern"), py::arg("reach"), py::arg("occluder_margin"), docs::depth_distance);
     m.def("measure_objects", measure_objects_arrays, py::arg("table"), py::arg("columns"), py::arg("rows"),
           py::arg("cut"), py::arg("camera"), py::arg("plane"), py::arg("feet"), docs::measure_objects);
     m.def("rectangle_histogram", rectangle_histogram_arrays, py::arg("depth"), py::arg("rectangle"),

@@ -61,11 +61,12 @@ PlaneView map(const Array<float>& plane) {
     return plane_view(plane, "plane", "a float32 map (H, W)");
 }
 
-Array<float> box_contrast_arrays(const Array<float>& plane, double width, double height, double outer,
-                                 double around) {
+Array<float> box_contrast_arrays(const Array<float>& plane, double width, double height, double surround_size,
+                                 double surround_weight) {
     const auto view = map(plane);
-    return give(unlocked(std::ptrdiff_t{view.rows} * view.cols,
-                         [&] { return box_contrast(view, {width, height, outer}, around); }));
+    return give(unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] {
+        return box_contrast(view, {width, height, surround_size}, surround_weight);
+    }));
 }
 
 }  // namespace
@@ -81,7 +82,7 @@ void define_patch(py::module_& m) {
           docs::color_posterior);
     m.def("pick_pixels", pick_pixels_arrays, py::arg("image"), py::arg("places"), docs::pick_pixels);
     m.def("box_contrast", box_contrast_arrays, py::arg("plane"), py::arg("width"), py::arg("height"),
-          py::arg("outer"), py::arg("around"), docs::box_contrast);
+          py::arg("surround_size"), py::arg("surround_weight"), docs::box_contrast);
 }
 
 }  // namespace tricue::bindings

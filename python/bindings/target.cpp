@@ -40,8 +40,8 @@ std::ptrdiff_t work(const ImageView& patch) {
 std::tuple<Array<double>, Floating> localize_target_arrays(const Bytes& patch, const Floating& taper,
                                                            const Complex& filters, const Floating& table,
                                                            const Floating& other, const Array<double>& roots,
-                                                           double width, double height, double outer,
-                                                           double around, double filter_weight,
+                                                           double width, double height, double surround_size,
+                                                           double surround_weight, double filter_weight,
                                                            double contrast_weight, double inner) {
     const auto view = color_image(patch, "patch");
     const auto weights = plane(taper, "taper", kTaper);
@@ -49,7 +49,8 @@ std::tuple<Array<double>, Floating> localize_target_arrays(const Bytes& patch, c
     const auto rule = color_cube(table);
     const auto others = posterior(other);
     const auto colors = vector(roots, "roots");
-    const TargetSearch search{width, height, outer, around, filter_weight, contrast_weight, inner};
+    const TargetSearch search{width,         height,          surround_size, surround_weight,
+                              filter_weight, contrast_weight, inner};
     auto place = unlocked(
         work(view), [&] { return localize_target(view, weights, {models, rule, colors}, others, search); });
     return {give(std::move(place.found)),
@@ -112,14 +113,16 @@ std::tuple<Complex, Floating, Complex> learn_size_filter_arrays(
 }
 
 std::tuple<Floating, Floating, Floating> learn_patch_colors_arrays(
-    const Bytes& patch, const Floating& other, double width, double height, double outer, double least_own,
-    double most_other, const Floating& target, const Floating& surround, double rate, double rare) {
+    const Bytes& patch, const Floating& other, double width, double height, double min_surround_size,
+    double min_target_posterior, double max_surround_posterior, const Floating& target,
+    const Floating& surround, double rate, double rare) {
     const auto view = color_image(patch, "patch");
     const auto others = posterior(other);
     const auto own = color_cube(target, "target"), around = color_cube(surround, "surround");
     auto [within, without, table] = unlocked(work(view), [&] {
-        return learn_patch_colors(view, others, {width, height, outer, least_own, most_other}, own, around,
-                                  rate, rare);
+        return learn_patch_colors(
+            view, others, {width, height, min_surround_size, min_target_posterior, max_surround_posterior},
+            own, around, rate, rare);
     });
     const std::vector<py::ssize_t> shape(3, own.cols());
     return {give(std::move(within), shape), give(std::move(without), shape), give(std::move(table), shape)};
@@ -130,8 +133,8 @@ std::tuple<Floating, Floating, Floating> learn_patch_colors_arrays(
 void define_target(py::module_& m) {
     m.def("localize_target", localize_target_arrays, py::arg("patch"), py::arg("taper"), py::arg("filters"),
           py::arg("table"), py::arg("other"), py::arg("roots"), py::arg("width"), py::arg("height"),
-          py::arg("outer"), py::arg("around"), py::arg("filter_weight"), py::arg("contrast_weight"),
-          py::arg("inner"), docs::localize_target);
+          py::arg("surround_size"), py::arg("surround_weight"), py::arg("filter_weight"),
+          py::arg("contrast_weight"), py::arg("inner"), docs::localize_target);
     m.def("log_polar_shift", log_polar_shift_arrays, py::arg("patch"), py::arg("places"), py::arg("taper"),
           py::arg("filter"), py::arg("most_right"), py::arg("most_down"), py::arg("penalty"),
           docs::log_polar_shift);
@@ -143,8 +146,9 @@ void define_target(py::module_& m) {
           py::arg("first_numerator"), py::arg("first_denominator"), py::arg("rate"), py::arg("first_weight"),
           py::arg("ridge"), docs::learn_size_filter);
     m.def("learn_patch_colors", learn_patch_colors_arrays, py::arg("patch"), py::arg("other"),
-          py::arg("width"), py::arg("height"), py::arg("outer"), py::arg("least_own"), py::arg("most_other"),
-          py::arg("target"), py::arg("surround"), py::arg("rate"), py::arg("rare"), docs::learn_patch_colors);
+          py::arg("width"), py::arg("height"), py::arg("min_surround_size"), py::arg("min_target_posterior"),
+          py::arg("max_surround_posterior"), py::arg("target"), py::arg("surround"), py::arg("rate"),
+          py::arg("rare"), docs::learn_patch_colors);
 }
 
 }  // namespace tricue::bindings

@@ -267,11 +267,15 @@ def block_votes(
     """
 
 def box_contrast(
-    plane: numpy.typing.NDArray[numpy.float32], width: float, height: float, outer: float, around: float
+    plane: numpy.typing.NDArray[numpy.float32],
+    width: float,
+    height: float,
+    surround_size: float,
+    surround_weight: float,
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
-    Center-surround contrast of a map: its mean in a box minus `around` times its mean in the frame
-    around the box.
+    Center-surround contrast of a map: its mean in a box minus `surround_weight` times its mean in the
+    frame around the box, whose outer size is `surround_size` times the box's.
 
     Output (i, j) is for the box centered at x = C + 2 (j - C // 2), y = R + 2 (i - R // 2), so the
     middle output is for the middle of the map. A pixel counts by its covered fraction; outside the map
@@ -280,8 +284,8 @@ def box_contrast(
     Args:
         plane: float32 (2R, 2C), finite, at least 2 x 2
         width, height: of the box, pixels, finite, above 0
-        outer: size of the frame's outer edge relative to the box, finite, above 1
-        around: weight of the frame, finite
+        surround_size: size of the surround's outer edge relative to the box, finite, above 1
+        surround_weight: finite
 
     Returns:
         float32 (R, C)
@@ -576,7 +580,7 @@ def cut_sides(
     camera: numpy.typing.NDArray[numpy.float64],
     border: int,
     beside: float,
-    nearer: float,
+    occluder_margin: float,
     share: float,
 ) -> numpy.typing.NDArray[numpy.bool]:
     """
@@ -595,7 +599,7 @@ def cut_sides(
         border: pixels from the image's edge within which an object may continue outside, at least 0
         beside: distance from the side at which something nearer is looked for, meters, finite, at least
             0
-        nearer: how much nearer than the object that must be, meters, finite, at least 0
+        occluder_margin: how much nearer than the object that must be, meters, finite, at least 0
         share: share of the side on more than which it must be nearer, in [0, 1]
 
     Returns:
@@ -691,7 +695,7 @@ def depth_contrast(
     grid: tuple[int, int],
     ring: tuple[float, int],
     reach: float,
-    nearer: float,
+    occluder_margin: float,
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     The measurements of depth_distance for upright rectangles in meters, and the share around each of
@@ -714,18 +718,18 @@ def depth_contrast(
         ring: (margin, along): around it, on each side of a rectangle scaled by margin (at least 1,
             finite), the middles of `along` (1 to 64) equal parts of the rectangle's own side are read
         reach: the L levels of the histogram cover [-reach, reach), meters, finite, above 0
-        nearer: meters, finite, at least 0
+        occluder_margin: meters, finite, at least 0
 
     Returns:
         float64 (N, 4): distance from the model in [0, 1], 1 where nothing counts; share of the places
-            inside that count; share inside with a depth below Z - nearer; share of the places around
-            that count
+            inside that count; share inside with a depth below Z - occluder_margin; share of the places
+            around that count
 
     Raises:
         ValueError: on other shapes or values
 
-    Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to Z, the nearer share
-    and the ring are ours.
+    Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to Z, the share in
+    front and the ring are ours.
     """
 
 def depth_density(
@@ -757,7 +761,7 @@ def depth_distance(
     model: numpy.typing.NDArray[numpy.float64],
     pattern: numpy.typing.NDArray[numpy.float64],
     reach: float,
-    nearer: float,
+    occluder_margin: float,
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     Distance of the depths in each rectangle from a model, and the shares of the rectangle at its depth
@@ -776,17 +780,17 @@ def depth_distance(
         model: float64 (L,): histogram of depth relative to z, of sum 1, or all 0, none negative
         pattern: float64 (n, 2), n at least 1: (u, v), 1 being the right and the lower edge; finite
         reach: the L levels of the histogram cover [-reach, reach), meters, finite, above 0
-        nearer: meters, finite, at least 0
+        occluder_margin: meters, finite, at least 0
 
     Returns:
         float64 (N, 3): the distance, in [0, 1], 1 where nothing counts; the share of the places that
-            count; the share of the places whose depth is below z - nearer
+            count; the share of the places whose depth is below z - occluder_margin
 
     Raises:
         ValueError: on other shapes or values
 
-    Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to z and the nearer
-    share are ours.
+    Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to z and the share in
+    front are ours.
     """
 
 def depth_edges(
@@ -874,7 +878,7 @@ def depth_posterior(
     columns: int,
     expected: float,
     sigma: float,
-    near_margin: float,
+    occluder_margin: float,
 ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.uint8]]:
     """
     P(target | depth) on a grid of places, and which of them are in front of the target: Bayes' rule
@@ -893,12 +897,12 @@ def depth_posterior(
         columns: columns of the grid, 1 to 4096
         expected: the target's expected depth, meters, finite, above 0
         sigma: its standard deviation, meters, finite, above 0
-        near_margin: how much nearer a depth in front of the target is, meters, finite, at least 0
+        occluder_margin: how much nearer a depth in front of the target is, meters, finite, at least 0
 
     Returns:
         posterior: float32 (rows, columns): P(target | z), within 1e-6 of the exact one; 1/2 without a
             measurement
-        nearer: uint8 (rows, columns): 1 where z < expected - near_margin, else 0
+        nearer: uint8 (rows, columns): 1 where z < expected - occluder_margin, else 0
 
     Raises:
         ValueError: on numbers out of range
@@ -1096,7 +1100,7 @@ def filter_rectangles(
     grid: tuple[int, int],
     ring: tuple[float, int],
     reach: float,
-    nearer: float,
+    occluder_margin: float,
     likelihood: tuple[bool, float, float],
     mean_size: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
     measured: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
@@ -1134,7 +1138,7 @@ def filter_rectangles(
         grid: (rows, columns), as in depth_contrast
         ring: (margin, along), as in depth_contrast
         reach: of the shares inside and around, meters, as in depth_contrast
-        nearer: meters, as in depth_contrast
+        occluder_margin: meters, as in depth_contrast
         likelihood: (linear, sharpness, contrast): nats
         mean_size: (size, spread), as in rectangle_prior
         measured: (state, deviation, max_cost), as in rectangle_prior
@@ -1707,9 +1711,9 @@ def learn_patch_colors(
     other: numpy.typing.NDArray[numpy.float32],
     width: float,
     height: float,
-    outer: float,
-    least_own: float,
-    most_other: float,
+    min_surround_size: float,
+    min_target_posterior: float,
+    max_surround_posterior: float,
     target: numpy.typing.NDArray[numpy.float32],
     surround: numpy.typing.NDArray[numpy.float32],
     rate: float,
@@ -1724,18 +1728,18 @@ def learn_patch_colors(
 
     The target's pixels are those with their centers in the ellipse that fits into its box; half of a
     side counts as at least one pixel. The surround's are those with their centers outside of the box
-    times `outer`; if there are none, those outside of the ellipse. If another cue gives more than half
-    of the ellipse's pixels a P(target) above `least_own`, only these pixels are the target's, and the
-    ellipse's pixels with less than `most_other` are the surround's, too. A color that neither has gets
-    1/2:
+    times `min_surround_size`; if there are none, those outside of the ellipse. If another cue gives
+    more than half of the ellipse's pixels a P(target) above `min_target_posterior`, only these pixels
+    are the target's, and the ellipse's pixels with less than `max_surround_posterior` are the
+    surround's, too. A color that neither has gets 1/2:
         table = (target + rare / 2) / (target + surround + rare)
 
     Args:
         patch: uint8 (H, W, 3) BGR
         other: float32 (H, W), P(target) by another cue, or (0, 0) where there is none
         width, height: of the box, pixels, finite, not negative
-        outer: finite, at least 1
-        least_own, most_other: in [0, 1]
+        min_surround_size: finite, at least 1
+        min_target_posterior, max_surround_posterior: in [0, 1]
         target, surround, rate, rare: as learn_contrast takes them
 
     Returns:
@@ -1862,8 +1866,8 @@ def localize_target(
     roots: numpy.typing.NDArray[numpy.float64],
     width: float,
     height: float,
-    outer: float,
-    around: float,
+    surround_size: float,
+    surround_weight: float,
     filter_weight: float,
     contrast_weight: float,
     inner: float,
@@ -1887,7 +1891,7 @@ def localize_target(
         other: float32 (2R, 2C), P(target) of the pixels by another cue, or (0, 0) where there is none
         roots: float64 (B³,), B a power of two up to 64
         width, height: of the box, patch pixels, finite, above 0
-        outer, around: as box_contrast takes them
+        surround_size, surround_weight: as box_contrast takes them
         filter_weight, contrast_weight: as evidence_peak takes them; without any posterior there is no
             contrast
         inner: finite, above 0
@@ -3006,7 +3010,7 @@ def segment_depth(
         density: (bandwidth, prominence): of depth_density, levels, and of density_extrema, as a share
             of the greatest density
         min_area: as in depth_components
-        cut: (border, beside, nearer, share), as in cut_sides
+        cut: (border, beside, occluder_margin, share), as in cut_sides
         feet: as in measure_objects
 
     Returns:
@@ -3596,8 +3600,8 @@ class Kernels(Protocol):
         plane: numpy.typing.NDArray[numpy.float32],
         width: float,
         height: float,
-        outer: float,
-        around: float,
+        surround_size: float,
+        surround_weight: float,
     ) -> numpy.typing.NDArray[numpy.float32]: ...
     def changed_depth(
         self,
@@ -3664,7 +3668,7 @@ class Kernels(Protocol):
         camera: numpy.typing.NDArray[numpy.float64],
         border: int,
         beside: float,
-        nearer: float,
+        occluder_margin: float,
         share: float,
     ) -> numpy.typing.NDArray[numpy.bool]: ...
     def density_extrema(
@@ -3696,7 +3700,7 @@ class Kernels(Protocol):
         grid: tuple[int, int],
         ring: tuple[float, int],
         reach: float,
-        nearer: float,
+        occluder_margin: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def depth_density(
         self, histogram: numpy.typing.NDArray[numpy.float64], bandwidth: float
@@ -3708,7 +3712,7 @@ class Kernels(Protocol):
         model: numpy.typing.NDArray[numpy.float64],
         pattern: numpy.typing.NDArray[numpy.float64],
         reach: float,
-        nearer: float,
+        occluder_margin: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def depth_edges(
         self, depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float
@@ -3734,7 +3738,7 @@ class Kernels(Protocol):
         columns: int,
         expected: float,
         sigma: float,
-        near_margin: float,
+        occluder_margin: float,
     ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.uint8]]: ...
     def divide_depth(
         self,
@@ -3797,7 +3801,7 @@ class Kernels(Protocol):
         grid: tuple[int, int],
         ring: tuple[float, int],
         reach: float,
-        nearer: float,
+        occluder_margin: float,
         likelihood: tuple[bool, float, float],
         mean_size: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
         measured: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
@@ -3952,9 +3956,9 @@ class Kernels(Protocol):
         other: numpy.typing.NDArray[numpy.float32],
         width: float,
         height: float,
-        outer: float,
-        least_own: float,
-        most_other: float,
+        min_surround_size: float,
+        min_target_posterior: float,
+        max_surround_posterior: float,
         target: numpy.typing.NDArray[numpy.float32],
         surround: numpy.typing.NDArray[numpy.float32],
         rate: float,
@@ -4010,8 +4014,8 @@ class Kernels(Protocol):
         roots: numpy.typing.NDArray[numpy.float64],
         width: float,
         height: float,
-        outer: float,
-        around: float,
+        surround_size: float,
+        surround_weight: float,
         filter_weight: float,
         contrast_weight: float,
         inner: float,

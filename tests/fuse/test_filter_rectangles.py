@@ -52,7 +52,7 @@ def case(seed: int = 0, count: int = 40, **changes: Any) -> Case:
         "grid": (14, 10),
         "ring": (1.25, 12),
         "reach": 0.5,
-        "nearer": 0.3,
+        "occluder_margin": 0.3,
         "likelihood": (False, 30.0, 8.0),
         "mean_size": (np.array([0.4, 0.7]), np.array([0.25, 0.2])),
         "measured": (STATE, np.full(5, 0.07), 12.0),
@@ -95,7 +95,7 @@ def test_twin_follows_alike(
 def test_is_what_its_stages_are() -> None:
     """The native kernel returns what the native stages, called one by one, return: the same bits."""
     arguments = case()
-    view = [arguments[name] for name in ("model", "grid", "ring", "reach", "nearer")]
+    view = [arguments[name] for name in ("model", "grid", "ring", "reach", "occluder_margin")]
     prior = *arguments["mean_size"], *arguments["measured"]
 
     def log_likelihood(states: Floats) -> Floats:

@@ -16,7 +16,7 @@ Plane = NDArray[np.float32]
 PLANE = np.random.default_rng(0).random((64, 64)).astype(np.float32)
 
 
-def script(plane: Plane, width: float, height: float, outer: float, around: float) -> Plane:
+def script(plane: Plane, width: float, height: float, surround_size: float, surround_weight: float) -> Plane:
     """The baseline: corners between pixels are read from the integral image by remap."""
     integral = cv2.integral(plane, sdepth=cv2.CV_64F).astype(np.float32)
     rows, columns = plane.shape[0] // 2, plane.shape[1] // 2
@@ -31,9 +31,9 @@ def script(plane: Plane, width: float, height: float, outer: float, around: floa
             at[rows:, columns:] - at[:rows, columns:] - at[rows:, :columns] + at[:rows, :columns]
         )
 
-    inner, whole = sums(width, height), sums(width * outer, height * outer)
+    inner, whole = sums(width, height), sums(width * surround_size, height * surround_size)
     area = width * height
-    return inner / area - around * (whole - inner) / (area * (outer * outer - 1))
+    return inner / area - surround_weight * (whole - inner) / (area * (surround_size * surround_size - 1))
 
 
 IMPLEMENTATIONS = {"native": _core.box_contrast, "reference": reference.box_contrast, "baseline": script}

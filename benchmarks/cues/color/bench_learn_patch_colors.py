@@ -16,15 +16,15 @@ OTHER = random.random((64, 64), np.float32)
 TARGET, SURROUND = random.random((2, 16, 16, 16), np.float32)
 
 
-def script(patch: Any, other: Any, width: float, height: float, outer: float, *rest: Any) -> Any:
+def script(patch: Any, other: Any, width: float, height: float, min_surround_size: float, *rest: Any) -> Any:
     """The baseline: masks of the pixels, calcHist and NumPy."""
-    least_own, most_other, target, surround, rate, rare = rest
+    min_target_posterior, max_surround_posterior, target, surround, rate, rare = rest
     y, x = np.indices(patch.shape[:2])
     u, v = abs(x - 31.5) / (width / 2), abs(y - 31.5) / (height / 2)
-    inside, around = u * u + v * v <= 1, np.maximum(u, v) > outer
-    own = inside & (other > least_own)
+    inside, around = u * u + v * v <= 1, np.maximum(u, v) > min_surround_size
+    own = inside & (other > min_target_posterior)
     if 2 * own.sum() > inside.sum():
-        inside, around = own, around | inside & (other < most_other)
+        inside, around = own, around | inside & (other < max_surround_posterior)
     learned = []
     for pixels, old in ((patch[inside], target), (patch[around], surround)):
         seen = cv2.calcHist([pixels[None]], [0, 1, 2], None, 3 * [16], 3 * [0, 256]) / len(pixels)

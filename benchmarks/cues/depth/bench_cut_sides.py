@@ -30,7 +30,13 @@ TABLE = np.array(
 
 
 def script(
-    depth: Depth, table: Floats, camera: Floats, border: int, beside: float, nearer: float, share: float
+    depth: Depth,
+    table: Floats,
+    camera: Floats,
+    border: int,
+    beside: float,
+    occluder_margin: float,
+    share: float,
 ) -> NDArray[np.bool_]:
     """The baseline: one remap of all places, which rounds where we take the floor, and a mean per side."""
     height, width = depth.shape
@@ -43,7 +49,7 @@ def script(
     down = (y + h / 2 - 0.5)[:, None, None] + half_height[:, None, None] * v
     places = np.stack([across, down], axis=-1).reshape(-1, 12, 2).astype(np.float32)
     seen = cv2.remap(depth, places, None, cv2.INTER_NEAREST, borderValue=np.nan).reshape(-1, 4, 12)
-    behind = (seen < (z - nearer)[:, None, None]).mean(axis=2) > share
+    behind = (seen < (z - occluder_margin)[:, None, None]).mean(axis=2) > share
     at_border = np.stack([x < border, x + w > width - border, y < border, y + h > height - border], axis=1)
     return behind | at_border
 

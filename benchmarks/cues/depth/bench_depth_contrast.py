@@ -32,7 +32,7 @@ def script(
     grid: tuple[int, int],
     ring: tuple[float, int],
     reach: float,
-    nearer: float,
+    occluder_margin: float,
 ) -> Floats:
     """The baseline: two remaps, which round where we take the floor, and calcHist of each rectangle."""
     v, u = middles(grid)
@@ -46,7 +46,7 @@ def script(
         np.concatenate([along, along, -off, off]),
     )
     measured = np.empty((len(states), 4))
-    measured[:, 2] = (inside < -nearer).mean(axis=1)
+    measured[:, 2] = (inside < -occluder_margin).mean(axis=1)
     measured[:, 3] = ((around >= -reach) & (around < reach)).mean(axis=1)
     for i, row in enumerate(inside):
         histogram = cv2.calcHist([row], [0], None, [len(model)], [-reach, reach]).ravel()

@@ -18,7 +18,7 @@ LEVELS, REACH, NEARER = 64, 0.5, 0.2
 
 
 def script(
-    depth: Depth, rectangles: Floats, model: Floats, pattern: Floats, reach: float, nearer: float
+    depth: Depth, rectangles: Floats, model: Floats, pattern: Floats, reach: float, occluder_margin: float
 ) -> Floats:
     """The baseline: one remap of all places, which rounds where we take the floor, and calcHist of each."""
     places = (rectangles[:, None, :2] + rectangles[:, None, 2:4] / 2 * pattern - 0.5).astype(np.float32)
@@ -30,7 +30,7 @@ def script(
         histogram = cv2.calcHist([row], [0], None, [len(model)], [-reach, reach]).ravel()
         counted = histogram.sum()
         distance = np.linalg.norm(histogram / counted - model) / np.sqrt(2) if counted else 1
-        measured[i] = distance, counted / len(row), np.count_nonzero(row < -nearer) / len(row)
+        measured[i] = distance, counted / len(row), np.count_nonzero(row < -occluder_margin) / len(row)
     return measured
 
 

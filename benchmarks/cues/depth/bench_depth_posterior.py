@@ -24,7 +24,7 @@ def script(
     columns: int,
     expected: float,
     sigma: float,
-    near_margin: float,
+    occluder_margin: float,
 ) -> Answer:
     """The baseline: nearest samples by remap, then whole planes."""
     x = np.floor(x0 + (np.arange(columns) + 0.5) * step).astype(np.float32)
@@ -33,7 +33,7 @@ def script(
     z = cv2.remap(depth, *places, cv2.INTER_NEAREST, borderMode=cv2.BORDER_CONSTANT, borderValue=np.nan)
     likelihood = cv2.exp(-0.5 * ((z - np.float32(expected)) / np.float32(sigma)) ** 2)
     posterior = np.where((z > 0) & (z < np.inf), likelihood / (likelihood + np.float32(0.1)), np.float32(0.5))
-    return posterior, ((z > 0) & (z < expected - near_margin)).astype(np.uint8)
+    return posterior, ((z > 0) & (z < expected - occluder_margin)).astype(np.uint8)
 
 
 @pytest.mark.benchmark(group="depth_posterior, 64x64")

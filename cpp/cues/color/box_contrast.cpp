@@ -40,25 +40,26 @@ private:
     Eigen::ArrayXd row_;
 };
 
-void require_arguments(const PlaneView& plane, const FramedBox& box, double around) {
+void require_arguments(const PlaneView& plane, const SurroundedBox& box, double surround_weight) {
     if (plane.rows < 2 || plane.cols < 2 || plane.rows % 2 != 0 || plane.cols % 2 != 0)
         refuse("plane", "even sides of at least 2", shape_text(plane.rows, plane.cols));
     require_positive(box.width, "width");
     require_positive(box.height, "height");
-    if (!(box.outer > 1.0 && std::isfinite(box.outer))) refuse("outer", "a finite number above 1", box.outer);
-    if (!std::isfinite(around)) refuse("around", "a finite number", around);
+    if (!(box.surround_size > 1.0 && std::isfinite(box.surround_size)))
+        refuse("surround_size", "a finite number above 1", box.surround_size);
+    if (!std::isfinite(surround_weight)) refuse("surround_weight", "a finite number", surround_weight);
 }
 
 }  // namespace
 
-Floats box_contrast(const PlaneView& plane, const FramedBox& box, double around) {
-    require_arguments(plane, box, around);
+Floats box_contrast(const PlaneView& plane, const SurroundedBox& box, double surround_weight) {
+    require_arguments(plane, box, surround_weight);
     IntegralImage sums(plane);
     const int rows = plane.rows / 2, cols = plane.cols / 2;
     BoxSums inner(sums, cols, box.width, box.height),
-        whole(sums, cols, box.width * box.outer, box.height * box.outer);
-    const double area = box.width * box.height, frame = area * (box.outer * box.outer - 1);
-    const double in_box = 1 / area + around / frame, in_whole = around / frame;
+        whole(sums, cols, box.width * box.surround_size, box.height * box.surround_size);
+    const double area = box.width * box.height, surround = area * (box.surround_size * box.surround_size - 1);
+    const double in_box = 1 / area + surround_weight / surround, in_whole = surround_weight / surround;
     Floats contrast(rows, cols);
     for (int i = 0; i < rows; ++i) {
         const double y = center(i, rows);

@@ -47,7 +47,8 @@ public:
             const double v = down[static_cast<std::size_t>(y)];
             const auto u = [&](int x) { return across[static_cast<std::size_t>(x)]; };
             ellipse_.push_back(find_middle(patch.cols, [&](int x) { return u(x) * u(x) + v * v <= 1.0; }));
-            box_.push_back(find_middle(patch.cols, [&](int x) { return std::max(u(x), v) <= pixels.outer; }));
+            box_.push_back(find_middle(patch.cols,
+                                       [&](int x) { return std::max(u(x), v) <= pixels.min_surround_size; }));
         }
         count(pixels);
     }
@@ -67,8 +68,8 @@ private:
         }
         for_ellipse([&](int y, int x) {
             const float share = other_.row(y)[x];
-            if (share > static_cast<float>(pixels.least_own)) add(own, y, x);
-            if (share < static_cast<float>(pixels.most_other)) add(around, y, x);
+            if (share > static_cast<float>(pixels.min_target_posterior)) add(own, y, x);
+            if (share < static_cast<float>(pixels.max_surround_posterior)) add(around, y, x);
         });
     }
 
@@ -78,7 +79,7 @@ private:
         std::ptrdiff_t all = 0, seen = 0;
         for_ellipse([&](int y, int x) {
             ++all;
-            seen += other_.row(y)[x] > static_cast<float>(pixels.least_own);
+            seen += other_.row(y)[x] > static_cast<float>(pixels.min_target_posterior);
         });
         return 2 * seen > all;
     }
@@ -111,10 +112,10 @@ void require_arguments(const ImageView& patch, const PlaneView& other, const Lea
                std::to_string(other.rows) + ", " + std::to_string(other.cols));
     for (const auto& [name, number] : {std::pair{"width", pixels.width}, {"height", pixels.height}})
         require_not_negative(number, name);
-    if (!(pixels.outer >= 1.0 && std::isfinite(pixels.outer)))
-        refuse("outer", "a finite number, at least 1", pixels.outer);
-    for (const auto& [name, number] :
-         {std::pair{"least_own", pixels.least_own}, {"most_other", pixels.most_other}})
+    if (!(pixels.min_surround_size >= 1.0 && std::isfinite(pixels.min_surround_size)))
+        refuse("min_surround_size", "a finite number, at least 1", pixels.min_surround_size);
+    for (const auto& [name, number] : {std::pair{"min_target_posterior", pixels.min_target_posterior},
+                                       {"max_surround_posterior", pixels.max_surround_posterior}})
         if (!(number >= 0.0 && number <= 1.0)) refuse(name, "a number in [0, 1]", number);
 }
 

@@ -37,7 +37,7 @@ void require_arguments(StatesRef table, VectorRef camera, const Cut& cut) {
     require_camera(camera);
     if (cut.border < 0) refuse("border", "no negative number", cut.border);
     require_not_negative(cut.beside, "beside");
-    require_not_negative(cut.nearer, "nearer");
+    require_not_negative(cut.occluder_margin, "occluder_margin");
     if (!(cut.share >= 0.0 && cut.share <= 1.0)) refuse("share", "a number in [0, 1]", cut.share);
 }
 
@@ -49,7 +49,7 @@ Flags cut_sides(const DepthView& depth, StatesRef table, VectorRef camera, const
     for (Eigen::Index i = 0; i < table.rows(); ++i) {
         const double x = table(i, 0), y = table(i, 1), w = table(i, 2), h = table(i, 3), z = table(i, 5);
         const ExpandedBox box{x + w / 2, y + h / 2, w / 2 + cut.beside * camera[0] / z,
-                              h / 2 + cut.beside * camera[1] / z, z - cut.nearer};
+                              h / 2 + cut.beside * camera[1] / z, z - cut.occluder_margin};
         const auto covered = [&](double u0, double v0, double u1, double v1) {
             return is_side_covered(depth, box, u0, v0, u1, v1, cut.share);
         };

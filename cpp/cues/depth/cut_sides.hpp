@@ -15,8 +15,8 @@ struct Cut {
     int border;  ///< pixels from the image's edge within which an object may continue outside, at least 0
     /// distance from the side at which something nearer is looked for, meters, finite, at least 0
     double beside;
-    double nearer;  ///< how much nearer than the object that must be, meters, finite, at least 0
-    double share;   ///< share of the side on more than which it must be nearer, in [0, 1]
+    double occluder_margin;  ///< how much nearer than the object that must be, meters, finite, at least 0
+    double share;            ///< share of the side on more than which it must be nearer, in [0, 1]
 };
 
 /// The sides of its box at which a segmented object may continue: at the image's border, or behind something nearer.

@@ -165,7 +165,8 @@ void require_states(StatesRef states) {
         if (!(states(i, 2) > 0.0)) refuse("states", "Z above 0", states(i, 2));
 }
 
-void require_arguments(VectorRef camera, const DepthModel& model, const Places& places, double nearer) {
+void require_arguments(VectorRef camera, const DepthModel& model, const Places& places,
+                       double occluder_margin) {
     require_camera(camera);
     require_count(places.rows, 1, kMaxSamples, "rows");
     require_count(places.columns, 1, kMaxSamples, "columns");
@@ -173,7 +174,7 @@ void require_arguments(VectorRef camera, const DepthModel& model, const Places& 
     if (!(places.margin >= 1.0 && std::isfinite(places.margin)))
         refuse("margin", "a finite number of at least 1", places.margin);
     require_model(model.histogram);
-    require_nearer(nearer);
+    require_occluder_margin(occluder_margin);
 }
 
 }  // namespace
@@ -182,19 +183,20 @@ struct RectangleContrast::Parts {
     GridReader reader;
     VectorRef camera;
     DepthModel model;
-    double nearer, inside, around;  ///< meters, and numbers of places
+    double occluder_margin, inside, around;  ///< meters, and numbers of places
     std::vector<DepthSamples> samples;
     std::vector<RelativeHistogram> histograms;
 };
 
 RectangleContrast::RectangleContrast(const DepthView& depth, VectorRef camera, const DepthModel& model,
-                                     const Places& places, double nearer) {
-    require_arguments(camera, model, places, nearer);
+                                     const Places& places, double occluder_margin) {
+    require_arguments(camera, model, places, occluder_margin);
     const std::size_t inside = places_inside(places), around = places_around(places);
     const DepthSamples samples(places);
     const RelativeHistogram histogram(model.histogram.size(), model.reach, inside);
-    parts_.reset(new Parts{GridReader(depth, places), camera, model, nearer, static_cast<double>(inside),
-                           static_cast<double>(around), std::vector<DepthSamples>(kBatch, samples),
+    parts_.reset(new Parts{GridReader(depth, places), camera, model, occluder_margin,
+                           static_cast<double>(inside), static_cast<double>(around),
+                           std::vector<DepthSamples>(kBatch, samples),
                            std::vector<RelativeHistogram>(kBatch, histogram)});
 }
 
@@ -202,7 +204,7 @@ RectangleContrast::~RectangleContrast() = default;
 
 States RectangleContrast::measure(StatesRef states, bool with_nearer) {
     require_states(states);
-    auto& [reader, camera, model, nearer, inside, around, samples, histograms] = *parts_;
+    auto& [reader, camera, model, occluder_margin, inside, around, samples, histograms] = *parts_;
     States measured(states.rows(), 4);
     for (Eigen::Index first = 0; first < states.rows(); first += Eigen::Index{kBatch}) {
         const auto n = std::min(kBatch, static_cast<std::size_t>(states.rows() - first));
@@ -224,7 +226,8 @@ States RectangleContrast::measure(StatesRef states, bool with_nearer) {
             double* to = measured.row(first + static_cast<Eigen::Index>(i)).data();
             to[0] = distances[i];
             to[1] = totals[i] / inside;
-            to[2] = with_nearer ? count_below(within, samples[i].inside_size(), z - nearer) / inside : 0.0;
+            to[2] = with_nearer ? count_below(within, samples[i].inside_size(), z - occluder_margin) / inside
+                                : 0.0;
             to[3] = count_within(beside, samples[i].around_size(), z, model.reach) / around;
         }
     }
@@ -236,9 +239,9 @@ Vector RectangleContrast::shares() const {
 }
 
 States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states, const DepthModel& model,
-                      const Places& places, double nearer) {
+                      const Places& places, double occluder_margin) {
     require_states(states);
-    return RectangleContrast(depth, camera, model, places, nearer).measure(states, true);
+    return RectangleContrast(depth, camera, model, places, occluder_margin).measure(states, true);
 }
 
 Vector depth_shares(const DepthView& depth, VectorRef camera, const double* state, const Places& places,

@@ -31,20 +31,20 @@ struct Places {
 /// @param grid (rows, columns), 1 to 64 each: a rectangle is read in the middles of rows x columns equal parts
 /// @param ring (margin, along): around it, on each side of a rectangle scaled by margin (at least 1, finite), the middles of
 ///     `along` (1 to 64) equal parts of the rectangle's own side are read
-/// @param nearer meters, finite, at least 0
+/// @param occluder_margin meters, finite, at least 0
 /// @returns float64 (N, 4): distance from the model in [0, 1], 1 where nothing counts; share of the places inside that count; share
-///     inside with a depth below Z - nearer; share of the places around that count
+///     inside with a depth below Z - occluder_margin; share of the places around that count
 /// @throws std::invalid_argument on other shapes or values
-/// Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to Z, the nearer share and the ring are ours.
+/// Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to Z, the share in front and the ring are ours.
 States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states, const DepthModel& model,
-                      const Places& places, double nearer);
+                      const Places& places, double occluder_margin);
 
 /// The same for several sets of rectangles, one after the other, with memory that is reused.
 class RectangleContrast {
 public:
     /// Camera and model must outlive it.
     RectangleContrast(const DepthView& depth, VectorRef camera, const DepthModel& model, const Places& places,
-                      double nearer);
+                      double occluder_margin);
     ~RectangleContrast();
 
     /// (N, 4), as by depth_contrast; the share that is nearer only if wanted, else 0.

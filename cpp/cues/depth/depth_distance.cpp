@@ -8,13 +8,13 @@
 namespace tricue {
 
 States depth_distance(const DepthView& depth, StatesRef rectangles, const DepthModel& model,
-                      StatesRef pattern, double nearer) {
+                      StatesRef pattern, double occluder_margin) {
     require_shape(rectangles, rectangles.rows(), 5, "rectangles");
     require_finite(rectangles, "rectangles");
     DepthReader reader(depth, pattern);
     RelativeHistogram histogram(model.histogram.size(), model.reach, reader.places());
     require_model(model.histogram);
-    require_nearer(nearer);
+    require_occluder_margin(occluder_margin);
 
     States measured(rectangles.rows(), 3);
     for (Eigen::Index i = 0; i < rectangles.rows(); ++i) {
@@ -22,7 +22,7 @@ States depth_distance(const DepthView& depth, StatesRef rectangles, const DepthM
         const double z = rectangles(i, 4);
         histogram.count(depths, z);
         measured.row(i) << histogram.distance(model.histogram), histogram.total() / histogram.samples(),
-            count_below(depths, reader.places(), z - nearer) / histogram.samples();
+            count_below(depths, reader.places(), z - occluder_margin) / histogram.samples();
     }
     return measured;
 }

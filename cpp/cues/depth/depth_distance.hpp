@@ -24,12 +24,12 @@ struct DepthModel {
 /// @param rectangles float64 (N, 5): center x, y, width, height, pixels; depth z, meters; finite
 /// @param model float64 (L,): histogram of depth relative to z, of sum 1, or all 0, none negative
 /// @param pattern float64 (n, 2), n at least 1: (u, v), 1 being the right and the lower edge; finite
-/// @param nearer meters, finite, at least 0
+/// @param occluder_margin meters, finite, at least 0
 /// @returns float64 (N, 3): the distance, in [0, 1], 1 where nothing counts; the share of the places that count; the share of the
-///     places whose depth is below z - nearer
+///     places whose depth is below z - occluder_margin
 /// @throws std::invalid_argument on other shapes or values
-/// Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to z and the nearer share are ours.
+/// Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to z and the share in front are ours.
 States depth_distance(const DepthView& depth, StatesRef rectangles, const DepthModel& model,
-                      StatesRef pattern, double nearer);
+                      StatesRef pattern, double occluder_margin);
 
 }  // namespace tricue

@@ -62,7 +62,7 @@ void require_arguments(const SampleGrid& grid, const ExpectedDepth& target) {
     require_grid(grid);
     require_positive(target.expected, "expected");
     require_positive(target.sigma, "sigma");
-    require_not_negative(target.near_margin, "near_margin");
+    require_not_negative(target.occluder_margin, "occluder_margin");
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ DepthPosterior depth_posterior(const DepthView& depth, const SampleGrid& grid, c
     DepthPosterior result{Floats(grid.rows, grid.columns), {}};
     result.nearer.resize(grid.rows, grid.columns);
     measure_deviations(depths.data(), target.expected, 1.0 / target.sigma,
-                       target.expected - target.near_margin, depths.size(), exponents.data(),
+                       target.expected - target.occluder_margin, depths.size(), exponents.data(),
                        result.nearer.data());
     replace_by_exponentials(exponents.data(), exponents.size());
     write_posterior(depths.data(), exponents.data(), depths.size(), result.posterior.data());

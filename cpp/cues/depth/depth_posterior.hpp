@@ -18,15 +18,16 @@ struct SampleGrid {
 
 /// The depth that a target should have.
 struct ExpectedDepth {
-    double expected;     ///< the target's expected depth, meters, finite, above 0
-    double sigma;        ///< its standard deviation, meters, finite, above 0
-    double near_margin;  ///< how much nearer a depth in front of the target is, meters, finite, at least 0
+    double expected;  ///< the target's expected depth, meters, finite, above 0
+    double sigma;     ///< its standard deviation, meters, finite, above 0
+    /// how much nearer a depth in front of the target is, meters, finite, at least 0
+    double occluder_margin;
 };
 
 struct DepthPosterior {
     /// float32 (rows, columns): P(target | z), within 1e-6 of the exact one; 1/2 without a measurement
     Floats posterior;
-    /// uint8 (rows, columns): 1 where z < expected - near_margin, else 0
+    /// uint8 (rows, columns): 1 where z < expected - occluder_margin, else 0
     Eigen::Array<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> nearer;
 };
 

@@ -48,7 +48,7 @@ struct DepthObjects {
 /// @param edges (gap, slope), as in depth_edges
 /// @param density (bandwidth, prominence): of depth_density, levels, and of density_extrema, as a share of the greatest density
 /// @param min_area as in depth_components
-/// @param cut (border, beside, nearer, share), as in cut_sides
+/// @param cut (border, beside, occluder_margin, share), as in cut_sides
 /// @param feet as in measure_objects
 /// @throws std::invalid_argument as those kernels
 /// Source: Sabeti, Parvizi, Wu 2008, equations (32)-(36), section IV.A; edges, floor and cuts are ours.

@@ -96,15 +96,15 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"plane": np.array([[1, np.inf], [np.nan, 1]], np.float32)}, "plane: expected finite numbers, got inf"),
     ({"width": 0.0}, "width: expected a finite number above 0, got 0"),
     ({"height": float("inf")}, "height: expected a finite number above 0, got inf"),
-    ({"outer": 1.0}, "outer: expected a finite number above 1, got 1"),
-    ({"around": float("nan")}, "around: expected a finite number, got nan"),
+    ({"surround_size": 1.0}, "surround_size: expected a finite number above 1, got 1"),
+    ({"surround_weight": float("nan")}, "surround_weight: expected a finite number, got nan"),
 ]
 
 
 @pytest.mark.parametrize(("changes", "message"), BAD)
 def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> None:
     """Wrong shapes and numbers are named, with what was expected."""
-    good = {"plane": noise(4, 4), "width": 3.0, "height": 3.0, "outer": 2.0, "around": 1.0}
+    good = {"plane": noise(4, 4), "width": 3.0, "height": 3.0, "surround_size": 2.0, "surround_weight": 1.0}
     with pytest.raises(ValueError, match=message):
         kernels.box_contrast(**good | changes)
 

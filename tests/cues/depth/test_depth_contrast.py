@@ -304,8 +304,8 @@ BAD_VALUES: list[tuple[int, Any, str]] = [
     (5, (np.nan, 12), "margin: expected a finite number of at least 1, got nan"),
     (6, 0.0, "reach: expected a finite number above 0, got 0"),
     (6, np.inf, "reach: expected a finite number above 0, got inf"),
-    (7, -0.1, "nearer: expected a finite number, not negative, got -0.1"),
-    (7, np.nan, "nearer: expected a finite number, not negative, got nan"),
+    (7, -0.1, "occluder_margin: expected a finite number, not negative, got -0.1"),
+    (7, np.nan, "occluder_margin: expected a finite number, not negative, got nan"),
 ]
 
 

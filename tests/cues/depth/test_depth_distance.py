@@ -188,8 +188,8 @@ BAD_VALUES: list[tuple[int, Any, str]] = [
     (3, np.full((2, 2), np.inf), "pattern: expected finite numbers, got inf"),
     (4, 0.0, "reach: expected a finite number above 0, got 0"),
     (4, np.nan, "reach: expected a finite number above 0, got nan"),
-    (5, -0.1, "nearer: expected a finite number, not negative, got -0.1"),
-    (5, np.inf, "nearer: expected a finite number, not negative, got inf"),
+    (5, -0.1, "occluder_margin: expected a finite number, not negative, got -0.1"),
+    (5, np.inf, "occluder_margin: expected a finite number, not negative, got inf"),
 ]
 
 

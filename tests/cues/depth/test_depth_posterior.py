@@ -94,8 +94,8 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"expected": np.nan}, "expected: expected a finite number above 0, got nan"),
     ({"sigma": 0.0}, "sigma: expected a finite number above 0, got 0"),
     ({"sigma": np.inf}, "sigma: expected a finite number above 0, got inf"),
-    ({"near_margin": -0.1}, "near_margin: expected a finite number, not negative, got -0.1"),
-    ({"near_margin": np.nan}, "near_margin: expected a finite number, not negative, got nan"),
+    ({"occluder_margin": -0.1}, "occluder_margin: expected a finite number, not negative, got -0.1"),
+    ({"occluder_margin": np.nan}, "occluder_margin: expected a finite number, not negative, got nan"),
 ]
 GOOD = {
     "depth": np.full((4, 5), 2.0, np.float32),
@@ -106,7 +106,7 @@ GOOD = {
     "columns": 5,
     "expected": 2.0,
     "sigma": 0.1,
-    "near_margin": 0.2,
+    "occluder_margin": 0.2,
 }
 
 

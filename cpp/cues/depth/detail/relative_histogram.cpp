@@ -186,8 +186,8 @@ void require_model(VectorRef model) {
     if (sum != 0.0 && !(std::abs(sum - 1.0) <= kRounding)) refuse("model", "a sum of 1, or of 0", sum);
 }
 
-void require_nearer(double nearer) {
-    require_not_negative(nearer, "nearer");
+void require_occluder_margin(double occluder_margin) {
+    require_not_negative(occluder_margin, "occluder_margin");
 }
 
 }  // namespace tricue

@@ -72,6 +72,6 @@ int count_within(const float* depth, std::size_t n, double z, double reach);
 void require_model(VectorRef model);
 
 /// @throws std::invalid_argument unless it is finite and not negative
-void require_nearer(double nearer);
+void require_occluder_margin(double occluder_margin);
 
 }  // namespace tricue

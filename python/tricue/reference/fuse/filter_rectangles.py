@@ -37,14 +37,14 @@ def filter_rectangles(
     grid: tuple[int, int],
     ring: tuple[float, int],
     reach: float,
-    nearer: float,
+    occluder_margin: float,
     likelihood: tuple[bool, float, float],
     mean_size: tuple[Floats, Floats],
     measured: tuple[Floats, Floats, float],
 ) -> tuple[Floats, Floats, Floats, Floats, Floats, Floats]:
     """Calls one twin after the other, for one or two rounds of sampling."""
     _require(particles, weights, noise, refinement, levels, likelihood)
-    view = _View(depth, camera, model, levels, grid, ring, reach, nearer)
+    view = _View(depth, camera, model, levels, grid, ring, reach, occluder_margin)
 
     (drift, scale), (seen, root, share), (state, deviation, max_cost) = dynamics, detection, measured
 
@@ -73,17 +73,19 @@ class _View(NamedTuple):
     grid: tuple[int, int]
     ring: tuple[float, int]
     reach: float
-    nearer: float
+    occluder_margin: float
 
     def measure(self, states: Floats) -> Floats:
         """(N, 4) as by depth_contrast, but with the distance to the model in the model's own levels."""
-        span, nearer = self.levels[1], self.nearer
+        span, occluder_margin = self.levels[1], self.occluder_margin
         is_one_range = self.levels == (0, self.reach)
         model = self.model if is_one_range else np.zeros(1)
         seen = depth_contrast(self.depth, self.camera, states, model, *self[4:])
         if not is_one_range:
             places = _grid(*self.grid)
-            each = depth_distance(self.depth, self._in_pixels(states), self.model, places, span, nearer)
+            each = depth_distance(
+                self.depth, self._in_pixels(states), self.model, places, span, occluder_margin
+            )
             seen[:, 0] = each[:, 0]
         return seen
 

@@ -27,8 +27,8 @@ def localize_target(
     roots: Floats,
     width: float,
     height: float,
-    outer: float,
-    around: float,
+    surround_size: float,
+    surround_weight: float,
     filter_weight: float,
     contrast_weight: float,
     inner: float,
@@ -46,7 +46,11 @@ def localize_target(
     posterior = color_posterior(patch, table) if table.size else other
     if table.size and other.size:
         posterior = combine_posteriors(posterior, other)
-    contrast = box_contrast(posterior, width, height, outer, around) if posterior.size else posterior
+    contrast = (
+        box_contrast(posterior, width, height, surround_size, surround_weight)
+        if posterior.size
+        else posterior
+    )
     peak = evidence_peak(responses, contrast, filter_weight, contrast_weight)
     rows = _span(patch.shape[0], 2 * peak[1], inner * height)
     columns = _span(patch.shape[1], 2 * peak[0], inner * width)

@@ -7,16 +7,24 @@ from tricue.reference.base.arrays import Floats, Plane
 from tricue.reference.base.checks import refuse, require_finite
 
 
-def box_contrast(plane: Plane, width: float, height: float, outer: float, around: float) -> Plane:
+def box_contrast(
+    plane: Plane, width: float, height: float, surround_size: float, surround_weight: float
+) -> Plane:
     """Multiplies the map by the fractions of its rows and columns that each box covers."""
-    _require_arguments(plane, width, height, outer, around)
+    _require_arguments(plane, width, height, surround_size, surround_weight)
     rows, columns = plane.shape[0] // 2, plane.shape[1] // 2
     y, x = (count + 2.0 * (np.arange(count) - count // 2) for count in (rows, columns))
     values = plane.astype(np.float64)
-    inner = _covered(2 * rows, y, height) @ values @ _covered(2 * columns, x, width).T
-    whole = _covered(2 * rows, y, height * outer) @ values @ _covered(2 * columns, x, width * outer).T
+
+    def box_sums(scale: float) -> Floats:
+        return np.asarray(
+            _covered(2 * rows, y, scale * height) @ values @ _covered(2 * columns, x, scale * width).T
+        )
+
+    inner, whole = box_sums(1.0), box_sums(surround_size)
     area = width * height
-    contrast: Floats = inner / area - around * (whole - inner) / (area * (outer * outer - 1))
+    surround_area = area * (surround_size * surround_size - 1)
+    contrast: Floats = inner / area - surround_weight * (whole - inner) / surround_area
     return contrast.astype(np.float32)
 
 
@@ -27,12 +35,18 @@ def _covered(size: int, centers: Floats, length: float) -> Floats:
     return np.clip(overlap, 0, 1)
 
 
-def _require_arguments(plane: Plane, width: float, height: float, outer: float, around: float) -> None:
+def _require_arguments(
+    plane: Plane, width: float, height: float, surround_size: float, surround_weight: float
+) -> None:
     if min(plane.shape) < 2 or plane.shape[0] % 2 or plane.shape[1] % 2:
         refuse("plane", "even sides of at least 2", plane.shape)
-    for name, number, low in (("width", width, 0), ("height", height, 0), ("outer", outer, 1)):
+    for name, number, low in (
+        ("width", width, 0),
+        ("height", height, 0),
+        ("surround_size", surround_size, 1),
+    ):
         if not low < number < np.inf:
             refuse(name, f"a finite number above {low}", float(number))
-    if not np.isfinite(around):
-        refuse("around", "a finite number", float(around))
+    if not np.isfinite(surround_weight):
+        refuse("surround_weight", "a finite number", float(surround_weight))
     require_finite("plane", plane.astype(np.float64))

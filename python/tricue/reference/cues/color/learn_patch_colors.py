@@ -19,9 +19,9 @@ def learn_patch_colors(
     other: NDArray[np.float32],
     width: float,
     height: float,
-    outer: float,
-    least_own: float,
-    most_other: float,
+    min_surround_size: float,
+    min_target_posterior: float,
+    max_surround_posterior: float,
     target: Cube,
     surround: Cube,
     rate: float,
@@ -33,9 +33,12 @@ def learn_patch_colors(
     for name, number in (("width", width), ("height", height)):
         if not 0 <= number < math.inf:
             refuse(name, "a finite number, not negative", float(number))
-    if not 1 <= outer < math.inf:
-        refuse("outer", "a finite number, at least 1", float(outer))
-    for name, share in (("least_own", least_own), ("most_other", most_other)):
+    if not 1 <= min_surround_size < math.inf:
+        refuse("min_surround_size", "a finite number, at least 1", float(min_surround_size))
+    for name, share in (
+        ("min_target_posterior", min_target_posterior),
+        ("max_surround_posterior", max_surround_posterior),
+    ):
         if not 0 <= share <= 1:
             refuse(name, "a number in [0, 1]", float(share))
     v, u = (
@@ -43,13 +46,13 @@ def learn_patch_colors(
         for size, length in zip(patch.shape[:2], (height, width), strict=True)
     )
     inside: Mask = np.add.outer(v * v, u * u) <= 1
-    around: Mask = np.maximum.outer(v, u) > outer
+    around: Mask = np.maximum.outer(v, u) > min_surround_size
     if not around.any():
         around = ~inside
     if other.size:
-        own = inside & (other > np.float32(least_own))
+        own = inside & (other > np.float32(min_target_posterior))
         if 2 * own.sum() > inside.sum():
-            around = around | (inside & (other < np.float32(most_other)))
+            around = around | (inside & (other < np.float32(max_surround_posterior)))
             inside = own
     own_colors, other_colors = (np.ascontiguousarray(patch[each].T)[None] for each in (inside, around))
     return learn_histograms(own_colors, other_colors, target, surround, rate, rare, UNSEEN)

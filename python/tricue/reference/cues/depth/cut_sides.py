@@ -18,11 +18,11 @@ def cut_sides(
     camera: Floats,
     border: int,
     beside: float,
-    nearer: float,
+    occluder_margin: float,
     share: float,
 ) -> NDArray[np.bool_]:
     """Reads the places beside each side of one box at a time."""
-    _require(table, camera, border, beside, nearer, share)
+    _require(table, camera, border, beside, occluder_margin, share)
     height, width = depth.shape
     sides = np.zeros((len(table), 4), np.bool_)
     for i, (x, y, w, h, _, z, _) in enumerate(table):
@@ -32,7 +32,7 @@ def cut_sides(
         left, right = x + w / 2 - half_width, x + w / 2 + half_width
         top, bottom = y + h / 2 - half_height, y + h / 2 + half_height
         for side, (u, v) in enumerate(((left, down), (right, down), (across, top), (across, bottom))):
-            nearer_share = _count_nearer(depth, u, v, z - nearer) / PLACES
+            nearer_share = _count_nearer(depth, u, v, z - occluder_margin) / PLACES
             sides[i, side] = at_border[side] or nearer_share > share
     return sides
 
@@ -44,12 +44,14 @@ def _count_nearer(depth: NDArray[np.float32], x: Floats, y: Floats, limit: float
     return int(np.count_nonzero(has_depth(seen) & (seen.astype(np.float64) < limit)))
 
 
-def _require(table: Floats, camera: Floats, border: int, beside: float, nearer: float, share: float) -> None:
+def _require(
+    table: Floats, camera: Floats, border: int, beside: float, occluder_margin: float, share: float
+) -> None:
     require_table(table)
     require_camera(camera)
     if border < 0:
         refuse("border", "no negative number", border)
-    for name, value in (("beside", beside), ("nearer", nearer)):
+    for name, value in (("beside", beside), ("occluder_margin", occluder_margin)):
         if not 0 <= value < np.inf:
             refuse(name, "a finite number, not negative", float(value))
     if not 0 <= share <= 1:

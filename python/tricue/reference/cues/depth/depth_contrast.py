@@ -21,14 +21,14 @@ def depth_contrast(
     grid: tuple[int, int],
     ring: tuple[float, int],
     reach: float,
-    nearer: float,
+    occluder_margin: float,
 ) -> Floats:
     """Calls depth_distance for the projected rectangles, and for the rings around them."""
     _require(camera, states, grid, ring)
     with np.errstate(over="ignore", invalid="ignore"):
         rectangles = _seen_by(camera, states)
-        inside = depth_distance(depth, rectangles, model, _grid(*grid), reach, nearer)
-        around = depth_distance(depth, rectangles, np.zeros(1), _ring(*ring), reach, nearer)
+        inside = depth_distance(depth, rectangles, model, _grid(*grid), reach, occluder_margin)
+        around = depth_distance(depth, rectangles, np.zeros(1), _ring(*ring), reach, occluder_margin)
     return np.column_stack([inside, around[:, 1]])
 
 

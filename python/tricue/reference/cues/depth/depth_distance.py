@@ -9,10 +9,10 @@ from tricue.reference.cues.depth.detail import depth_reader
 
 
 def depth_distance(
-    depth: Depth, rectangles: Floats, model: Floats, pattern: Floats, reach: float, nearer: float
+    depth: Depth, rectangles: Floats, model: Floats, pattern: Floats, reach: float, occluder_margin: float
 ) -> Floats:
     """Compares the histogram of one rectangle at a time with the model."""
-    _require(rectangles, pattern, model, reach, nearer)
+    _require(rectangles, pattern, model, reach, occluder_margin)
     measured = np.empty((len(rectangles), 3))
     levels = len(model)
     for i, rectangle in enumerate(rectangles):
@@ -20,17 +20,19 @@ def depth_distance(
         counts = depth_reader.count(seen, z, levels, reach)
         counted = counts.sum()
         distance = np.sqrt(np.sum((counts / counted - model) ** 2) / 2) if counted else 1.0  # (38)
-        before = np.count_nonzero(seen < z - nearer)
+        before = np.count_nonzero(seen < z - occluder_margin)
         measured[i] = min(distance, 1.0), counted / len(pattern), before / len(pattern)
     return measured
 
 
-def _require(rectangles: Floats, pattern: Floats, model: Floats, reach: float, nearer: float) -> None:
+def _require(
+    rectangles: Floats, pattern: Floats, model: Floats, reach: float, occluder_margin: float
+) -> None:
     require_shape("rectangles", rectangles, (len(rectangles), 5))
     require_finite("rectangles", rectangles)
     depth_reader.require(pattern, reach)
-    if not 0 <= nearer < np.inf:
-        refuse("nearer", "a finite number, not negative", float(nearer))
+    if not 0 <= occluder_margin < np.inf:
+        refuse("occluder_margin", "a finite number, not negative", float(occluder_margin))
     _require_model(model)
 
 

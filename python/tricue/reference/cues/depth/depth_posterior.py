@@ -19,10 +19,10 @@ def depth_posterior(
     columns: int,
     expected: float,
     sigma: float,
-    near_margin: float,
+    occluder_margin: float,
 ) -> tuple[Depth, NDArray[np.uint8]]:
     """Applies Bayes' rule to the depth under the center of one square at a time."""
-    _require_arguments(x0, y0, step, rows, columns, expected, sigma, near_margin)
+    _require_arguments(x0, y0, step, rows, columns, expected, sigma, occluder_margin)
     posterior, nearer = np.full((rows, columns), 0.5), np.zeros((rows, columns), np.uint8)
     for i, j in np.ndindex(rows, columns):
         x, y = x0 + (j + 0.5) * step, y0 + (i + 0.5) * step
@@ -32,7 +32,7 @@ def depth_posterior(
         if 0 < z < np.inf:
             likelihood = np.exp(-0.5 * min(abs(z - expected) / sigma, 1e3) ** 2)
             posterior[i, j] = likelihood / (likelihood + CLUTTER)
-            nearer[i, j] = z < expected - near_margin
+            nearer[i, j] = z < expected - occluder_margin
     return posterior.astype(np.float32), nearer
 
 
@@ -44,7 +44,7 @@ def _require_arguments(
     columns: int,
     expected: float,
     sigma: float,
-    near_margin: float,
+    occluder_margin: float,
 ) -> None:
     for name, number in (("x0", x0), ("y0", y0)):
         if not np.isfinite(number):
@@ -54,5 +54,5 @@ def _require_arguments(
     for name, number in (("step", step), ("expected", expected), ("sigma", sigma)):
         if not 0 < number < np.inf:
             refuse(name, "a finite number above 0", float(number))
-    if not 0 <= near_margin < np.inf:
-        refuse("near_margin", "a finite number, not negative", float(near_margin))
+    if not 0 <= occluder_margin < np.inf:
+        refuse("occluder_margin", "a finite number, not negative", float(occluder_margin))
