@@ -12,7 +12,7 @@ import pytest
 from tricue import FlowDepthTracker, Frame, Status, Track
 from tricue.scenes import WalkScene
 from tricue.track.flow_depth.cues import CueMap, Cues
-from tricue.track.flow_depth.verify import estimate
+from tricue.track.flow_depth.verify import estimate_in_frame
 
 Params = FlowDepthTracker.Params
 
@@ -100,7 +100,7 @@ def test_the_papers_peak_is_the_highest_from_the_start(overtaken: WalkScene):
     values = np.zeros((120, 160), np.float32)
     values[:, round(x0 + 0.45 * (x1 - x0)) :] = 2.6
     u, v = CueMap(values, np.ones_like(values)), CueMap(np.zeros_like(values), np.ones_like(values))
-    model = estimate(tracker._k, state, Cues((0, 0, 160, 120), (u, v), None), tracker.params)
+    model = estimate_in_frame(tracker._k, state, Cues((0, 0, 160, 120), (u, v), None), tracker.params)
     assert model.peaks == pytest.approx((2.6, 0.0), abs=0.1)
 
 
@@ -117,7 +117,9 @@ def test_the_papers_peak_is_the_highest_however_far_it_is(overtaken: WalkScene):
     values = np.where(left, state.disparity, state.disparity + 8)
     weights = np.where(left, 1 / (left & inside).sum(), 1.002 / (~left & inside).sum())
     planes = (np.tile(each.astype(np.float32), (120, 1)) for each in (values, weights))
-    model = estimate(tracker._k, state, Cues((0, 0, 160, 120), None, CueMap(*planes)), tracker.params)
+    model = estimate_in_frame(
+        tracker._k, state, Cues((0, 0, 160, 120), None, CueMap(*planes)), tracker.params
+    )
     assert model.peaks == pytest.approx((state.disparity + 8,), abs=0.3)
 
 

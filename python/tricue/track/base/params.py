@@ -3,7 +3,7 @@
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MyParams(Params):
-    particles: int = parameter(100, unit="particles", source="section V", low=1)
+particles: int = parameter(100, unit="particles", source="section V", low=1)
 """
 
 import dataclasses

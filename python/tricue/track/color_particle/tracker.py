@@ -70,7 +70,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
     ) -> None:
         super().__init__(params, seed, kernels, parameters)
 
-    _derived = ("_k", "_noise", "_correlation", "_equal", "_comparable")
+    _derived = (*TrackerBase._derived, "_noise", "_correlation", "_equal", "_comparable")
 
     def _derive(self) -> None:
         super()._derive()

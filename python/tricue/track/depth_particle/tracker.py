@@ -45,7 +45,6 @@ MIN_POSITION_VARIANCE = 0.01**2 * np.eye(3)  # square meters, of a track's posit
 OBJECT_ROOT = np.diag(OBJECT_DEVIATION)  # square root of the proposal's covariance at an object
 NO_OBJECT: tuple[Floats, Floats, float] = (np.zeros(1), np.eye(1), 0.0)  # no proposal at an object
 
-
 Changes = dict[str, Any]  # new values of a state's fields, by name
 
 
@@ -97,7 +96,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         super().__init__(params, seed, kernels, parameters)
         self.intrinsics = validation.intrinsics(intrinsics)
 
-    _derived = ("_k", "_noise", "_settings", "_size_deviation")
+    _derived = (*TrackerBase._derived, "_noise", "_settings", "_size_deviation")
 
     def _derive(self) -> None:
         super()._derive()

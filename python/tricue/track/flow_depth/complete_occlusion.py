@@ -6,7 +6,7 @@ from tricue.track.flow_depth.blocks import OCCLUDED_BLOCK, Blocks
 from tricue.track.flow_depth.cues import Cues
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.state import FlowDepthState
-from tricue.track.flow_depth.verify import Verdict, disparity_limits, estimate
+from tricue.track.flow_depth.verify import Verdict, disparity_limits, estimate_in_frame
 
 
 def is_occluded(
@@ -30,4 +30,4 @@ def disparity_in_window(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDe
     """The disparity that most of the target window has, cells."""
     expected = state.occluder_disparity if state.occluded else state.disparity
     in_window = state._replace(disparity=expected, temporal_window=state.window)
-    return estimate(k, in_window, cues, p).peaks[-1]
+    return estimate_in_frame(k, in_window, cues, p).peaks[-1]

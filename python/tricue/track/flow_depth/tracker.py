@@ -112,7 +112,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         checked = require_cue_channels(frame, self.params.cues, before.shape, camera)
         seconds = validation.elapsed(before.timestamp, checked.frame.timestamp, self.params.rate)
         state = _predict(before)
-        expected = before.occluder_disparity if _waits(before) else before.disparity
+        expected = before.occluder_disparity if _is_completely_occluded(before) else before.disparity
         wanted = self._reach.wanted(state.candidate, expected, before.reduced.gray.shape)
         reduced = reduce_frame(self._k, checked.frame, before.geometry, self.params, wanted)
         region = cells_of(state.candidate, reduced.gray.shape)
@@ -168,7 +168,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         """The same, with complete occlusion as printed in section 4.5."""
         p, k = self.params, self._k
         state = state._replace(region=cues.region, pixels=np.zeros(cues.shape, np.uint8))
-        if _waits(state):
+        if _is_completely_occluded(state):
             disparity = disparity_in_window(k, state, cues, p)
             if not is_back(state, disparity, cues, p):
                 return _coast(state, seconds, occluder_disparity=disparity)
@@ -220,7 +220,8 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         x0, y0, x1, y1 = _shown_window(state, self.params)
         box = Box.from_xyxy(step * x0, step * y0, step * x1, step * y1)
         status = state.status(self.params)
-        is_measured = self.rig is not None or state.reduced.right is None  # not with a pair without its rig
+        # A stereo pair whose rig isn't given has a disparity, but no distance in meters.
+        is_measured = self.rig is not None or state.reduced.right is None
         if "disparity" not in self.params.cues or not (is_measured and state.geometry.is_metric):
             return Track(box, state.score, status)
         position, covariance = locate(self._k, box, state, self.params)
@@ -231,11 +232,11 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
 
 
 def _has_pair_alone(frame: Frame) -> bool:
-    """Whether a frame has no depth, so that its disparity must be measured in its pair."""
+    """Whether a frame has no depth, so that its disparity must be measured in its stereo pair."""
     return frame.right is not None and frame.depth is None
 
 
-def _waits(state: FlowDepthState) -> bool:
+def _is_completely_occluded(state: FlowDepthState) -> bool:
     """Whether the target is completely occluded until the disparity in its window jumps back."""
     return state.occluded and math.isfinite(state.occluder_disparity)
 

@@ -68,7 +68,7 @@ def verify_by(
     """
     x, y = cues.region[:2]
     known = model is not None
-    model = model or estimate(k, state, cues, p)
+    model = model or estimate_in_frame(k, state, cues, p)
     disparity = state.disparity if known or cues.disparity is None else model.peaks[-1]
     limits = disparity_limits(state, disparity, cues.disparity_scale, p)
     x0, y0, x1, y1 = window = moved(state.window, -x, -y)
@@ -112,8 +112,8 @@ def candidate_region(window: Rectangle, state: FlowDepthState, p: FlowDepthParam
     return grown(window, growth * max(across, minimum), growth * max(along, minimum))
 
 
-def estimate(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) -> TargetModel:
-    """The target's densities in the temporal window, section 4.2.
+def estimate_in_frame(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) -> TargetModel:
+    """The target's model in this frame: its densities in the temporal window, section 4.2.
 
     Surfaces at other depths, such as the background in the first window, move differently, so flow counts
     only at the target's.
