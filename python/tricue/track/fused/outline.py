@@ -15,7 +15,7 @@ import numpy as np
 from tricue.arrays import Plane
 from tricue.camera.box import Box
 from tricue.track.base.params import Params, parameter
-from tricue.track.fused.sources import OURS
+from tricue.track.fused.sources import PROTOTYPE
 from tricue.track.fused.target import Target
 from tricue.track.fused.window import PATCH_PIXELS, Window
 
@@ -36,7 +36,7 @@ class OutlineParams(Params):
     outline_time_constant: float = parameter(
         0.5,
         unit="s",
-        source=OURS,
+        source=PROTOTYPE,
         above=0,
         doc="time constant with which the box's sides follow the outline",
         was="outline_time",

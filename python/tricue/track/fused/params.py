@@ -12,7 +12,7 @@ from tricue.track.fused.experts.size import SizeParams
 from tricue.track.fused.experts.turn import TurnParams
 from tricue.track.fused.outline import OutlineParams
 from tricue.track.fused.position_filter import PositionParams
-from tricue.track.fused.sources import OURS
+from tricue.track.fused.sources import PROTOTYPE
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,7 +25,7 @@ class FusedParams(  # fields are in the order of the bases, last base first
     min_response_share: float = parameter(
         0.5,
         unit="of the mean response",
-        source=OURS,
+        source=PROTOTYPE,
         low=0,
         high=1,
         doc="below it the neighboring windows are searched too",
@@ -34,7 +34,7 @@ class FusedParams(  # fields are in the order of the bases, last base first
     distance_penalty: float = parameter(
         0.08,
         unit="per squared half window",
-        source=OURS,
+        source=PROTOTYPE,
         low=0,
         doc="penalty on the evidence of neighboring windows",
         was="far",
@@ -44,7 +44,7 @@ class FusedParams(  # fields are in the order of the bases, last base first
     max_covered: float = parameter(
         0.5,
         unit="of the box",
-        source=OURS,
+        source=PROTOTYPE,
         low=0,
         high=1,
         doc="share covered by an occluder, above which the target is occluded",
@@ -53,7 +53,7 @@ class FusedParams(  # fields are in the order of the bases, last base first
     min_score: float = parameter(
         0.78,
         unit="score",
-        source=OURS,
+        source=PROTOTYPE,
         low=0,
         high=1,
         doc="below it a frame counts as missed",
@@ -62,7 +62,7 @@ class FusedParams(  # fields are in the order of the bases, last base first
     min_score_to_move: float = parameter(
         0.51,
         unit="score",
-        source=OURS,
+        source=PROTOTYPE,
         low=0,
         high=1,
         doc="below it the box stays where it was",
@@ -71,24 +71,24 @@ class FusedParams(  # fields are in the order of the bases, last base first
     jump_weight: float = parameter(
         0.7,
         unit="log-odds per typical jump",
-        source=OURS,
+        source=PROTOTYPE,
         low=0,
         doc="penalty on a place for a jump that is longer than the target's typical ones",
     )
     lost_after: float = parameter(
-        0.08, unit="s", source=OURS, low=0, doc="time missed, in at least three frames, until LOST"
+        0.08, unit="s", source=PROTOTYPE, low=0, doc="time missed, in at least three frames, until LOST"
     )
     max_missed_seconds: float = parameter(
         1 / 3,
         unit="s",
-        source=OURS,
+        source=PROTOTYPE,
         low=0,
         doc="time missed in which the target is still followed and learned",
     )
     learn_every: float = parameter(
         0.1,
         unit="s",
-        source=OURS,
+        source=PROTOTYPE,
         low=0,
         high=1,
         doc="time between two frames in which appearance is learned",
@@ -98,7 +98,7 @@ class FusedParams(  # fields are in the order of the bases, last base first
     lost_position_noise: float = parameter(
         0.5,
         unit="target per frame",
-        source=OURS,
+        source=PROTOTYPE,
         above=0,
         doc="standard deviation of a missed target's position",
         was="reach",
@@ -106,7 +106,7 @@ class FusedParams(  # fields are in the order of the bases, last base first
     min_score_to_redetect: float = parameter(
         0.96,
         unit="score",
-        source=OURS,
+        source=PROTOTYPE,
         low=0,
         high=1,
         doc="a missed target is TRACKED again if a followed one would have this score",
@@ -115,7 +115,7 @@ class FusedParams(  # fields are in the order of the bases, last base first
     min_score_above_clutter: float = parameter(
         0.89,
         unit="score",
-        source=OURS,
+        source=PROTOTYPE,
         low=0,
         high=1,
         doc="the same for a missed target that stands out from the clutter",
@@ -123,14 +123,14 @@ class FusedParams(  # fields are in the order of the bases, last base first
     clutter_margin: float = parameter(
         1.5,
         unit="log-odds",
-        source=OURS,
+        source=PROTOTYPE,
         low=0,
         doc="margin above the best match in the search that makes a missed target stand out",
     )
     candidates: int = parameter(
         2,
         unit="places",
-        source=OURS,
+        source=PROTOTYPE,
         low=1,
         high=99,
         doc="candidates that are verified in a search of the whole frame",
@@ -140,7 +140,7 @@ class FusedParams(  # fields are in the order of the bases, last base first
     rate: float = parameter(
         30.0,
         unit="frames/s",
-        source=OURS,
+        source=PROTOTYPE,
         above=0,
         doc="assumed where timestamps are missing or don't increase",
     )

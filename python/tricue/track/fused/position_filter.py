@@ -16,7 +16,7 @@ from tricue.track.base.params import Params, parameter
 from tricue.track.base.position_limit import limit_covariance
 from tricue.track.fused.depth_sources import ExpectedDepth
 from tricue.track.fused.experts.depth import DEPTH_SAMPLES, DepthMeasurement
-from tricue.track.fused.sources import OURS
+from tricue.track.fused.sources import PROTOTYPE
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 
@@ -39,7 +39,7 @@ class PositionParams(Params):
     acceleration_noise: float = parameter(
         4.0,
         unit="m/s²",
-        source=OURS,
+        source=PROTOTYPE,
         above=0,
         high=1e6,
         doc="standard deviation of the acceleration",
@@ -48,7 +48,7 @@ class PositionParams(Params):
     max_speed: float = parameter(
         2.0,
         unit="m/s",
-        source=OURS,
+        source=PROTOTYPE,
         above=0,
         high=1e6,
         doc="highest speed that is assumed at the first measurement",

@@ -1,4 +1,4 @@
 # SPDX-License-Identifier: MIT
-"""The source given for default parameters that aren't from a paper."""
+"""The source given for default parameters that are neither from a paper nor from an experiment."""
 
-OURS = "our prototype, or a choice not yet compared with others"
+PROTOTYPE = "our prototype, or a choice not yet compared with others"

@@ -8,7 +8,7 @@ import numpy as np
 from tricue.arrays import Floats, Image, Plane
 from tricue.track.base.params import Params, parameter
 from tricue.track.fused.depth_sources import DepthImageSource, DepthPosterior, Grid
-from tricue.track.fused.sources import OURS
+from tricue.track.fused.sources import PROTOTYPE
 from tricue.track.fused.support import find_support
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
@@ -25,7 +25,9 @@ SUPPORT_POSTERIOR = np.float32(0.05)  # upper bound of P(target | depth) for wha
 class WindowParams(Params):
     """The size of the part of the frame that the experts read."""
 
-    context: float = parameter(3.0, unit="target", source=OURS, low=1.5, high=8, doc="side of the window")
+    context: float = parameter(
+        3.0, unit="target", source=PROTOTYPE, low=1.5, high=8, doc="side of the window"
+    )
 
 
 class Window:

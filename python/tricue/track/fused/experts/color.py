@@ -8,7 +8,7 @@ import numpy as np
 
 from tricue.arrays import Plane
 from tricue.track.base.params import Params, parameter
-from tricue.track.fused.sources import OURS
+from tricue.track.fused.sources import PROTOTYPE
 from tricue.track.fused.window import Window
 
 HISTOGRAM_BINS = 16  # per color channel
@@ -23,7 +23,7 @@ class ColorParams(Params):
     """The parameters of the cue "color"."""
 
     color_weight: float = parameter(
-        0.3, unit="-", source=OURS, low=0, doc="weight of the posterior's contrast"
+        0.3, unit="-", source=PROTOTYPE, low=0, doc="weight of the posterior's contrast"
     )
     color_learning_rate: float = parameter(
         0.04,
@@ -35,10 +35,10 @@ class ColorParams(Params):
         was="color_rate",
     )
     surround_size: float = parameter(
-        1.5, unit="box", source=OURS, above=1, doc="outer size of the contrast's surround", was="frame"
+        1.5, unit="box", source=PROTOTYPE, above=1, doc="outer size of the contrast's surround", was="frame"
     )
     surround_weight: float = parameter(
-        0.5, unit="-", source=OURS, low=0, doc="weight of the surround in the contrast", was="around"
+        0.5, unit="-", source=PROTOTYPE, low=0, doc="weight of the surround in the contrast", was="around"
     )
 
 

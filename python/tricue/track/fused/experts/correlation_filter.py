@@ -10,7 +10,7 @@ import numpy as np
 from tricue.arrays import Floats, Plane
 from tricue.track.base.params import parameter
 from tricue.track.fused.experts.spectra import CHANNELS, FirstFrameParams, Spectra, label_spectrum
-from tricue.track.fused.sources import OURS
+from tricue.track.fused.sources import PROTOTYPE
 from tricue.track.fused.window import CELL_PIXELS, HANN_WINDOW, WINDOW_CELLS, Window, WindowParams
 
 
@@ -36,11 +36,11 @@ class FilterParams(FirstFrameParams, WindowParams):
         above=0,
         doc="penalty that keeps the filter in its mask, at first",
     )
-    filter_weight: float = parameter(0.7, unit="-", source=OURS, low=0, doc="weight of its response")
+    filter_weight: float = parameter(0.7, unit="-", source=PROTOTYPE, low=0, doc="weight of its response")
     filter_mask_size: float = parameter(
         1.3,
         unit="box",
-        source=OURS,
+        source=PROTOTYPE,
         above=1,
         high=99,
         doc="outer size of the filter's mask, which fades out from the box on",

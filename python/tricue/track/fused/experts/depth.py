@@ -12,7 +12,7 @@ import numpy as np
 from tricue.arrays import Floats
 from tricue.track.base.params import Params, parameter
 from tricue.track.fused.depth_sources import GATE_SIGMAS, MAX_EXPECTED_SIGMA, ExpectedDepth
-from tricue.track.fused.sources import OURS
+from tricue.track.fused.sources import PROTOTYPE
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import INNER_SHARE, Window
@@ -36,7 +36,7 @@ class DepthParams(Params):
     depth_learning_rate: float = parameter(
         0.02,
         unit="per frame",
-        source=OURS,
+        source=PROTOTYPE,
         low=0,
         high=1,
         doc="learning rate of the target's depth spread and length",
@@ -45,7 +45,7 @@ class DepthParams(Params):
     depth_continuity_weight: float = parameter(
         8.0,
         unit="log-odds",
-        source=OURS,
+        source=PROTOTYPE,
         low=0,
         doc="weight of a place that stands apart at the expected depth",
         was="continuity",

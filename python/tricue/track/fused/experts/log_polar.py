@@ -18,7 +18,7 @@ from tricue.arrays import Floats, Image, Plane
 from tricue.kernels import Kernels
 from tricue.track.base.params import parameter
 from tricue.track.fused.experts.spectra import CHANNELS, FirstFrameParams, Spectra, label_spectrum
-from tricue.track.fused.sources import OURS
+from tricue.track.fused.sources import PROTOTYPE
 from tricue.track.fused.target import TURN_STEPS, Target, axes
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import CELL_PIXELS, PATCH_PIXELS, WINDOW_CELLS
@@ -49,12 +49,12 @@ class LogPolarParams(FirstFrameParams):
         was="filter_rate",
     )
     ridge: float = parameter(
-        1e-2, unit="of the mean energy", source=OURS, above=0, doc="regularization of these filters"
+        1e-2, unit="of the mean energy", source=PROTOTYPE, above=0, doc="regularization of these filters"
     )
     size_change_penalty: float = parameter(
         0.05,
         unit="per squared cell",
-        source=OURS,
+        source=PROTOTYPE,
         low=0,
         doc="penalty on the evidence of another size or turn than the last",
     )

@@ -19,7 +19,7 @@ from tricue.track.fused.experts.log_polar import (
     Places,
     log_polar_pixels,
 )
-from tricue.track.fused.sources import OURS
+from tricue.track.fused.sources import PROTOTYPE
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import PATCH_PIXELS
@@ -30,7 +30,7 @@ class SizeParams(LogPolarParams):
     """The parameters of the cue "size"."""
 
     size_range: tuple[float, float] = parameter(
-        (0.2, 5.0), unit="of the first size", source=OURS, above=0, doc="limits of the size"
+        (0.2, 5.0), unit="of the first size", source=PROTOTYPE, above=0, doc="limits of the size"
     )
 
     def __post_init__(self) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.track.base.params import Params, parameter
-from tricue.track.fused.sources import OURS
+from tricue.track.fused.sources import PROTOTYPE
 from tricue.track.fused.window import WINDOW_CELLS
 
 Spectra = NDArray[np.complex64]
@@ -22,7 +22,7 @@ class FirstFrameParams(Params):
     first_frame_weight: float = parameter(
         0.2,
         unit="-",
-        source=OURS,
+        source=PROTOTYPE,
         low=0,
         high=1,
         doc="share of the first frame's filter, for place and size",

@@ -22,7 +22,7 @@ from tricue.track.fused.experts.log_polar import (
     Places,
     log_polar_pixels,
 )
-from tricue.track.fused.sources import OURS
+from tricue.track.fused.sources import PROTOTYPE
 from tricue.track.fused.target import TURN_STEPS, Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import PATCH_PIXELS
@@ -35,12 +35,12 @@ class TurnParams(LogPolarParams):
     """The parameters of the cue "turn"."""
 
     turn_noise: float = parameter(
-        0.1, unit="response", source=OURS, above=0, doc="response at which half of a turn counts"
+        0.1, unit="response", source=PROTOTYPE, above=0, doc="response at which half of a turn counts"
     )
     turn_back: float = parameter(
         0.1,
         unit="per frame",
-        source=OURS,
+        source=PROTOTYPE,
         low=0,
         high=1,
         doc="share of its turn, and of 11 degrees at most, by which a target turns back",
