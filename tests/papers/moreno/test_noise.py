@@ -38,7 +38,9 @@ def test_the_polynomial_is_the_one_of_the_values(index):
 
 
 def test_the_table_and_the_file_have_every_value(tmp_path):
-    """A line of the table for each quantity, a line of the CSV for each of a run, of its own light alone."""
+    """A line of the table for each quantity, a line of the CSV, with the unit, for each of a run, of its own
+    light alone.
+    """
     table = noise.summarize(RUNS).splitlines()
     assert len(table) == 2 + len(QUANTITIES)
     assert "+0.02 Z³ -0.1 Z² +0.4 Z +0.3" in table[2]
@@ -49,6 +51,9 @@ def test_the_table_and_the_file_have_every_value(tmp_path):
         each.name for each in QUANTITIES if each.light
     }
     assert float(rows[0]["value"]) == pytest.approx(np.polyval(CUBIC, DISTANCES[0]), rel=1e-5)
+    units = {each.name: each.unit for each in QUANTITIES}
+    assert all(row["unit"] == units[row["quantity"]] for row in rows)
+    assert rows[0]["unit"] == "cm"
 
 
 def test_a_head_at_rest_is_measured():

@@ -32,7 +32,7 @@ STEADY_LIGHT, SWINGING_LIGHT = 0.0, 0.3
 MIN_RELATIVE_VALUE = 0.1
 """Share of the greatest value, below which the fit's weights no longer grow."""
 MODEL_COLORS = (COLORS[0], COLORS[1])
-CSV_COLUMNS = ("model", "scene", "seed", "distance_m", "light", "quantity", "value")
+CSV_COLUMNS = ("model", "scene", "seed", "distance_m", "light", "quantity", "value", "unit")
 
 
 class Quantity(NamedTuple):
@@ -154,7 +154,7 @@ def summarize(runs: Sequence[NoiseRun]) -> str:
 
 
 def write_csv(path: Path, runs: Iterable[NoiseRun]) -> None:
-    """A line per value: CSV_COLUMNS."""
+    """A line per value, with its unit: CSV_COLUMNS."""
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(CSV_COLUMNS)
@@ -173,6 +173,7 @@ def _rows(run: NoiseRun) -> Iterator[list[object]]:
                 run.light,
                 quantity.name,
                 f"{value:.6g}",
+                quantity.unit,
             ]
 
 
