@@ -342,6 +342,24 @@ def test_what_does_not_run_is_told_below_the_table(dataset, tmp_path, capsys):
     assert f"theirs={tmp_path / 'results'}" in page
 
 
+def test_an_error_names_the_run_that_it_ended(dataset, own, capfd):
+    """Runs of several protocols on one sequence have lines that differ."""
+    (own / "own_tracker.py").write_text(
+        "class Mine:\n"
+        "    def init(self, frame, box): self.left = 5\n"
+        "    def update(self, frame):\n"
+        "        self.left -= 1\n"
+        "        return 1 / self.left and (1, 1, 5, 5)\n"
+    )
+    words = ["evaluate", str(dataset / "one"), "--trackers", "own_tracker.py:Mine"]
+    assert main([*words, "--protocols", "one-pass,backward"]) == 0
+    lines = capfd.readouterr().out.splitlines()
+    assert [line.partition(", ")[2] for line in lines if line.startswith("own_tracker.py:Mine on")] == [
+        "one-pass, seed 0: frame 5: ZeroDivisionError: division by zero",
+        "backward, seed 0: frame 34: ZeroDivisionError: division by zero",
+    ]
+
+
 def test_a_tracker_that_starts_nowhere_is_told_once_and_the_exit_code_is_1(dataset, own, capfd):
     """One line for all sequences, with the error's type, if it was asked for; the others have their rows."""
     (own / "own_tracker.py").write_text(

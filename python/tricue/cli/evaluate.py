@@ -276,7 +276,7 @@ def _troubles(evaluation: Evaluation) -> list[str]:
     rows = [each.row for each in evaluation.results if each.row.trouble]
     return [
         *(
-            f"{r.tracker} on {r.sequence}, seed {r.seed}: {r.trouble}"
+            f"{r.tracker} on {r.sequence}, {r.run}, seed {r.seed}: {r.trouble}"
             for r in rows
             if r.tracker not in unstarted
         ),
