@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """An evaluation's boxes as files that other tools read, and a manifest of how they were made.
 
-OTB's form has one file of boxes per sequence, with times as the GOT-10k toolkit writes them; GOT-10k's has
-one file per repetition; VOT's, for its long-term experiment, also has confidences. Sources: Wu, Lim, Yang,
+OTB's form has one file of boxes per sequence, with pixels counted from 1, as in OTB's truth, and times as the
+GOT-10k toolkit writes them; GOT-10k's has one file per repetition; VOT's, for its long-term experiment, also
+has confidences. Sources: Wu, Lim, Yang,
 "Object Tracking Benchmark", PAMI 2015; Huang, Zhao, Huang, "GOT-10k", PAMI 2021; the VOT toolkit 0.7.
 """
 
@@ -26,13 +27,13 @@ from tricue.evaluation.record import Record
 from tricue.evaluation.store import Store
 from tricue.evaluation.tasks import code_digest
 
-MANIFEST, FORMAT = "manifest.json", 1
+MANIFEST, FORMAT = "manifest.json", 2
 OTB, GOT10K, VOT = "otb", "got10k", "vot"  # the folders of the three forms
 EXPERIMENT = "longterm"  # VOT's name for one pass with confidences
 VOT_UNKNOWN, VOT_START = "0", "1"
 CONVENTIONS = {
-    "boxes": "x,y,width,height in pixels; (0, 0) is the top-left corner of the image: files that count"
-    " pixels from 1, as OTB's truth does, have x and y larger by 1; nan where there is no box",
+    "boxes": "x,y,width,height in pixels; (0, 0) is the top-left corner of the image, in OTB's form (1, 1);"
+    " nan where there is no box",
     "times": "seconds of each update, without decoding; 0 in frames without one, such as the first",
     OTB: "TRACKER/SEQUENCE.txt, TRACKER/times/SEQUENCE_time.txt, from the first seed",
     GOT10K: "TRACKER/SEQUENCE/SEQUENCE_00N.txt from seed N - 1, SEQUENCE_time.txt with a column a seed",
@@ -50,9 +51,10 @@ class _Repetition:
     run: Run
     start: int
 
-    @property
-    def boxes(self) -> list[str]:
-        return [",".join(f"{value:.4f}" for value in box) for box in self.run.boxes.tolist()]
+    def boxes(self, first_pixel: int = 0) -> list[str]:
+        """A line per frame, with pixels counted from ``first_pixel``."""
+        boxes = self.run.boxes + [first_pixel, first_pixel, 0, 0]
+        return [",".join(f"{value:.4f}" for value in box) for box in boxes.tolist()]
 
     @property
     def times(self) -> NDArray[np.float64]:
@@ -171,13 +173,13 @@ def _describe(opened: OpenedSequence, frames: int) -> dict[str, Any]:
 
 
 def _write_otb(folder: Path, sequence: str, repetition: _Repetition) -> None:
-    _write_lines(folder / f"{sequence}.txt", repetition.boxes)
+    _write_lines(folder / f"{sequence}.txt", repetition.boxes(first_pixel=1))
     _write_lines(folder / "times" / f"{sequence}_time.txt", [f"{value:.8f}" for value in repetition.times])
 
 
 def _write_got10k(folder: Path, sequence: str, repetitions: Sequence[_Repetition]) -> None:
     for each in repetitions:
-        _write_lines(folder / sequence / f"{sequence}_{each.number:03d}.txt", each.boxes)
+        _write_lines(folder / sequence / f"{sequence}_{each.number:03d}.txt", each.boxes())
     times = np.stack([each.times for each in repetitions], axis=1)
     lines = [",".join(f"{value:.8f}" for value in row) for row in times.tolist()]
     _write_lines(folder / sequence / f"{sequence}_time.txt", lines)
@@ -185,7 +187,7 @@ def _write_got10k(folder: Path, sequence: str, repetitions: Sequence[_Repetition
 
 def _write_vot(folder: Path, sequence: str, repetitions: Sequence[_Repetition]) -> None:
     for each in repetitions:
-        boxes = [VOT_UNKNOWN if "nan" in box else box for box in each.boxes]
+        boxes = [VOT_UNKNOWN if "nan" in box else box for box in each.boxes()]
         boxes[each.start] = VOT_START
         stem = folder / EXPERIMENT / sequence / f"{sequence}_{each.number:03d}"
         _write_lines(stem.with_name(f"{stem.name}.txt"), boxes)
