@@ -171,8 +171,29 @@ def test_labels_of_a_crowd_lie_apart():
     """Six points on nearly the same spot get names inside the axes that overlap neither names nor points."""
     points = [(0.5, 0.5 + 0.01 * index) for index in range(6)]
     areas = [labels._area(label, "name") for label in labels.place(points, ["name"] * 6)]
-    assert all(map(labels._fits, areas))
-    assert not any(a.overlaps(b) for index, a in enumerate(areas) for b in areas[:index])
+    assert all(area.shared(labels._AXES) == area.size for area in areas)
+    assert not any(a.shared(b) for index, a in enumerate(areas) for b in areas[:index])
+    assert not any(a.left < x < a.right and a.low < y < a.high for a in areas for x, y in points)
+
+
+def test_labels_without_a_free_position_cover_no_point():
+    """Where every position of "color-particle" touches something, its name covers a little of another name,
+    and none of the points.
+    """
+    points = [
+        (0.8974, 0.6515),
+        (0.8012, 0.5597),
+        (0.4989, 0.4398),
+        (0.6226, 0.547),
+        (0.1, 0.2),
+        (0.087, 0.222),
+    ]
+    trackers = ["fused", "color-particle", "mine.py:Mine", "my_wide", "mine.py:still", "mine.py:Broken_one"]
+    areas = [
+        labels._area(label, name)
+        for label, name in zip(labels.place(points, trackers), trackers, strict=True)
+    ]
+    assert any(a.shared(b) for index, a in enumerate(areas) for b in areas[:index])
     assert not any(a.left < x < a.right and a.low < y < a.high for a in areas for x, y in points)
 
 

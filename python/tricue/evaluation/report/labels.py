@@ -23,27 +23,35 @@ class _Area(NamedTuple):
     low: float
     high: float
 
-    def overlaps(self, other: "_Area") -> bool:
-        return min(self.right, other.right) > max(self.left, other.left) and min(self.high, other.high) > max(
-            self.low, other.low
-        )
+    @property
+    def size(self) -> float:
+        return (self.right - self.left) * (self.high - self.low)
+
+    def shared(self, other: "_Area") -> float:
+        """Size of the part that both have."""
+        width = min(self.right, other.right) - max(self.left, other.left)
+        height = min(self.high, other.high) - max(self.low, other.low)
+        return max(width, 0.0) * max(height, 0.0)
+
+
+_AXES = _Area(0.0, 1.0, 0.0, 1.0)
 
 
 def place(points: Sequence[tuple[float, float]], names: Sequence[str]) -> list[Label]:
     """A label for each point (x, y), shares of the axes: to its right or left, at the first free position.
 
-    If none is free, the label is at the point's height.
+    If none is free, the label is where the least of it is off the axes or, then, covers points and labels.
     """
     taken = [_Area(x - _POINT, x + _POINT, y - _POINT, y + _POINT) for x, y in points]
+
+    def cost(label: Label, name: str) -> tuple[float, float]:
+        area = _area(label, name)
+        return area.size - area.shared(_AXES), sum(map(area.shared, taken))
+
     placed = []
     for (x, y), name in zip(points, names, strict=True):
         positions = [_label(x, y + step, side) for step in _STEPS for side in ("left", "right")]
-        free = [
-            each
-            for each in positions
-            if _fits(area := _area(each, name)) and not any(map(area.overlaps, taken))
-        ]
-        label = (free or [positions[0] if x < 0.7 else positions[1]])[0]
+        label = min(positions, key=lambda each: cost(each, name))
         taken.append(_area(label, name))
         placed.append(label)
     return placed
@@ -57,7 +65,3 @@ def _area(label: Label, name: str) -> _Area:
     width = sum(_CAPITAL if letter.isupper() else _LETTER for letter in name)
     left = label.x if label.side == "left" else label.x - width
     return _Area(left, left + width, label.y - _LINE / 2, label.y + _LINE / 2)
-
-
-def _fits(area: _Area) -> bool:
-    return area.left >= 0 and area.right <= 1 and area.low >= 0 and area.high <= 1
