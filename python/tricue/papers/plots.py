@@ -47,7 +47,7 @@ def shade_hidden(axes: Any, visible: Floats) -> None:
 
 
 def shade_frames(axes: Any, flags: Flags, interval: float = 1.0) -> None:
-    """Shade the frames with a flag (M,), each by half an interval to both sides."""
+    """Shade the frames with a flag (M,), each by half an interval to both sides, behind curves and bands."""
     edges = np.repeat(interval * (np.arange(len(flags) + 1) - 0.5), 2)[1:-1]
-    style = {"transform": axes.get_xaxis_transform(), "color": HIDDEN_SHADE, "linewidth": 0}
+    style = {"transform": axes.get_xaxis_transform(), "color": HIDDEN_SHADE, "linewidth": 0, "zorder": 0}
     axes.fill_between(edges, 0, 1, where=np.repeat(flags, 2), **style)
