@@ -342,6 +342,22 @@ def test_what_does_not_run_is_told_below_the_table(dataset, tmp_path, capsys):
     assert f"theirs={tmp_path / 'results'}" in page
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
+@pytest.mark.parametrize(
+    "name", ["rows.csv", "evaluation.json", "report.html", "table.tex", "figures/color-success.png"]
+)
+def test_a_full_disk_is_told_with_the_file(dataset, tmp_path, capsys, name):
+    """The runs are there, and the command that is repeated with more room writes the rest."""
+    place = tmp_path / "evaluation"
+    place.mkdir()
+    (place / name).parent.mkdir(exist_ok=True)
+    (place / name).symlink_to("/dev/full")
+    words = ["evaluate", str(dataset / "one"), "--trackers", "still-box", "--no-restarts"]
+    words += ["--latex", str(place / "table.tex"), "--figures", "png", "--output", str(place)]
+    assert main(words) == 2
+    assert capsys.readouterr().err.endswith(f"tricue evaluate: {place / name}: No space left on device\n")
+
+
 def test_an_error_names_the_run_that_it_ended(dataset, own, capfd):
     """Runs of several protocols on one sequence have lines that differ."""
     (own / "own_tracker.py").write_text(

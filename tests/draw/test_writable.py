@@ -3,7 +3,7 @@ import os
 from pathlib import Path
 
 import pytest
-from tricue.draw.writable import check_writable
+from tricue.draw.writable import check_writable, naming
 
 
 def test_nothing_is_touched(tmp_path: Path) -> None:
@@ -47,3 +47,11 @@ def test_pipes_are_left_alone() -> None:
     finally:
         os.close(reading)
     check_writable(Path(os.devnull))
+
+
+@pytest.mark.parametrize("error", [OSError(28, "No space left on device"), OSError("encoder error -2")])
+def test_a_file_that_is_being_written_is_named(error: OSError) -> None:
+    """It proves that the message stays, and gets the file."""
+    with pytest.raises(OSError, match=error.strerror or str(error)) as found, naming(Path("results/o.png")):
+        raise error
+    assert (found.value.errno, found.value.filename) == (error.errno, "results/o.png")

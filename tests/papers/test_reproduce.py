@@ -196,6 +196,15 @@ def test_an_output_that_can_not_be_written_is_told_first(name, tmp_path):
     assert not calls
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
+@pytest.mark.parametrize("name", ["sabeti-fig2.csv", "sabeti-fig2.png"])
+def test_a_full_disk_is_told_with_the_file(name, tmp_path):
+    """After hours of curves it is known which file is missing."""
+    (tmp_path / name).symlink_to("/dev/full")
+    with pytest.raises(OSError, match=f"No space left on device: '{tmp_path / name}'"):
+        reproduce.run("sabeti-fig2", seeds=1, output=tmp_path, models=STILL)
+
+
 def test_missing_matplotlib_names_the_extra(monkeypatch, tmp_path):
     """Without matplotlib the error comes before the work and says how to install it."""
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)

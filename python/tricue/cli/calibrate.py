@@ -20,7 +20,7 @@ from tricue.data.color_samples import read_color_samples
 from tricue.data.input_files import input_files
 from tricue.data.open_source import open_source
 from tricue.data.skin_masks import find_masked_images, is_mask_folder
-from tricue.draw.writable import check_writable
+from tricue.draw.writable import check_writable, naming
 from tricue.errors import MissingChannelError
 from tricue.track.base.params import Params
 from tricue.track.base.registry import tracker_class
@@ -221,13 +221,11 @@ def _write(path: Path, kind: type[Params], values: Mapping[str, Any], measured: 
     """
     kind(**values)
     text = toml.dumps(values, dict.fromkeys(measured, "from tricue calibrate"))
-    try:
+    with naming(path):  # not the temporary file
         if path.exists() and not (path.is_file() and os.access(path.resolve().parent, os.W_OK)):
             path.write_text(text, encoding="utf-8")
         else:
             _replace(path.resolve(), text)
-    except OSError as error:  # it may name the temporary file, or none
-        raise OSError(error.errno, error.strerror, str(path)) from None
 
 
 def _replace(path: Path, text: str) -> None:

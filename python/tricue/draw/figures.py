@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tricue.doctor.install import install_extra
+from tricue.draw.writable import naming
 
 C = TypeVar("C")
 S = TypeVar("S")
@@ -45,7 +46,8 @@ def save(draw: Draw[C, S], curves: Sequence[C], scenes: Mapping[str, S], path: P
     with rc_context(STYLE):
         figure = Figure(layout="constrained")
         draw(figure, curves, scenes)
-        figure.savefig(path)
+        with naming(path):
+            figure.savefig(path)
 
 
 def draw_box(axes: Any, box: ArrayLike, color: str, linestyle: Literal["solid", "dashed"] = "solid") -> None:

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Checks whether a file can be written, without touching it."""
+"""Checks whether a file can be written, without touching it, and names it in errors while it is."""
 
 import errno
 import os
 import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 
@@ -19,6 +21,15 @@ def check_writable(path: Path) -> None:
         return
     if stat.S_ISREG(mode) or stat.S_ISDIR(mode):  # opening a pipe would look like its end to the reader
         os.close(os.open(path, os.O_WRONLY))
+
+
+@contextmanager
+def naming(path: Path) -> Iterator[None]:
+    """Name the file in errors, such as that of a full disk; Python does so only when opening it."""
+    try:
+        yield
+    except OSError as error:
+        raise OSError(error.errno, error.strerror or str(error), str(path)) from None
 
 
 def _check_folder(path: Path) -> None:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from tricue.draw.writable import naming
 from tricue.evaluation import tables
 from tricue.evaluation.attributes.definitions import BY_KEY
 from tricue.evaluation.attributes.results import sequences_with, tracker_lines
@@ -102,7 +103,8 @@ def _save(
             draw(figure.subplots())
             file = path.with_name(f"{path.name}.{each}")
             metadata = {"pdf": {"CreationDate": None}, "svg": {"Date": None}}.get(each)
-            figure.savefig(file, format=each, dpi=_DPI, metadata=metadata)
+            with naming(file):
+                figure.savefig(file, format=each, dpi=_DPI, metadata=metadata)
             written.append(file)
     return written
 

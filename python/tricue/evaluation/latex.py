@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from tricue.draw.writable import naming
 from tricue.evaluation import tables
 from tricue.evaluation.attributes.definitions import BY_KEY
 from tricue.evaluation.attributes.results import sequences_with, tracker_lines
@@ -46,7 +47,8 @@ def write_latex(evaluation: Evaluation, path: Path) -> Path:
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     parts = ["% Needs \\usepackage{booktabs}. Written by tricue evaluate.", *_tables(evaluation)]
-    path.write_text("\n\n".join(parts) + "\n", encoding="utf-8")
+    with naming(path):
+        path.write_text("\n\n".join(parts) + "\n", encoding="utf-8")
     return path
 
 

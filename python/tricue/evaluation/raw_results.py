@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.doctor.install import commit
+from tricue.draw.writable import naming
 from tricue.evaluation.dataset import OpenedSequence, short_names
 from tricue.evaluation.evaluate import RUNS, Evaluation, RunResult
 from tricue.evaluation.one_pass import Run
@@ -199,4 +200,5 @@ def _write_vot(folder: Path, sequence: str, repetitions: Sequence[_Repetition]) 
 
 def _write_lines(path: Path, lines: Sequence[str]) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text("".join(f"{line}\n" for line in lines), encoding="utf-8")
+    with naming(path):
+        path.write_text("".join(f"{line}\n" for line in lines), encoding="utf-8")

@@ -7,6 +7,7 @@ import re
 import tempfile
 from pathlib import Path
 
+from tricue.draw.writable import naming
 from tricue.evaluation.record import Record
 from tricue.evaluation.tasks import Task
 
@@ -49,8 +50,10 @@ class Store:
             "settings": dict(task.tracker.settings),
         }
         unfinished = path.with_suffix(f".{os.getpid()}.part")
-        unfinished.write_text(record.to_json(about) + "\n", encoding="utf-8")
-        unfinished.replace(path)
+        text = record.to_json(about) + "\n"
+        with naming(path):
+            unfinished.write_text(text, encoding="utf-8")
+            unfinished.replace(path)
 
 
 def _file_name(part: str) -> str:

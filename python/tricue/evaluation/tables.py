@@ -18,6 +18,7 @@ import cv2
 import numpy as np
 
 import tricue
+from tricue.draw.writable import naming
 from tricue.evaluation.attributes.results import sequence_lines, tracker_lines
 from tricue.evaluation.differences import BETTER, comparison, protocols_of
 from tricue.evaluation.evaluate import Evaluation, RunResult
@@ -155,7 +156,8 @@ def write(evaluation: Evaluation, folder: Path, about: Line) -> list[Path]:
     for name, lines in files.items():
         _write_csv(folder / name, lines)
     text = json.dumps(_finite(contents), indent=1, allow_nan=False)
-    (folder / JSON).write_text(text + "\n", encoding="utf-8")
+    with naming(folder / JSON):
+        (folder / JSON).write_text(text + "\n", encoding="utf-8")
     return [folder / name for name in (*files, JSON)]
 
 
@@ -196,7 +198,7 @@ def _compare(evaluation: Evaluation, protocol: str = ONE_PASS) -> Iterator[tuple
 
 def _write_csv(path: Path, lines: Sequence[Line]) -> None:
     """Write numbers in full precision, so that equal runs give equal files; missing ones are empty."""
-    with path.open("w", newline="", encoding="utf-8") as file:
+    with naming(path), path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, list(lines[0]) if lines else [], lineterminator="\n")
         writer.writeheader()
         writer.writerows({name: _cell(value) for name, value in line.items()} for line in lines)

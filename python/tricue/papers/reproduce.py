@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from tricue.draw import figures
-from tricue.draw.writable import check_writable
+from tricue.draw.writable import check_writable, naming
 from tricue.evaluation.interrupts import end_when_interrupted, interrupts_later
 from tricue.papers.experiment import C, Case, Experiment, Maker, Models, Report, S
 from tricue.papers.moreno import experiments as moreno
@@ -69,7 +69,8 @@ def run(
     output.mkdir(parents=True, exist_ok=True)
     curves = list(_all_curves(experiment, models or experiment.models, seeds, jobs, progress))
     report = Report(experiment.summarize(curves), output / f"{name}.png", output / f"{name}.csv")
-    experiment.write_csv(report.table, curves)
+    with naming(report.table):
+        experiment.write_csv(report.table, curves)
     scenes = {scene: make(seed=0) for scene, make in experiment.scenes.items()}
     figures.save(experiment.draw, curves, scenes, report.figure)
     return report

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from tricue.draw.writable import naming
 from tricue.evaluation import tables
 from tricue.evaluation.differences import BETTER, comparison
 from tricue.evaluation.evaluate import Evaluation
@@ -46,7 +47,9 @@ def write_report(evaluation: Evaluation, folder: Path, about: Mapping[str, Any])
     svg.require()
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / REPORT
-    path.write_text(_page(evaluation, about), encoding="utf-8", newline="\n")
+    page = _page(evaluation, about)
+    with naming(path):
+        path.write_text(page, encoding="utf-8", newline="\n")
     return path
 
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from tricue import kernels
 from tricue.arrays import Image
 from tricue.draw import figures
-from tricue.draw.writable import check_writable
+from tricue.draw.writable import check_writable, naming
 from tricue.papers import tables
 from tricue.papers.experiment import Report
 from tricue.papers.plots import show_frame
@@ -139,7 +139,7 @@ def _thresholds(name: str, chosen: _Chosen) -> list[float]:
 
 
 def _write_csv(path: Path, curves: Mapping[str, Roc]) -> None:
-    with path.open("w", newline="", encoding="utf-8") as file:
+    with naming(path), path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(CSV_COLUMNS)
         for reference, curve in curves.items():
