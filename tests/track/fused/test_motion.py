@@ -6,6 +6,7 @@ import itertools
 import numpy as np
 import pytest
 from tricue import Box, Frame, FusedTracker, Status
+from tricue.scenes import walker
 from tricue.track.fused.motion import LOCALIZATION_ERROR, Motion
 from tricue.track.fused.target import Target
 
@@ -79,13 +80,6 @@ def test_time_counts():
     assert STEADY.penalty(target(172), target(188), SECONDS, WEIGHT) > 0
 
 
-def test_a_velocity_over_hardly_any_time_tells_nothing():
-    """The timestamp of a frame that came late, just before the next one's, makes it far too fast."""
-    late = STEADY.follow(target(172), target(180), SECONDS / 100)
-    assert late.penalty(target(180), target(188), SECONDS, WEIGHT) == 0
-    assert late.follow(target(180), target(188), SECONDS).typical == late.typical
-
-
 def test_nothing_is_known_at_first():
     """Nor after frames without the target, which may have gone anywhere; typical jumps stay known."""
     assert Motion().penalty(target(100), target(300), SECONDS, WEIGHT) == 0
@@ -118,6 +112,25 @@ def test_the_one_beside_it_is_not_taken_for_it(weight):
     tracks = [tracker.update(scene(140)) for _ in range(20)]
     assert all(each.status is Status.TRACKED for each in tracks)
     assert (tracker.update(scene(None)).status is Status.TRACKED) == (weight == 0)
+
+
+def mean_overlap(scene, times: list[float]) -> float:
+    """Of a person in depth images with these timestamps, who is TRACKED all the time."""
+    tracker = FusedTracker(intrinsics=scene.intrinsics)
+    frames = [Frame(depth=each.depth, timestamp=time) for each, time in zip(scene.frames, times, strict=True)]
+    tracker.init(frames[0], scene.boxes[0])
+    tracks = [tracker.update(frame) for frame in frames[1:]]
+    assert all(each.status is Status.TRACKED for each in tracks)
+    return float(np.mean([each.box.iou(box) for each, box in zip(tracks, scene.boxes[1:], strict=True)]))
+
+
+@pytest.mark.parametrize(("number", "interval"), [(5, 0.002), (5, 0.01), (8, 0.005)])
+def test_depth_images_that_come_in_bursts_are_followed(number, interval):
+    """The velocity over the time between two frames of a burst would put the person meters away."""
+    scene = walker(2, 60, "tof")
+    even = [n / 30 for n in range(60)]
+    bursts = [n // number * number / 30 + interval * (n % number) for n in range(60)]
+    assert mean_overlap(scene, bursts) > mean_overlap(scene, even) - 0.05
 
 
 def test_frames_that_come_in_bursts_are_followed():

@@ -41,6 +41,7 @@ def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedPara
     models: ModelsByKind = {observation.kind: appearance}
     return State(
         shape=frame.shape,
+        mean_seconds=1 / p.rate,
         models=models,
         memory=Memory(models, models),
         target=target,
@@ -87,6 +88,7 @@ def renew_models(state: State, frame: FrameObservation, k: Kernels, p: FusedPara
         is_metric=state.is_metric,
         depth_trust=state.depth_trust,
         seconds=state.seconds,
+        mean_seconds=state.mean_seconds,
     )
 
 

@@ -13,7 +13,6 @@ from tricue.track.fused.target import Target
 
 LOCALIZATION_ERROR = 0.1  # of the target's side: a shorter distance from the predicted place is no jump
 MEAN_RATE = 0.05  # per frame, of the running mean of jumps
-MIN_TIME_SHARE = 0.1  # of the time to the next frame; a velocity over less time comes from late timestamps
 
 
 class Motion(NamedTuple):
@@ -21,14 +20,12 @@ class Motion(NamedTuple):
 
     A jump is the distance from the place that the last velocity predicts, in sides of the target. velocity:
     to the right and down, in sides of the target per second; None after a frame in which the target wasn't
-    recognized. typical: running mean of jumps. jumps: their number. seconds: time over which velocity was
-    measured.
+    recognized, or that came late. typical: running mean of jumps. jumps: their number.
     """
 
     velocity: tuple[float, float] | None = None
     typical: float = 0.0
     jumps: int = 0
-    seconds: float = 0.0
 
     def penalty(self, last: Target, found: Target, seconds: float, weight: float) -> float:
         """The log-odds by which a jump lowers a match's; 0 until a jump of the target was measured.
@@ -46,18 +43,18 @@ class Motion(NamedTuple):
         velocity = right / seconds, down / seconds
         jump = self._jump(last, found, seconds)
         if jump is None:
-            return self._replace(velocity=velocity, seconds=seconds)
+            return self._replace(velocity=velocity)
         jumps = self.jumps + 1
         rate = max(1 / jumps, MEAN_RATE)  # at first the mean of all jumps
-        return Motion(velocity, self.typical + rate * (jump - self.typical), jumps, seconds)
+        return Motion(velocity, self.typical + rate * (jump - self.typical), jumps)
 
     def interrupt(self) -> "Motion":
-        """The motion after a frame in which the target wasn't recognized."""
+        """The motion without a velocity: after a frame without the target, or one that came late."""
         return self._replace(velocity=None)
 
     def _jump(self, last: Target, found: Target, seconds: float) -> float | None:
         """The jump in sides of the last target; None without a velocity that predicts the target's place."""
-        if self.velocity is None or self.seconds < MIN_TIME_SHARE * seconds:
+        if self.velocity is None:
             return None
         right, down = _displacement(last, found)
         return math.hypot(right - seconds * self.velocity[0], down - seconds * self.velocity[1])

@@ -110,6 +110,10 @@ class PositionFilter(NamedTuple):
         covariance[:3, :3], covariance[3:, 3:] = self.covariance[:3, :3], other.covariance[3:, 3:]
         return PositionFilter(mean, covariance)
 
+    def stop(self, p: PositionParams) -> "PositionFilter":
+        """The state with an unknown velocity, as at the first measurement."""
+        return PositionFilter.at_rest(self.mean[:3], self.covariance[:3, :3], p)
+
     def slow_down(self) -> "PositionFilter":
         """The state with less velocity, after a frame in which the target was missed."""
         return PositionFilter(self.mean * MISSED_MEAN_FACTORS, self.covariance)

@@ -21,6 +21,7 @@ from tricue.track.fused.target import Target
 FRESH_TRUST = DepthTrust()  # before the first frame
 NO_MOTION = Motion()  # after the first frame
 MIN_LOST_FRAMES = 3  # missed in a row, before the target is LOST
+MIN_INTERVAL_SHARE = 1 / 3  # of the mean interval between frames
 
 
 @dataclass(frozen=True)
@@ -53,6 +54,7 @@ class State:
     unlearned_seconds: float = 0.0  # since appearance was learned
     learnings: int = 0  # of appearance, after the first frame
     seconds: float = 0.0  # since the previous frame
+    mean_seconds: float = 0.0  # running mean of these; at first 1 / rate
     frames: int = 0  # since init
     timestamp: float | None = None
 
@@ -63,6 +65,12 @@ class State:
         vars(changed).update(vars(self))
         vars(changed).update(changes)
         return changed
+
+    def is_late(self) -> bool:
+        """Whether the frame came so soon after the one before that it must have been taken earlier than its
+        timestamp says, as in a burst after a delay. A velocity over that time is wrong.
+        """
+        return self.seconds < MIN_INTERVAL_SHARE * self.mean_seconds
 
     def is_lost(self, p: FusedParams) -> bool:
         """Whether the target has been missed for long enough to be LOST."""

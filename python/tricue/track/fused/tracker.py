@@ -38,6 +38,7 @@ from tricue.track.fused.verify import verify
 # Standard deviations of the errors of guessed cameras, as shares of X, Y, Z:
 GUESSED_CAMERA_ERROR = 0.4  # of X and Y; for fields of view of 40 and 90 degrees they are off by 0.4 and 0.7
 GUESSED_RIG_ERROR = 0.7  # of X, Y and Z; for baselines of 5 and 25 cm they are off by 0.6 and 1.1
+MEAN_INTERVAL_RATE = 0.05  # per frame, of the running mean of the time between frames
 UNTIMED_FACTOR = 2.0  # the time between frames without timestamps may be so many times that given by ``rate``
 
 
@@ -135,7 +136,9 @@ class FusedTracker(TrackerBase[FusedParams, State]):
 
     def _predict(self, state: State, observed: FrameObservation, trust: DepthTrust, seconds: float) -> State:
         """The state predicted for the frame, so many seconds later."""
-        position = state.position
+        position, motion = state.position, state.motion
+        if state.is_late():
+            position, motion = position and position.stop(self.params), motion.interrupt()
         if position is not None:
             position = position.slow_down() if state.missed_frames else position
             rate = self.params.rate / UNTIMED_FACTOR
@@ -146,11 +149,13 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         return state.replace(
             target=upright,
             position=position,
+            motion=motion,
             depth_trust=trust,
             is_metric=state.is_metric and self._is_metric(observed),
             timestamp=observed.timestamp,
             unlearned_seconds=state.unlearned_seconds + seconds,
             seconds=seconds,
+            mean_seconds=state.mean_seconds + MEAN_INTERVAL_RATE * (seconds - state.mean_seconds),
             frames=state.frames + 1,
         )
 
