@@ -61,7 +61,10 @@ def test_too_few_recordings_for_many_lines(tmp_path, capsys):
     assert [each.verdict for each in compare_folders(old, one).changes] == ["worse"]
     assert [each.verdict for each in compare_folders(old, new).changes] == ["nothing can be told"] * 2
     assert main(["compare", str(old), str(new), "--fail-if-worse"]) == 0
-    assert "Of so few recordings no p of 2 lines can be under 0.05 by Holm." in capsys.readouterr().out
+    assert (
+        "With so few recordings, no p of 2 lines can be under 0.05 after Holm's correction."
+        in capsys.readouterr().out
+    )
 
 
 @pytest.mark.parametrize(

@@ -78,7 +78,7 @@ def test_many_pairs_of_few_recordings_have_no_leader():
     assert not three.separable
     assert not three.leaders()
     assert telling(three).endswith(
-        "None is marked: of so few recordings no p of 3 pairs can be under 0.05 by Holm."
+        "None is marked: with so few recordings, no p of 3 pairs can be under 0.05 after Holm's correction."
     )
     assert not compare({"a": values["a"]}, six).separable
 

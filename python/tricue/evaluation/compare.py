@@ -98,7 +98,10 @@ def compare_folders(old: Path, new: Path, number: str = "auc") -> Comparison:
     if tested and not separable(tested):
         adjusted = [math.nan] * len(changes)
         lines = "1 line" if len(tested) == 1 else f"{len(tested)} lines"
-        notes = [f"Of so few recordings no p of {lines} can be under 0.05 by Holm.", *notes]
+        notes = [
+            f"With so few recordings, no p of {lines} can be under 0.05 after Holm's correction.",
+            *notes,
+        ]
     changes = [replace(each, adjusted=p) for each, p in zip(changes, adjusted, strict=True)]
     return Comparison(number, changes, notes)
 

@@ -73,7 +73,7 @@ def telling(found: Comparison) -> str:
     if found.separable:
         return (
             f"{interval} *: the best, and what can't be distinguished from it (paired sign-flip test, p of"
-            " 0.05 or more by Holm for all pairs)."
+            " 0.05 or more after Holm's correction for all pairs)."
         )
     pairs = len(found.pairs)
     return f"{interval} {unmarked(pairs)}" if pairs else interval
@@ -82,7 +82,9 @@ def telling(found: Comparison) -> str:
 def unmarked(pairs: int) -> str:
     """Why no tracker is marked as among the best although there are intervals."""
     count = "1 pair" if pairs == 1 else f"{pairs} pairs"
-    return f"None is marked: of so few recordings no p of {count} can be under 0.05 by Holm."
+    return (
+        f"None is marked: with so few recordings, no p of {count} can be under 0.05 after Holm's correction."
+    )
 
 
 def interval_text(found: Comparison, tracker: str) -> str:

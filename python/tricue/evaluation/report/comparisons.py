@@ -60,7 +60,11 @@ def matrix(evaluation: Evaluation, group: str) -> Html | None:
     table = tag("table", tag("thead", head), tag("tbody", rows), class_="pairs matrix")
     keys = [
         tag("li", tag("span", class_="key higher"), " higher"),
-        tag("li", tag("span", class_="key lower"), " lower; both: p under 0.05 by Holm for all pairs"),
+        tag(
+            "li",
+            tag("span", class_="key lower"),
+            " lower; both: p under 0.05 after Holm's correction for all pairs",
+        ),
         tag("li", tag("span", class_="key maybe"), " only the pair's own 95 % interval excludes 0"),
         tag("li", tag("span", class_="key"), " no difference shown"),
     ]
