@@ -76,7 +76,7 @@ TRICUE_INLINE void add_row_by(const std::uint8_t* skin, int n, std::uint8_t row,
         each += marks & row;
         store(each, rows + x);
     }
-    std::uint8_t lanes[kBytes];
+    std::uint8_t lanes[std::size_t{kBytes}];
     store(total, lanes);
     int sum = 0;
     for (int lane = 0; lane < kBytes; ++lane) sum += lanes[lane];
