@@ -80,6 +80,13 @@ def test_time_counts():
     assert STEADY.penalty(target(172), target(188), SECONDS, WEIGHT) > 0
 
 
+def test_a_velocity_over_hardly_any_time_tells_nothing():
+    """After a gap that is far longer, the target may be anywhere."""
+    brief = STEADY.follow(target(172), target(180), SECONDS / 100)
+    assert brief.penalty(target(180), target(188), SECONDS, WEIGHT) == 0
+    assert brief.follow(target(180), target(188), SECONDS).typical == brief.typical
+
+
 def test_nothing_is_known_at_first():
     """Nor after frames without the target, which may have gone anywhere; typical jumps stay known."""
     assert Motion().penalty(target(100), target(300), SECONDS, WEIGHT) == 0

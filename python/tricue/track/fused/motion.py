@@ -13,6 +13,7 @@ from tricue.track.fused.target import Target
 
 LOCALIZATION_ERROR = 0.1  # of the target's side: a shorter distance from the predicted place is no jump
 MEAN_RATE = 0.05  # per frame, of the running mean of jumps
+MIN_TIME_SHARE = 0.1  # of the time to the next frame; a velocity over less time tells nothing about its place
 
 
 class Motion(NamedTuple):
@@ -20,12 +21,14 @@ class Motion(NamedTuple):
 
     A jump is the distance from the place that the last velocity predicts, in sides of the target. velocity:
     to the right and down, in sides of the target per second; None after a frame in which the target wasn't
-    recognized, or that came late. typical: running mean of jumps. jumps: their number.
+    recognized, or that came late. typical: running mean of jumps. jumps: their number. seconds: time over
+    which velocity was measured.
     """
 
     velocity: tuple[float, float] | None = None
     typical: float = 0.0
     jumps: int = 0
+    seconds: float = 0.0
 
     def penalty(self, last: Target, found: Target, seconds: float, weight: float) -> float:
         """The log-odds by which a jump lowers a match's; 0 until a jump of the target was measured.
@@ -43,10 +46,10 @@ class Motion(NamedTuple):
         velocity = right / seconds, down / seconds
         jump = self._jump(last, found, seconds)
         if jump is None:
-            return self._replace(velocity=velocity)
+            return self._replace(velocity=velocity, seconds=seconds)
         jumps = self.jumps + 1
         rate = max(1 / jumps, MEAN_RATE)  # at first the mean of all jumps
-        return Motion(velocity, self.typical + rate * (jump - self.typical), jumps)
+        return Motion(velocity, self.typical + rate * (jump - self.typical), jumps, seconds)
 
     def interrupt(self) -> "Motion":
         """The motion without a velocity: after a frame without the target, or one that came late."""
@@ -54,7 +57,7 @@ class Motion(NamedTuple):
 
     def _jump(self, last: Target, found: Target, seconds: float) -> float | None:
         """The jump in sides of the last target; None without a velocity that predicts the target's place."""
-        if self.velocity is None:
+        if self.velocity is None or self.seconds < MIN_TIME_SHARE * seconds:
             return None
         right, down = _displacement(last, found)
         return math.hypot(right - seconds * self.velocity[0], down - seconds * self.velocity[1])
