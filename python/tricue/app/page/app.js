@@ -96,6 +96,8 @@ async function load() {
     show(frame, image);
   }
   loading = false;
+  // A run may end with the picture that was shown before it.
+  if (stage.shown === model.frame && !model.state.run && !stage.busy) say(`shown ${model.frame}`);
 }
 
 /** A frame's picture; null, and a complaint, if it can't be shown. */
