@@ -15,9 +15,8 @@ Belief kalman_predict(VectorRef mean, StatesRef covariance, StatesRef transition
     return with_matrix_type(mean.size(), [&](auto empty) -> Belief {
         using Matrix = decltype(empty);
         const Matrix f = transition.matrix(), p = covariance.matrix();
-        const Matrix moved = f.lazyProduct(p);
-        const Matrix both = moved.lazyProduct(f.transpose());
-        return {f.lazyProduct(mean.matrix()).array(), symmetrized(Matrix(both + noise.matrix()))};
+        const Matrix moved = product(product(f, p), f.transpose());
+        return {f.lazyProduct(mean.matrix()).array(), symmetrized(moved + noise.matrix())};
     });
 }
 

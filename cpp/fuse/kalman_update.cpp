@@ -30,24 +30,24 @@ Eigen::LLT<Matrix> positive_root(const Matrix& s) {
 template <typename Matrix>
 Correction correct(VectorRef mean, StatesRef covariance, VectorRef measurement, StatesRef observation,
                    StatesRef noise, double max_distance) {
-    const Matrix h = observation.matrix(), r = noise.matrix();
+    const Matrix h = observation.matrix(), transposed_h = h.transpose(), r = noise.matrix();
     Vector innovation = measurement - h.lazyProduct(mean.matrix()).array();
-    Matrix p = covariance.matrix(), hp = h.lazyProduct(p);
-    Matrix s = symmetrized(Matrix(hp.lazyProduct(h.transpose()) + r)).matrix();
+    Matrix p = covariance.matrix(), hp = product(h, p);
+    Matrix s = symmetrized(product(hp, transposed_h) + r).matrix();
     Eigen::LLT<Matrix> root = positive_root(s);
     const double distance = root.matrixL().solve(innovation.matrix()).norm();
     if (distance > max_distance) {
         const double ratio = distance / max_distance;
         p *= ratio * ratio;
-        hp = h.lazyProduct(p);
-        s = symmetrized(Matrix(hp.lazyProduct(h.transpose()) + r)).matrix();
+        hp = product(h, p);
+        s = symmetrized(product(hp, transposed_h) + r).matrix();
         root = positive_root(s);
     }
     const Matrix gain = root.solve(hp).transpose();  // K = P Hᵀ S⁻¹, P and S being symmetric
-    Matrix rest = -gain.lazyProduct(h);
+    Matrix rest = -product(gain, h);
     rest.diagonal().array() += 1.0;
-    const Matrix rest_p = rest.lazyProduct(p), gain_r = gain.lazyProduct(r);
-    const Matrix squares = rest_p.lazyProduct(rest.transpose()) + gain_r.lazyProduct(gain.transpose());
+    const Matrix squares =
+        product(product(rest, p), rest.transpose()) + product(product(gain, r), gain.transpose());
     return {mean + gain.lazyProduct(innovation.matrix()).array(), symmetrized(squares), std::move(innovation),
             s.array()};
 }

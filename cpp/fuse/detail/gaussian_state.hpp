@@ -3,20 +3,14 @@
 
 #include "base/arrays.hpp"
 #include "base/check.hpp"
+#include "fuse/detail/small_product.hpp"
 
 namespace tricue {
-
-/// A matrix with at most kMax rows and columns, which needs no allocated memory.
-template <int kMax>
-using MatrixUpTo = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMax, kMax>;
-
-/// The most numbers of a state, or of a measurement, for which matrices hold their numbers themselves.
-constexpr int kSmallState = 12;
 
 /// Calls `use` with an empty matrix, whose type is the one for so many rows and columns.
 template <typename Use>
 inline auto with_matrix_type(Eigen::Index size, Use&& use) {
-    return size <= kSmallState ? use(MatrixUpTo<kSmallState>{}) : use(MatrixUpTo<Eigen::Dynamic>{});
+    return size <= kSmallState ? use(SmallMatrix{}) : use(LargeMatrix{});
 }
 
 /// Throws std::invalid_argument unless the mean (N,) is finite, N at least 1, and the covariance (N, N) is one.
