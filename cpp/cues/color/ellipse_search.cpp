@@ -2,13 +2,13 @@
 #include "cues/color/ellipse_search.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <vector>
 
 #include "base/check.hpp"
 #include "base/simd.hpp"
+#include "cues/color/detail/histogram_sum.hpp"
 #include "cues/color/detail/sliding_histogram.hpp"
 
 namespace tricue {
@@ -138,40 +138,6 @@ private:
     Counts inside_, around_;
 };
 
-struct Total {
-    double sum;
-    bool valid;
-};
-
-/// In eight sums, so that it vectorizes in a fixed order.
-TRICUE_MULTIVERSION
-Total sum_model(const double* model, Eigen::Index n) {
-    constexpr Eigen::Index kSums = 8;
-    double sums[kSums] = {};
-    int invalid = 0;
-    for (Eigen::Index i = 0; i + kSums <= n; i += kSums)
-        for (Eigen::Index k = 0; k < kSums; ++k) {
-            sums[k] += model[i + k];
-            invalid += !(model[i + k] >= 0.0);
-        }
-    for (Eigen::Index i = n / kSums * kSums; i < n; ++i) {
-        sums[0] += model[i];
-        invalid += !(model[i] >= 0.0);
-    }
-    double sum = 0.0;
-    for (const double part : sums) sum += part;
-    return {sum, invalid == 0};
-}
-
-double require_model(VectorRef model) {
-    if (model.size() == 0) refuse("model", "at least one bin", "none");
-    const Total total = sum_model(model.data(), model.size());
-    if (total.valid && total.sum > 0.0 && std::isfinite(total.sum)) return total.sum;
-    require_finite(model, "model");
-    if (!total.valid) refuse("model", "no negative number", model.minCoeff());
-    refuse("model", "a finite sum above 0", total.sum);
-}
-
 /// All pixels that a shape covers at the positions of the grid, relative to the image.
 Region covered_area(const EllipseShape& shape, const CenterPixel& place, const SearchGrid& grid) {
     const auto [begin, end] = shape.column_range();
@@ -208,7 +174,7 @@ States ellipse_search(const BinsView& bins, VectorRef ellipse, const SearchGrid&
                       const SearchModel& model, const ImageView& mask) {
     require_ellipse(ellipse, model.margin);
     require_grid(grid);
-    const double total = require_model(model.histogram);
+    const double total = require_histogram_sum(model.histogram, "model");
     require_bins(bins, model.histogram.size());
 
     require_mask(mask, bins);

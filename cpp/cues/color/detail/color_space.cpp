@@ -2,12 +2,55 @@
 #include "cues/color/detail/color_space.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
+#include <vector>
 
 #include "base/check.hpp"
+#include "base/simd.hpp"
+#include "cues/color/detail/histogram_sum.hpp"
 
 namespace tricue {
+namespace {
+
+/// Sums over the bins (i, j, k) of each k: of their numbers, and of these times i, and times j.
+struct Moments {
+    double *all, *first, *second;
+};
+
+/// kThird is the number of bins of the third axis, or 0 for any number: with a known number, sums stay in registers.
+template <int kThird>
+TRICUE_INLINE void add_moments_of(const double* __restrict numbers, int first, int second, int any_third,
+                                  const Moments& moments) {
+    const int third = kThird > 0 ? kThird : any_third;
+    constexpr std::size_t kRoom = kThird > 0 ? kThird : 256;
+    double times_i[kRoom] = {}, times_j[kRoom] = {}, all[kRoom] = {};
+    for (int i = 0; i < first; ++i) {
+        double plane[kRoom];
+        for (int k = 0; k < third; ++k) plane[k] = 0.0;
+        for (int j = 0; j < second; ++j, numbers += third)
+            for (int k = 0; k < third; ++k) {
+                plane[k] += numbers[k];
+                times_j[k] += j * numbers[k];
+            }
+        for (int k = 0; k < third; ++k) {
+            all[k] += plane[k];
+            times_i[k] += i * plane[k];
+        }
+    }
+    for (int k = 0; k < third; ++k) {
+        moments.all[k] = all[k];
+        moments.first[k] = times_i[k];
+        moments.second[k] = times_j[k];
+    }
+}
+
+TRICUE_MULTIVERSION
+void add_moments(const double* numbers, int first, int second, int third, const Moments& moments) {
+    third == 8 ? add_moments_of<8>(numbers, first, second, third, moments)
+               : add_moments_of<0>(numbers, first, second, third, moments);
+}
+
+}  // namespace
 
 void require_space(const ColorSpace& space) {
     const auto [least, most] = std::minmax_element(space.bins.begin(), space.bins.end());
@@ -21,29 +64,23 @@ void require_space(const ColorSpace& space) {
 double require_histogram(VectorRef histogram, const ColorSpace& space) {
     require_space(space);
     require_size(histogram, space.size(), "histogram");
-    require_finite(histogram, "histogram");
-    const double least = histogram.minCoeff(), sum = histogram.sum();
-    if (least < 0.0) refuse("histogram", "no negative number", least);
-    if (!(sum > 0.0 && std::isfinite(sum))) refuse("histogram", "a finite sum above 0", sum);
-    return sum;
+    return require_histogram_sum(histogram, "histogram");
 }
 
 Vector mean_color(VectorRef histogram, double sum, const ColorSpace& space) {
     const auto [first, second, third] = space.bins;
-    const Eigen::Map<const Eigen::MatrixXd> bins(histogram.data(), third, Eigen::Index{first} * second);
-    const Eigen::VectorXd light = bins.rowwise().sum();
-    const Eigen::VectorXd chroma = bins.colwise().sum().transpose();
-    const Eigen::Map<const Eigen::MatrixXd> plane(chroma.data(), second, first);
-    const std::array<Eigen::VectorXd, 3> marginals{plane.colwise().sum().transpose(), plane.rowwise().sum(),
-                                                   light};
-
-    Vector mean(3);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto& marginal = marginals[axis];
-        const double place = marginal.dot(
-            Eigen::VectorXd::LinSpaced(marginal.size(), 0.0, static_cast<double>(marginal.size() - 1)));
-        mean[static_cast<Eigen::Index>(axis)] = space.first(axis) + place / sum * space.width(axis);
+    std::vector<double> numbers(3 * static_cast<std::size_t>(third), 0.0);
+    const Moments moments{numbers.data(), numbers.data() + third, numbers.data() + 2 * third};
+    add_moments(histogram.data(), first, second, third, moments);
+    std::array<double, 3> places{};
+    for (int k = 0; k < third; ++k) {
+        places[0] += moments.first[k];
+        places[1] += moments.second[k];
+        places[2] += k * moments.all[k];
     }
+    Vector mean(3);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        mean[static_cast<Eigen::Index>(axis)] = space.first(axis) + places[axis] / sum * space.width(axis);
     return mean;
 }
 
