@@ -114,27 +114,27 @@ public:
     /// @param marked_inside, marked_both masked pixels of the ellipse, and of ellipse and ring
     void score(const SlidingHistogram& inner, const SlidingHistogram& outer, std::int32_t marked_inside,
                std::int32_t marked_both, double* out) {
-        update_targets(inner.visible(), pixels_inside_, inside_);
-        update_targets(outer.visible() - inner.visible(), pixels_around_, around_);
+        update_targets(inner.visible(), units_inside_, inside_);
+        update_targets(outer.visible() - inner.visible(), units_around_, around_);
         const Sums sums =
             intersect(inner.counts(), outer.counts(), inside_.size(), inside_.data(), around_.data());
         const auto share = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };
-        out[0] = share(sums.inside, static_cast<double>(pixels_inside_) * unit_);
-        out[1] = share(sums.around, static_cast<double>(pixels_around_) * unit_);
-        out[2] = share(marked_inside, pixels_inside_);
-        out[3] = share(marked_both - marked_inside, pixels_around_);
+        out[0] = share(sums.inside, units_inside_);
+        out[1] = share(sums.around, units_around_);
+        out[2] = share(unit_ * marked_inside, units_inside_);
+        out[3] = share(unit_ * (marked_both - marked_inside), units_around_);
     }
 
 private:
     /// The number of pixels changes only at the border of the image.
-    void update_targets(std::int32_t visible, std::int32_t& pixels, Counts& targets) {
-        if (visible == pixels) return;
-        pixels = visible;
-        set_targets(shares_.data(), targets.size(), static_cast<double>(visible) * unit_, targets.data());
+    void update_targets(std::int32_t visible, std::int32_t& units, Counts& targets) {
+        if (visible == units) return;
+        units = visible;
+        set_targets(shares_.data(), targets.size(), units, targets.data());
     }
 
     const std::vector<double>& shares_;
-    std::int32_t unit_, pixels_inside_ = 0, pixels_around_ = 0;
+    std::int32_t unit_, units_inside_ = 0, units_around_ = 0;
     Counts inside_, around_;
 };
 

@@ -7,7 +7,7 @@ namespace tricue {
 
 SlidingHistogram::SlidingHistogram(const EllipseShape& shape, const CompactBins& image, std::ptrdiff_t start,
                                    std::int32_t unit)
-    : image_(image), center_(start), unit_(unit), area_(shape.area), counts_(image.shares.size()) {
+    : image_(image), center_(start), unit_(unit), all_(shape.area * unit), counts_(image.shares.size()) {
     find_boundaries(shape);
     std::ptrdiff_t row = start + std::ptrdiff_t{shape.top} * image.cols;
     for (const auto& run : shape.runs) {

@@ -15,7 +15,7 @@ class SlidingHistogram {
 public:
     /// @param image must outlive the histogram, and contain the shape wherever it is moved
     /// @param start the offset of the pixel that the shape is relative to
-    /// @param unit  what one pixel counts
+    /// @param unit  what one pixel counts; the units of the whole shape fit 31 bits
     SlidingHistogram(const EllipseShape& shape, const CompactBins& image, std::ptrdiff_t start,
                      std::int32_t unit);
 
@@ -24,8 +24,8 @@ public:
     void move_down();
 
     const std::int32_t* counts() const { return counts_.data(); }  ///< units of each index
-    /// Pixels inside the image.
-    int visible() const { return area_ - counts_[CompactBins::kOutside] / unit_; }
+    /// Units of the pixels inside the image.
+    std::int32_t visible() const { return all_ - counts_[CompactBins::kOutside]; }
 
     using Offsets = std::vector<std::int32_t>;
 
@@ -44,8 +44,7 @@ private:
 
     const CompactBins& image_;
     std::ptrdiff_t center_;
-    std::int32_t unit_;
-    int area_;
+    std::int32_t unit_, all_;  ///< of one pixel, and of the whole shape
     std::vector<std::int32_t> counts_;
     Boundary horizontal_, vertical_;
 };
