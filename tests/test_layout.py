@@ -254,7 +254,7 @@ CV2_OF_TRACKERS = {
         *("cvtColor", "COLOR_GRAY2BGR", "split", "resize", "INTER_AREA", "INTER_LINEAR", "copyMakeBorder"),
         *("BORDER_REPLICATE", "BORDER_REFLECT", "Sobel", "magnitude", "boxFilter", "filter2D"),
     },
-    "target_observation": {"cvtColor", "COLOR_GRAY2BGR"},
+    "picture_observation": {"cvtColor", "COLOR_GRAY2BGR"},
     "depth": {"countNonZero"},
     "depth_trust": {"resize", "INTER_AREA", "absdiff"},  # means, alike in every version
 }

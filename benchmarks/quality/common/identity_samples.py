@@ -19,7 +19,7 @@ from tricue.evaluation import metrics
 from tricue.evaluation.confidence import LOST_OVERLAP
 from tricue.track.fused.frame_observation import observe_frame
 from tricue.track.fused.identity import IdentityFeatures
-from tricue.track.fused.localize import TargetModel, localize
+from tricue.track.fused.localize import LocalizationModel, localize
 from tricue.track.fused.measure import Match, measure_candidate
 from tricue.track.fused.proposals import LostTarget, propose_windows
 from tricue.track.fused.state import State
@@ -134,7 +134,7 @@ def _elsewhere(tracker: FusedTracker, frame: Frame, step: int, rng: np.random.Ge
     observed = observe_frame(frame, state.shape, (None, None), False)
     observation = observed.for_target(k, None)
     appearance = state.models[observation.kind]
-    model = TargetModel(appearance, None, state.first_side, state.typical, p)
+    model = LocalizationModel(appearance, None, state.first_side, state.typical, p)
     height, width = state.shape
     random = state.target._replace(x=rng.uniform(0, width), y=rng.uniform(0, height))
     windows = extract_windows(observation, [random], p.context)

@@ -21,8 +21,8 @@ from tricue.track.fused.depth_object import (
 )
 from tricue.track.fused.depth_sources import DepthImageSource
 from tricue.track.fused.outline import BOX_OUTLINE, Outline
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import TargetObservation
 
 WIDTH, HEIGHT, FOCAL, Z, WALL = 320, 240, 300.0, 2.0, 5.0
 CAMERA = Intrinsics(FOCAL, FOCAL, WIDTH / 2 - 0.5, HEIGHT / 2 - 0.5, WIDTH, HEIGHT)
@@ -42,9 +42,9 @@ def depth_of(*things: tuple[Rectangle, float]) -> np.ndarray:
     return depth
 
 
-def observe(depth: np.ndarray) -> TargetObservation:
+def observe(depth: np.ndarray) -> PictureObservation:
     """The target's frame with that depth."""
-    return TargetObservation(kernel_sets.load("native"), ROOM, CAMERA, DepthImageSource(depth), None)
+    return PictureObservation(kernel_sets.load("native"), ROOM, CAMERA, DepthImageSource(depth), None)
 
 
 def target_of(rectangle: Rectangle) -> Target:

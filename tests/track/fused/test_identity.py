@@ -20,8 +20,8 @@ from tricue.track.fused.identity import (
     score_of,
 )
 from tricue.track.fused.params import FusedParams
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import Window, extract_window
 
 AVERAGE = IdentityFeatures(peak_sharpness=5.0, color_similarity=0.6, contrast=0.2, first_response=0.3)
@@ -36,7 +36,7 @@ def window_of(left: tuple[int, int, int], right: tuple[int, int, int]) -> Window
     """A window at the center of a picture of two colors."""
     picture = np.full((120, 160, 3), left, np.uint8)
     picture[:, 80:] = right
-    observation = TargetObservation(kernel_sets.load("native"), picture, CAMERA, None, None)
+    observation = PictureObservation(kernel_sets.load("native"), picture, CAMERA, None, None)
     return extract_window(observation, Target(80.0, 60.0, 24.0, 24.0), 3.0)
 
 

@@ -14,8 +14,8 @@ from tricue.track.fused.experts.depth import (
     DepthMeasurement,
     measure_depth,
 )
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import TargetObservation
 
 CAMERA = Intrinsics.from_fov(200, 160, 60)
 TARGET = Target(100.0, 80.0, 60.0, 60.0)
@@ -23,10 +23,10 @@ Z = 2.0
 EXPECTED = {"unknown": None, "expected": ExpectedDepth(Z, 0.1), "vague": ExpectedDepth(5.0, 3.0)}
 
 
-def observation(depth: np.ndarray | None) -> TargetObservation:
+def observation(depth: np.ndarray | None) -> PictureObservation:
     """A frame with that depth."""
     source = None if depth is None else DepthImageSource(np.asarray(depth, np.float32))
-    return TargetObservation(
+    return PictureObservation(
         kernel_sets.load("native"), np.zeros((160, 200, 3), np.uint8), CAMERA, source, None
     )
 

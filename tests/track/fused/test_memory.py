@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 from tricue import Frame, FusedTracker, Status
 from tricue.track.fused.identity import log_odds_of
-from tricue.track.fused.localize import TargetModel
+from tricue.track.fused.localize import LocalizationModel
 from tricue.track.fused.measure import Match
 from tricue.track.fused.memory import (
     FRAMES_APART,
@@ -57,10 +57,10 @@ def state_of(tracker: FusedTracker) -> State:
     return tracker._state
 
 
-def model_of(tracker: FusedTracker) -> TargetModel:
+def model_of(tracker: FusedTracker) -> LocalizationModel:
     """By which it searches a color picture."""
     state = state_of(tracker)
-    return TargetModel(state.models["color"], state.depth, state.first_side, state.typical, P)
+    return LocalizationModel(state.models["color"], state.depth, state.first_side, state.typical, P)
 
 
 def match_of(tracker: FusedTracker, frame: Frame) -> Match:

@@ -25,9 +25,9 @@ from tricue.track.fused.outline import (
     _extent,
     measure_reaches,
 )
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.support import SUPPORT_TOLERANCE
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import Window, extract_window
 
 SHAPE = (300, 400)
@@ -59,7 +59,9 @@ def window_around(depth: np.ndarray | None, target: Target = LARGE, source: obje
     """The window around a target that is expected at Z."""
     color = np.zeros((*SHAPE, 3), np.uint8)
     source = DepthImageSource(depth) if source is None and depth is not None else source
-    observation = TargetObservation(kernel_sets.load("native"), color, CAMERA, source, ExpectedDepth(Z, 0.05))
+    observation = PictureObservation(
+        kernel_sets.load("native"), color, CAMERA, source, ExpectedDepth(Z, 0.05)
+    )
     return extract_window(observation, target, 3.0)
 
 
@@ -113,7 +115,7 @@ def test_noise_and_holes_move_no_side():
 def test_sets_of_kernels_agree(kernels):
     """Native and reference kernels give the same sides to a thousandth of the box."""
     window = window_around(thing(SIDES[2]))
-    observation = TargetObservation(
+    observation = PictureObservation(
         kernels,
         window.observation.picture,
         CAMERA,

@@ -12,9 +12,9 @@ from tricue.track.fused.depth_sources import DepthImageSource
 from tricue.track.fused.experts.color import ColorExpert
 from tricue.track.fused.experts.depth import DepthExpert
 from tricue.track.fused.params import FusedParams
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.proposals import LostTarget, propose_windows
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import extract_window
 
 P = FusedParams()
@@ -27,17 +27,17 @@ def lost(target: Target, frame: int = 0) -> LostTarget:
     return LostTarget(target, None, 20, frame)
 
 
-def red_squares(width: int, height: int, *places: tuple[float, float], side: int = 24) -> TargetObservation:
+def red_squares(width: int, height: int, *places: tuple[float, float], side: int = 24) -> PictureObservation:
     """A color picture with red squares around some places of a gray ground."""
     image = np.full((height, width, 3), GRAY, np.uint8)
     for x, y in places:
         left, top = int(x) - side // 2, int(y) - side // 2
         image[top : top + side, left : left + side] = RED
     camera = Intrinsics.from_fov(width, height, 60)
-    return TargetObservation(KERNELS, image, camera, None, None)
+    return PictureObservation(KERNELS, image, camera, None, None)
 
 
-def model_of(observation: TargetObservation, target: Target) -> Any:
+def model_of(observation: PictureObservation, target: Target) -> Any:
     """What proposals need of a model that was learned of a target."""
     window = extract_window(observation, target, P.context)
     appearance = SimpleNamespace(color=ColorExpert.from_window(window))
@@ -84,7 +84,7 @@ def test_objects_of_its_size_in_meters_come_first(length):
         depth[120 - half : 120 + half, x - half : x + half] = z
         places[side] = x
     source = DepthImageSource(depth)
-    observation = TargetObservation(KERNELS, None, camera, source, None)
+    observation = PictureObservation(KERNELS, None, camera, source, None)
     target = Target(160.0, 40.0, 40.0, 40.0)
     model: Any = SimpleNamespace(
         depth=DepthExpert(0.05, focal * length), params=P, limit_growth=lambda growth, _: growth

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from tricue import Box, FusedTracker, Status
 from tricue.track.fused.experts.depth import DepthMeasurement
 from tricue.track.fused.identity import APPEARANCE, STRUCTURE, IdentityFeatures, log_odds_of, score_of
-from tricue.track.fused.localize import Candidate, TargetModel
+from tricue.track.fused.localize import Candidate, LocalizationModel
 from tricue.track.fused.measure import Match, Recognition
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.proposals import LostTarget
@@ -54,7 +54,7 @@ def search_among(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Match]:
     def among(
         *others: Match, near: Match = NEAR, missed_frames: int = 20, min_log_odds: float = NEEDED
     ) -> Match:
-        def localized(_: TargetModel, window: int) -> Any:
+        def localized(_: LocalizationModel, window: int) -> Any:
             other = others[window]
             return Candidate(
                 other.target, None, 0.0, 0.0, -float(window), 0.0, None, other.candidate.features
@@ -63,19 +63,19 @@ def search_among(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Match]:
         monkeypatch.setattr(module, "propose_windows", lambda *_: list(range(len(others)))[::-1])
         monkeypatch.setattr(module, "localize", localized)
 
-        def recognized(_: TargetModel, at: Candidate) -> Recognition:
+        def recognized(_: LocalizationModel, at: Candidate) -> Recognition:
             other = others[round(-at.evidence)]
             return Recognition(at, other.log_odds, other.structure_log_odds)
 
         monkeypatch.setattr(module, "recognize", recognized)
 
-        def measured(_: TargetModel, found: Recognition) -> Match:
+        def measured(_: LocalizationModel, found: Recognition) -> Match:
             among.measured.append(others[round(-found.candidate.evidence)])
             return among.measured[-1]
 
         monkeypatch.setattr(module, "measure", measured)
         nothing: Any = None
-        model = TargetModel(nothing, None, HERE.side, ALIKE, P)
+        model = LocalizationModel(nothing, None, HERE.side, ALIKE, P)
         lost = LostTarget(HERE, None, missed_frames, 0)
         return redetect(model, nothing, lost, near, min_log_odds)
 

@@ -10,21 +10,21 @@ from tricue import FusedTracker, Intrinsics
 from tricue import kernels as kernel_sets
 from tricue.track.fused.experts import size
 from tricue.track.fused.experts.size import SizeExpert
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import TargetObservation
 
 CAMERA = Intrinsics.from_fov(320, 240, 60)
 TARGET = Target(160.0, 120.0, 50.0, 64.0)
 P = FusedTracker.Params()
 
 
-def observation(factor: float, light: float = 1.0, angle: float = 0.0) -> TargetObservation:
+def observation(factor: float, light: float = 1.0, angle: float = 0.0) -> PictureObservation:
     """A textured scene, enlarged and turned (degrees) around the target's center, its levels multiplied."""
     texture = np.random.default_rng(5).integers(0, 256, (24, 32, 3)).astype(np.uint8)
     scene = cv2.resize(texture, (320, 240), interpolation=cv2.INTER_CUBIC)
     seen = cv2.warpAffine(scene, cv2.getRotationMatrix2D((159.5, 119.5), angle, factor), (320, 240))
     picture = np.clip(light * seen, 0, 255).astype(np.uint8)
-    return TargetObservation(kernel_sets.load("native"), picture, CAMERA, None, None)
+    return PictureObservation(kernel_sets.load("native"), picture, CAMERA, None, None)
 
 
 EXPERT = SizeExpert.from_target(observation(1.0), TARGET, P)
@@ -52,14 +52,14 @@ def test_growth_is_bounded():
     most = math.exp(2.5 * size.LOG_PER_CELL)
     for seed in range(10):
         noise = np.random.default_rng(seed).integers(0, 256, (240, 320, 3)).astype(np.uint8)
-        seen = TargetObservation(kernel_sets.load("native"), noise, CAMERA, None, None)
+        seen = PictureObservation(kernel_sets.load("native"), noise, CAMERA, None, None)
         assert 1 / most <= EXPERT.growth(seen, TARGET) <= most
 
 
 def test_a_flat_picture_keeps_the_size():
     """Where there is nothing to compare, the size stays what it was."""
     flat = np.full((240, 320, 3), 90, np.uint8)
-    seen = TargetObservation(kernel_sets.load("native"), flat, CAMERA, None, None)
+    seen = PictureObservation(kernel_sets.load("native"), flat, CAMERA, None, None)
     assert EXPERT.growth(seen, TARGET) == 1.0
 
 

@@ -11,8 +11,8 @@ from tricue import Frame, FusedTracker, Intrinsics, Status
 from tricue import kernels as kernel_sets
 from tricue.track.fused.experts.turn import TurnExpert
 from tricue.track.fused.models import AppearanceModels
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.target import TURN_STEPS, Target
-from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import extract_window
 
 Image = NDArray[np.uint8]
@@ -50,9 +50,9 @@ def scene(degrees: float) -> Image:
     return np.asarray(turned, np.uint8)
 
 
-def observation(image: Image) -> TargetObservation:
+def observation(image: Image) -> PictureObservation:
     """What experts read of a color image."""
-    return TargetObservation(kernel_sets.load("native"), image, CAMERA, None, None)
+    return PictureObservation(kernel_sets.load("native"), image, CAMERA, None, None)
 
 
 def models(tracker: FusedTracker) -> AppearanceModels:

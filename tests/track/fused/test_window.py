@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from tricue import Box, Intrinsics
 from tricue import kernels as kernel_sets
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import PATCH_PIXELS, Window, extract_windows
 
 CAMERA = Intrinsics.from_fov(250, 200, 60)
@@ -28,7 +28,7 @@ def window_around(target: Target, context: float = 3.0) -> Window:
     rows, columns = np.indices((200, 250)).astype(np.uint8)
     picture = np.dstack([columns, rows, np.zeros_like(rows)])
     return extract_windows(
-        TargetObservation(kernel_sets.load("native"), picture, CAMERA, None, None), [target], context
+        PictureObservation(kernel_sets.load("native"), picture, CAMERA, None, None), [target], context
     )[0]
 
 

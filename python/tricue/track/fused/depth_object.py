@@ -16,8 +16,8 @@ from tricue.track.depth_objects.foreground import Foreground, extract_foreground
 from tricue.track.depth_objects.objects import EVERYWHERE, Region, segment
 from tricue.track.depth_objects.params import SegmentationParams
 from tricue.track.fused.depth_sources import DepthImageSource
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import TargetObservation
 
 SEGMENTATION = SegmentationParams(resolution=240)  # finer is slower and splits bodies more often
 MIN_FIRST_IOU = 0.7  # of the first box with an object's: 0.8 for people, 0.3 for things on a table
@@ -71,7 +71,7 @@ class DepthObject(NamedTuple):
     seconds: float = 0.0
 
     @classmethod
-    def from_first(cls, observation: TargetObservation, target: Target) -> "DepthObject | None":
+    def from_first(cls, observation: PictureObservation, target: Target) -> "DepthObject | None":
         """The object in the first box; None without a depth image, or if no object fills the box, or a small
         one does.
         """
@@ -104,7 +104,7 @@ class DepthObject(NamedTuple):
         """The object so many seconds later, without a search."""
         return self._replace(seen=None, seconds=self.seconds + seconds)
 
-    def look(self, observation: TargetObservation, target: Target, around: Box, z: float) -> "DepthObject":
+    def look(self, observation: PictureObservation, target: Target, around: Box, z: float) -> "DepthObject":
         """Search near depth z, in meters, for the object that contains most of the target's own box.
 
         around: the box around which objects are searched for, that of the whole target.
@@ -138,7 +138,7 @@ class DepthObject(NamedTuple):
 
 
 def find_objects(
-    observation: TargetObservation, depth: Plane, floor: Floats = NO_FLOOR, around: Box | None = None
+    observation: PictureObservation, depth: Plane, floor: Floats = NO_FLOOR, around: Box | None = None
 ) -> tuple[list[SeenObject], Floats]:
     """The objects in the frame's depth image, or only those around a box, and the plane (6,) of the floor.
 
@@ -167,7 +167,7 @@ def _region(box: Box, foreground: Foreground) -> Region:
     return left, top, right, bottom
 
 
-def _visible(box: Box, observation: TargetObservation) -> Box:
+def _visible(box: Box, observation: PictureObservation) -> Box:
     height, width = observation.shape
     return box.clip(width, height)
 

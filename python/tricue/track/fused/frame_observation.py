@@ -13,7 +13,7 @@ from tricue.camera.shared_frame import messages_of, once
 from tricue.kernels import Kernels
 from tricue.track.base import validation
 from tricue.track.fused.depth_sources import DepthImageSource, DepthSource, ExpectedDepth, StereoSource
-from tricue.track.fused.target_observation import TargetObservation
+from tricue.track.fused.picture_observation import PictureObservation
 
 
 class FrameObservation(NamedTuple):
@@ -31,12 +31,12 @@ class FrameObservation(NamedTuple):
     timestamp: float | None
     messages: list[str] | None = None
 
-    def for_target(self, k: Kernels, expected: ExpectedDepth | None) -> TargetObservation:
+    def for_target(self, k: Kernels, expected: ExpectedDepth | None) -> PictureObservation:
         """The frame as the experts read it, given the target's expected depth.
 
         Without color, they read a picture drawn from depth.
         """
-        return TargetObservation(k, self.color, self.camera, self.depth_source, expected)
+        return PictureObservation(k, self.color, self.camera, self.depth_source, expected)
 
 
 def observe_frame(

@@ -17,15 +17,15 @@ from tricue.track.fused.experts.size import SizeExpert
 from tricue.track.fused.experts.turn import TurnExpert
 from tricue.track.fused.frame_observation import FrameObservation
 from tricue.track.fused.identity import FirstColors
-from tricue.track.fused.localize import TargetModel, localize
+from tricue.track.fused.localize import LocalizationModel, localize
 from tricue.track.fused.memory import Memory
 from tricue.track.fused.models import AppearanceModels, ModelsByKind
 from tricue.track.fused.outline import Sides, measure_reaches
 from tricue.track.fused.params import FusedParams
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.position_filter import PositionFilter, back_project
 from tricue.track.fused.state import State
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import Window, extract_window
 
 
@@ -37,7 +37,7 @@ def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedPara
     depth, position = _depth_models(observation, target, measured, p)
     window = extract_window(observation, target, p.context)
     appearance = _appearance_models(window, p)
-    model = TargetModel(appearance, depth, target.side, None, p)
+    model = LocalizationModel(appearance, depth, target.side, None, p)
     models: ModelsByKind = {observation.kind: appearance}
     return State(
         shape=frame.shape,
@@ -92,7 +92,7 @@ def renew_models(state: State, frame: FrameObservation, k: Kernels, p: FusedPara
     )
 
 
-def ensure_models(state: State, observation: TargetObservation, p: FusedParams) -> State:
+def ensure_models(state: State, observation: PictureObservation, p: FusedParams) -> State:
     """The state with models for the picture's kind; new ones are made where the target should be now."""
     if observation.kind in state.models:
         return state
@@ -118,7 +118,7 @@ def _see_sides(sides: Sides, window: Window) -> Sides:
 
 
 def _depth_models(
-    observation: TargetObservation, target: Target, measured: DepthMeasurement | None, p: FusedParams
+    observation: PictureObservation, target: Target, measured: DepthMeasurement | None, p: FusedParams
 ) -> tuple[DepthExpert, PositionFilter] | tuple[None, None]:
     """The depth expert and the position filter after the first measurement; None if nothing was measured."""
     if measured is None:

@@ -17,10 +17,10 @@ from tricue.track.fused.measure import Match
 from tricue.track.fused.models import AppearanceModels
 from tricue.track.fused.outline import Outline, Side, measure_reaches
 from tricue.track.fused.params import FusedParams
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.position_filter import PositionFilter, back_project
 from tricue.track.fused.state import State
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import CELL_PIXELS, NO_PLANE, Window, extract_window
 
 MAX_DRIFT = 0.5  # cells, between two updates of appearance
@@ -31,7 +31,7 @@ MIN_FIRST_RESPONSE = 0.2  # of the first frame's filter, whose response to the u
 
 
 def update_models(
-    before: State, state: State, observation: TargetObservation, match: Match, p: FusedParams
+    before: State, state: State, observation: PictureObservation, match: Match, p: FusedParams
 ) -> State:
     """The state with a match blended into its models.
 
@@ -92,7 +92,7 @@ def rate_over(seconds: float, rate: float) -> float:
     return 1 - kept
 
 
-def update_object(state: State, observation: TargetObservation) -> State:
+def update_object(state: State, observation: PictureObservation) -> State:
     """The state with the outline of the target's object, if the target is an object of the depth image.
 
     A repeated depth image isn't searched: it may be older than the color image that gave the target's place.
@@ -124,7 +124,7 @@ def _update_outline(state: State, match: Match, p: FusedParams) -> State:
 
 
 def _update_depth(
-    state: State, observation: TargetObservation, match: Match, was_lost: bool, p: FusedParams
+    state: State, observation: PictureObservation, match: Match, was_lost: bool, p: FusedParams
 ) -> State:
     """Correct the position filter and the depth expert by the measured depth.
 

@@ -17,7 +17,7 @@ NO_TABLE: Plane = np.empty((0, 0, 0), np.float32)  # without the cue "color"
 MAX_PEAK_CELLS = 6  # from a window's center; a peak farther off is localized again in a window around it
 
 
-class TargetModel(NamedTuple):
+class LocalizationModel(NamedTuple):
     """The models and parameters with which the target is searched for.
 
     first_side: pixels, of the first box. typical: running means of the target's features; None until it is
@@ -53,7 +53,7 @@ class Candidate(NamedTuple):
     features: IdentityFeatures
 
 
-def localize(model: TargetModel, window: Window) -> Candidate:
+def localize(model: LocalizationModel, window: Window) -> Candidate:
     """The place in a window with the most evidence, to a fraction of a cell."""
     appearance, p = model.appearance, model.params
     found, responses = window.observation.k.localize_target(
@@ -84,7 +84,7 @@ def localize(model: TargetModel, window: Window) -> Candidate:
     )
 
 
-def recenter(model: TargetModel, candidate: Candidate) -> Candidate:
+def recenter(model: LocalizationModel, candidate: Candidate) -> Candidate:
     """The candidate, localized again in a window around it if it is near its window's edge."""
     if not is_near_edge(candidate.right, candidate.down):
         return candidate

@@ -10,9 +10,9 @@ from tricue.track.fused.identity import (
     STRUCTURE,
     score_of,
 )
-from tricue.track.fused.localize import Candidate, TargetModel, recenter
+from tricue.track.fused.localize import Candidate, LocalizationModel, recenter
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import TargetObservation
 
 
 class Recognition(NamedTuple):
@@ -44,7 +44,7 @@ class Match(NamedTuple):
     best_seen: float | None = None
 
     @property
-    def observation(self) -> TargetObservation:
+    def observation(self) -> PictureObservation:
         """The frame, with the depth at which the target was expected there."""
         return self.candidate.window.observation
 
@@ -54,12 +54,12 @@ class Match(NamedTuple):
         return score_of(self.log_odds)
 
 
-def measure_candidate(model: TargetModel, candidate: Candidate) -> Match:
+def measure_candidate(model: LocalizationModel, candidate: Candidate) -> Match:
     """Recognize a candidate, and measure its size and depth."""
     return measure(model, recognize(model, candidate))
 
 
-def recognize(model: TargetModel, candidate: Candidate) -> Recognition:
+def recognize(model: LocalizationModel, candidate: Candidate) -> Recognition:
     """The candidate, recentered, and its log-odds by appearance."""
     candidate = recenter(model, candidate)
     features = candidate.features
@@ -71,7 +71,7 @@ def recognize(model: TargetModel, candidate: Candidate) -> Recognition:
     )
 
 
-def measure(model: TargetModel, recognition: Recognition) -> Match:
+def measure(model: LocalizationModel, recognition: Recognition) -> Match:
     """Measure the size and depth of a recognized candidate."""
     candidate, p = recognition.candidate, model.params
     observation = candidate.window.observation

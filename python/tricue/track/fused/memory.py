@@ -8,7 +8,7 @@ Models from before don't recognize the occluder, or find the target beside it.
 from typing import NamedTuple
 
 from tricue.track.fused.identity import in_any_light, log_odds_of
-from tricue.track.fused.localize import TargetModel, is_near_edge, localize
+from tricue.track.fused.localize import LocalizationModel, is_near_edge, localize
 from tricue.track.fused.measure import Match, recognize
 from tricue.track.fused.models import ModelsByKind
 from tricue.track.fused.window import CELL_PIXELS, extract_window
@@ -34,7 +34,7 @@ class Memory(NamedTuple):
         return self._replace(frames=frames) if frames < FRAMES_APART else Memory(self.newer, models)
 
 
-def limit_log_odds(remembered: TargetModel, match: Match) -> Match:
+def limit_log_odds(remembered: LocalizationModel, match: Match) -> Match:
     """A match in a color picture, with its log-odds limited to those by the older models in the same window.
 
     A match with the log-odds that a missed target needs isn't limited: it is similar enough to the first

@@ -8,7 +8,7 @@ from tricue.track.fused.experts.correlation_filter import CorrelationFilterExper
 from tricue.track.fused.experts.size import SizeExpert
 from tricue.track.fused.experts.turn import TurnExpert
 from tricue.track.fused.identity import FirstColors
-from tricue.track.fused.target_observation import PictureKind
+from tricue.track.fused.picture_observation import PictureKind
 
 
 class AppearanceModels(NamedTuple):

@@ -16,9 +16,9 @@ from tricue.track.base.params import Params, parameter
 from tricue.track.base.position_limit import limit_covariance
 from tricue.track.fused.depth_sources import ExpectedDepth
 from tricue.track.fused.experts.depth import DEPTH_SAMPLES, DepthMeasurement
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.sources import PROTOTYPE
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import TargetObservation
 
 LATERAL_NOISE = 0.02  # standard deviation of the target's center, as a share of its side
 MIN_POSITION_Z = 0.05  # meters in front of the camera
@@ -179,7 +179,7 @@ def _dynamics(seconds: float, acceleration_noise: float) -> tuple[Floats, Floats
 
 
 def back_project(
-    observation: TargetObservation, target: Target, depth: DepthMeasurement
+    observation: PictureObservation, target: Target, depth: DepthMeasurement
 ) -> tuple[Floats, Floats]:
     """A target's position (3,), meters in the camera's frame, and its covariance (3, 3)."""
     assert observation.depth_source is not None, "it was measured"

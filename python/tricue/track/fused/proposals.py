@@ -10,11 +10,11 @@ from tricue.arrays import Plane
 from tricue.track.fused.depth_object import find_objects
 from tricue.track.fused.depth_sources import ExpectedDepth
 from tricue.track.fused.experts.depth import DepthMeasurement, measure_center_depths
-from tricue.track.fused.localize import TargetModel
+from tricue.track.fused.localize import LocalizationModel
 from tricue.track.fused.params import FusedParams
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.position_filter import PositionFilter
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import Window, extract_window, extract_windows
 
 MAX_OBJECT_PROPOSALS = 3  # objects in depth, per frame
@@ -44,7 +44,9 @@ class LostTarget(NamedTuple):
     frame: int
 
 
-def propose_windows(model: TargetModel, observation: TargetObservation, lost: LostTarget) -> list[Window]:
+def propose_windows(
+    model: LocalizationModel, observation: PictureObservation, lost: LostTarget
+) -> list[Window]:
     """Windows where the target's colors or objects in depth stand out, and some of a grid over the frame.
 
     With depth, each window has the size that fits the target at its depth.
@@ -63,8 +65,8 @@ def propose_windows(model: TargetModel, observation: TargetObservation, lost: Lo
 
 
 def _at_depth(
-    model: TargetModel, observation: TargetObservation, target: Target, depth: DepthMeasurement | None
-) -> tuple[TargetObservation, Target]:
+    model: LocalizationModel, observation: PictureObservation, target: Target, depth: DepthMeasurement | None
+) -> tuple[PictureObservation, Target]:
     """The frame with a place's depth as the expected depth, and the target with its size at that depth."""
     if depth is None or model.depth is None:
         return observation, target
@@ -73,7 +75,9 @@ def _at_depth(
     return observation.expect(expected), target.scale(model.limit_growth(growth, target))
 
 
-def _object_proposals(model: TargetModel, observation: TargetObservation, lost: LostTarget) -> list[Target]:
+def _object_proposals(
+    model: LocalizationModel, observation: PictureObservation, lost: LostTarget
+) -> list[Target]:
     """The target at the objects of a depth image, those closest to it in metric size first.
 
     Sabeti, Parvizi and Wu 2008, section IV.A.
@@ -87,7 +91,9 @@ def _object_proposals(model: TargetModel, observation: TargetObservation, lost: 
     return [each for _, each in found[:MAX_OBJECT_PROPOSALS]]
 
 
-def _color_proposals(model: TargetModel, observation: TargetObservation, lost: LostTarget) -> list[Target]:
+def _color_proposals(
+    model: LocalizationModel, observation: PictureObservation, lost: LostTarget
+) -> list[Target]:
     """The target where its colors stand out most, and, in turn, at some of the next best places."""
     assert observation.picture is not None, "the picture is of color"
     height, width = observation.shape
@@ -129,7 +135,7 @@ def _separate_peaks(contrast: Plane, apart: tuple[float, float]) -> list[tuple[i
     return peaks
 
 
-def _grid_proposals(observation: TargetObservation, lost: LostTarget, p: FusedParams) -> list[Target]:
+def _grid_proposals(observation: PictureObservation, lost: LostTarget, p: FusedParams) -> list[Target]:
     """The target at a few places of a grid over the frame, half a window apart, in turn from near to far."""
     target = lost.target
     half = p.context * target.side / 2

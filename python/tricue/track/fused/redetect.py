@@ -3,15 +3,19 @@
 
 import math
 
-from tricue.track.fused.localize import TargetModel, localize
+from tricue.track.fused.localize import LocalizationModel, localize
 from tricue.track.fused.measure import Match, Recognition, measure, recognize
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.position_filter import back_project
 from tricue.track.fused.proposals import LostTarget, propose_windows
-from tricue.track.fused.target_observation import TargetObservation
 
 
 def redetect(
-    model: TargetModel, observation: TargetObservation, lost: LostTarget, local: Match, min_log_odds: float
+    model: LocalizationModel,
+    observation: PictureObservation,
+    lost: LostTarget,
+    local: Match,
+    min_log_odds: float,
 ) -> Match:
     """The best match in the whole frame; local: the match where the target should be.
 
@@ -36,7 +40,7 @@ def _log_odds(recognition: Recognition) -> float:
     return min(recognition.log_odds, recognition.structure_log_odds)
 
 
-def _match_elsewhere(model: TargetModel, lost: LostTarget, recognition: Recognition) -> Match:
+def _match_elsewhere(model: LocalizationModel, lost: LostTarget, recognition: Recognition) -> Match:
     """A candidate measured away from where the target should be.
 
     Its structure must match, too, because look-alikes may have the same colors. If no depth was measured,
@@ -48,12 +52,12 @@ def _match_elsewhere(model: TargetModel, lost: LostTarget, recognition: Recognit
     return match._replace(log_odds=min(match.log_odds - penalty, structure))
 
 
-def _distance_penalty(model: TargetModel, lost: LostTarget, match: Match) -> float:
+def _distance_penalty(model: LocalizationModel, lost: LostTarget, match: Match) -> float:
     """The log-odds that a match loses by its distance from the target's predicted place."""
     return 0.5 * _distance(model, lost, match) ** 2
 
 
-def _distance(model: TargetModel, lost: LostTarget, match: Match) -> float:
+def _distance(model: LocalizationModel, lost: LostTarget, match: Match) -> float:
     """The distance from the target's predicted place, in standard deviations; in 3D if depths are known."""
     if lost.position is not None and match.depth is not None:
         return lost.position.distance(*back_project(match.observation, match.target, match.depth))

@@ -3,17 +3,17 @@
 
 from tricue.track.fused.experts.depth import covered_share, depth_continuity
 from tricue.track.fused.identity import in_any_light
-from tricue.track.fused.localize import Candidate, TargetModel, localize
+from tricue.track.fused.localize import Candidate, LocalizationModel, localize
 from tricue.track.fused.measure import Match, measure_candidate
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import Window, extract_window, extract_windows
 
 NEIGHBORS = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]  # in half windows
 
 
 def search_local(
-    model: TargetModel, observation: TargetObservation, last: Target, mean_response: float
+    model: LocalizationModel, observation: PictureObservation, last: Target, mean_response: float
 ) -> Match:
     """Search where a followed target should be, and also around that if the filter responds weakly there.
 
@@ -30,13 +30,13 @@ def search_local(
     return _measured(model, candidate, window, p.depth_continuity_weight * continuity)
 
 
-def search_last_place(model: TargetModel, observation: TargetObservation, last: Target) -> Match:
+def search_last_place(model: LocalizationModel, observation: PictureObservation, last: Target) -> Match:
     """Search for a missed target at its last place; :func:`redetect` searches the rest of the frame."""
     window = extract_window(observation, last, model.params.context)
     return _measured(model, localize(model, window), window, 0.0)
 
 
-def _measured(model: TargetModel, candidate: Candidate, last: Window, bonus: float) -> Match:
+def _measured(model: LocalizationModel, candidate: Candidate, last: Window, bonus: float) -> Match:
     """A measured candidate, with a bonus added to its log-odds; last: the window around the last place."""
     match = measure_candidate(model, candidate)
     log_odds = match.log_odds + bonus
@@ -45,7 +45,7 @@ def _measured(model: TargetModel, candidate: Candidate, last: Window, bonus: flo
     return match._replace(log_odds=log_odds, covered=max(match.covered, covered_share(last)))
 
 
-def _localize_beside(model: TargetModel, window: Window, last: Target) -> Candidate:
+def _localize_beside(model: LocalizationModel, window: Window, last: Target) -> Candidate:
     """The best place in a neighboring window, its evidence reduced by the window's distance."""
     half = model.params.context * last.side / 2
     squared = (window.target.x - last.x) ** 2 + (window.target.y - last.y) ** 2
@@ -54,7 +54,7 @@ def _localize_beside(model: TargetModel, window: Window, last: Target) -> Candid
     return candidate._replace(evidence=candidate.evidence - penalty)
 
 
-def _neighboring_windows(observation: TargetObservation, target: Target, context: float) -> list[Window]:
+def _neighboring_windows(observation: PictureObservation, target: Target, context: float) -> list[Window]:
     """The eight windows around a target's own, each half a window away."""
     half = context * target.side / 2
     return extract_windows(observation, [target.shift(i * half, j * half) for i, j in NEIGHBORS], context)

@@ -21,18 +21,18 @@ from tricue.track.fused.depth_trust import DepthTrust
 from tricue.track.fused.frame_observation import FrameObservation, observe_frame, rig_and_camera
 from tricue.track.fused.initialize import ensure_models, initialize, initialize_depth, renew_models
 from tricue.track.fused.learn import update_models, update_object
-from tricue.track.fused.localize import TargetModel
+from tricue.track.fused.localize import LocalizationModel
 from tricue.track.fused.measure import Match
 from tricue.track.fused.memory import limit_log_odds
 from tricue.track.fused.models import AppearanceModels
 from tricue.track.fused.params import FusedParams
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.position_filter import lateral_variances
 from tricue.track.fused.proposals import LostTarget
 from tricue.track.fused.redetect import redetect
 from tricue.track.fused.search import search_last_place, search_local
 from tricue.track.fused.state import State
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.verify import verify
 
 # Standard deviations of the errors of guessed cameras, as shares of X, Y, Z:
@@ -163,10 +163,10 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         """Whether the frame's depths are in meters: those of a stereo pair are only if its rig is known."""
         return self.rig is not None or not isinstance(observed.depth_source, StereoSource)
 
-    def _search(self, state: State, observation: TargetObservation) -> Match:
+    def _search(self, state: State, observation: PictureObservation) -> Match:
         """The best match near the target's last place; in the whole frame if the target isn't followed."""
         p = self.params
-        model = _target_model(state, state.models[observation.kind], p)
+        model = _localization_model(state, state.models[observation.kind], p)
         if state.is_followed(p):
             return search_local(model, observation, state.target, state.mean_response)
         local = search_last_place(model, observation, state.target)
@@ -184,7 +184,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         models = state.memory.older.get(match.observation.kind)
         if match.observation.depth_source is not None or models is None:
             return match
-        return limit_log_odds(_target_model(state, models, self.params), match)
+        return limit_log_odds(_localization_model(state, models, self.params), match)
 
     def _track(self, state: State) -> Track:
         if state.missed_frames == 0:
@@ -220,8 +220,8 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         return position, covariance, float(position[2])
 
 
-def _target_model(state: State, appearance: AppearanceModels, p: FusedParams) -> TargetModel:
-    return TargetModel(appearance, state.depth, state.first_side, state.typical, p)
+def _localization_model(state: State, appearance: AppearanceModels, p: FusedParams) -> LocalizationModel:
+    return LocalizationModel(appearance, state.depth, state.first_side, state.typical, p)
 
 
 def _expected_depth(state: State) -> ExpectedDepth | None:

@@ -8,10 +8,10 @@ import numpy as np
 from tricue.arrays import Floats, Image, Plane
 from tricue.track.base.params import Params, parameter
 from tricue.track.fused.depth_sources import DepthImageSource, DepthPosterior, Grid
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.sources import PROTOTYPE
 from tricue.track.fused.support import find_support
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import TargetObservation
 
 WINDOW_CELLS = 32  # on a side
 CELL_PIXELS = 2  # patch pixels on a side
@@ -42,7 +42,7 @@ class Window:
     """
 
     def __init__(
-        self, observation: TargetObservation, target: Target, patch: Image, pixel_size: float
+        self, observation: PictureObservation, target: Target, patch: Image, pixel_size: float
     ) -> None:
         self.observation, self.target, self.patch, self.pixel_size = observation, target, patch, pixel_size
         self.size = target.width / pixel_size, target.height / pixel_size
@@ -92,12 +92,12 @@ class Window:
         return rows, _span(PATCH_PIXELS / 2 + right, share * self.size[0])
 
 
-def extract_window(observation: TargetObservation, target: Target, context: float) -> Window:
+def extract_window(observation: PictureObservation, target: Target, context: float) -> Window:
     """The window around a target; context: as in :func:`extract_windows`."""
     return extract_windows(observation, [target], context)[0]
 
 
-def extract_windows(observation: TargetObservation, targets: list[Target], context: float) -> list[Window]:
+def extract_windows(observation: PictureObservation, targets: list[Target], context: float) -> list[Window]:
     """The windows around targets; context: side of a window relative to that of its target."""
     sides = [context * each.side for each in targets]
     patches = observation.sample_squares(targets, sides, PATCH_PIXELS)

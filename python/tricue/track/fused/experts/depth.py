@@ -12,9 +12,9 @@ import numpy as np
 from tricue.arrays import Floats
 from tricue.track.base.params import Params, parameter
 from tricue.track.fused.depth_sources import GATE_SIGMAS, MAX_EXPECTED_SIGMA, ExpectedDepth
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.sources import PROTOTYPE
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import INNER_SHARE, Window
 
 DEPTH_SAMPLES = 48  # on a side of the square in which the target's depth is measured
@@ -94,7 +94,7 @@ class DepthMeasurement(NamedTuple):
 
 
 def measure_depth(
-    observation: TargetObservation, target: Target, expected: ExpectedDepth | None
+    observation: PictureObservation, target: Target, expected: ExpectedDepth | None
 ) -> DepthMeasurement | None:
     """The depth in a target's box, from pixels near the expected depth.
 
@@ -111,7 +111,7 @@ def measure_depth(
 
 
 def measure_center_depths(
-    observation: TargetObservation, targets: Sequence[Target]
+    observation: PictureObservation, targets: Sequence[Target]
 ) -> list[DepthMeasurement | None]:
     """The depths at the centers of targets, without an expected depth; None where too little is measured."""
     if observation.depth_source is None:

@@ -18,9 +18,9 @@ from tricue.arrays import Floats, Image, Plane
 from tricue.kernels import Kernels
 from tricue.track.base.params import parameter
 from tricue.track.fused.experts.spectra import CHANNELS, FirstFrameParams, Spectra, label_spectrum
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.sources import PROTOTYPE
 from tricue.track.fused.target import TURN_STEPS, Target, axes
-from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import CELL_PIXELS, PATCH_PIXELS, WINDOW_CELLS
 
 P = TypeVar("P", bound="LogPolarParams")
@@ -110,23 +110,23 @@ class LogPolarExpert(ABC, Generic[P]):
     params: P
 
     @classmethod
-    def from_target(cls: type[E], observation: TargetObservation, target: Target, p: P) -> E:  # noqa: PYI019
+    def from_target(cls: type[E], observation: PictureObservation, target: Target, p: P) -> E:  # noqa: PYI019
         """The expert learned from the first frame."""
         return cls(LogPolarFilter.from_patch(observation.k, cls._read(observation, target), p), p)
 
-    def learn(self: E, observation: TargetObservation, target: Target, rate: float) -> E:  # noqa: PYI019
+    def learn(self: E, observation: PictureObservation, target: Target, rate: float) -> E:  # noqa: PYI019
         """The expert with a target blended in."""
         patch = self._read(observation, target)
         return type(self)(self.filter.learn(observation.k, patch, rate, self.params), self.params)
 
-    def _shift(self, observation: TargetObservation, target: Target) -> tuple[float, float]:
+    def _shift(self, observation: PictureObservation, target: Target) -> tuple[float, float]:
         """Cells by which what is at a target's place has shifted to the right, and the response to that."""
         patch, penalty = self._read(observation, target), self.params.size_change_penalty
         return observation.k.log_polar_shift(*patch, self.filter.applied, *FARTHEST, penalty)
 
     @staticmethod
     @abstractmethod
-    def _read(observation: TargetObservation, target: Target) -> LogPolarPatch:
+    def _read(observation: PictureObservation, target: Target) -> LogPolarPatch:
         """What the filter sees of a target's place."""
 
 

@@ -19,9 +19,9 @@ from tricue.track.fused.experts.log_polar import (
     Places,
     log_polar_pixels,
 )
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.sources import PROTOTYPE
 from tricue.track.fused.target import Target
-from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import PATCH_PIXELS
 
 
@@ -46,13 +46,13 @@ class SizeExpert(LogPolarExpert[SizeParams]):
     Turns are rounded to whole cells of angle.
     """
 
-    def growth(self, observation: TargetObservation, target: Target) -> float:
+    def growth(self, observation: PictureObservation, target: Target) -> float:
         """The ratio of the size that is measured at a target's place to the target's size."""
         shift, _ = self._shift(observation, target)
         return math.exp(LOG_PER_CELL * shift)
 
     @staticmethod
-    def _read(observation: TargetObservation, target: Target) -> LogPolarPatch:
+    def _read(observation: PictureObservation, target: Target) -> LogPolarPatch:
         width, height = OUTER_RADIUS * target.width, OUTER_RADIUS * target.height
         turn = STEPS_PER_CELL * round(target.turn / STEPS_PER_CELL)
         if not turn:

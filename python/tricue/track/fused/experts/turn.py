@@ -22,9 +22,9 @@ from tricue.track.fused.experts.log_polar import (
     Places,
     log_polar_pixels,
 )
+from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.sources import PROTOTYPE
 from tricue.track.fused.target import TURN_STEPS, Target
-from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import PATCH_PIXELS
 
 STEPS_PER_PIXEL = TURN_STEPS // PATCH_PIXELS
@@ -50,7 +50,7 @@ class TurnParams(LogPolarParams):
 class TurnExpert(LogPolarExpert[TurnParams]):
     """A filter in log-polar coordinates of a square around the target, in which a turn is a pure shift."""
 
-    def turn(self, observation: TargetObservation, target: Target) -> float:
+    def turn(self, observation: PictureObservation, target: Target) -> float:
         """Steps by which to turn a target clockwise: the measured turn, minus the share that is undone."""
         p, (shift, response) = self.params, self._shift(observation, target)
         power, noise = max(response, 0.0) ** 2, p.turn_noise**2
@@ -58,7 +58,7 @@ class TurnExpert(LogPolarExpert[TurnParams]):
         return STEPS_PER_CELL * shift * power / (power + noise) - back
 
     @staticmethod
-    def _read(observation: TargetObservation, target: Target) -> LogPolarPatch:
+    def _read(observation: PictureObservation, target: Target) -> LogPolarPatch:
         side = OUTER_RADIUS * target.side
         square = np.array([[target.x - side / 2, target.y - side / 2, side, side]])
         samples = observation.sample(square, PATCH_PIXELS)[0]

@@ -27,7 +27,7 @@ PICTURE_DEPTH_RANGE = 0.5  # meters from the expected depth to black or white in
 SAMPLE_REACH = 2  # pixels: how far beyond a window its samples may read
 
 
-class TargetObservation(NamedTuple):
+class PictureObservation(NamedTuple):
     """A picture of the frame, and a source of depth for its pixels.
 
     picture: (H, W, 3) BGR color image; None without color, where the picture is drawn from the depth image.
@@ -58,7 +58,7 @@ class TargetObservation(NamedTuple):
         image = self.depth_image if self.picture is None else self.picture
         return image.shape[0], image.shape[1]
 
-    def expect(self, expected: ExpectedDepth) -> "TargetObservation":
+    def expect(self, expected: ExpectedDepth) -> "PictureObservation":
         """The same frame with another expected depth."""
         return self._replace(expected_depth=expected)
 

@@ -7,7 +7,7 @@ from tricue import Intrinsics
 from tricue import kernels as kernel_sets
 from tricue.kernels import Kernels
 from tricue.track.fused.depth_sources import DepthImageSource, ExpectedDepth
-from tricue.track.fused.target_observation import PICTURE_DEPTH_RANGE, TargetObservation
+from tricue.track.fused.picture_observation import PICTURE_DEPTH_RANGE, PictureObservation
 
 CAMERA = Intrinsics.from_fov(250, 200, 60)
 
@@ -17,10 +17,10 @@ WINDOWS = np.array(
 )
 
 
-def of_depth(k: Kernels, depth: np.ndarray, z: float | None) -> TargetObservation:
+def of_depth(k: Kernels, depth: np.ndarray, z: float | None) -> PictureObservation:
     """A frame without color."""
     expected = None if z is None else ExpectedDepth(z, 0.1)
-    return TargetObservation(k, None, CAMERA, DepthImageSource(depth), expected)
+    return PictureObservation(k, None, CAMERA, DepthImageSource(depth), expected)
 
 
 @pytest.mark.parametrize(
@@ -41,7 +41,7 @@ def test_samples_are_those_of_the_whole_picture(some, kernels):
 def test_expect_draws_depth_again():
     """With another expected depth a picture of depth is another one, but one of color the same."""
     depth, k, other = np.full((10, 10), 3.0, np.float32), kernel_sets.load("native"), ExpectedDepth(3.0, 0.2)
-    color = TargetObservation(k, np.full((10, 10, 3), 7, np.uint8), CAMERA, None, None)
+    color = PictureObservation(k, np.full((10, 10, 3), 7, np.uint8), CAMERA, None, None)
     assert (of_depth(k, depth, 2.0).sample(WINDOWS, 4) == 255).all()
     assert (of_depth(k, depth, 2.0).expect(other).sample(WINDOWS, 4) == 128).all()
     assert (color.expect(other).sample(WINDOWS, 4) == 7).all()
@@ -62,7 +62,7 @@ def test_depth_is_black_where_none_is_expected():
 def test_shape_is_the_pictures(kind):
     """Height and width, of either kind of picture."""
     k = kernel_sets.load("native")
-    color = TargetObservation(k, np.zeros((10, 12, 3), np.uint8), CAMERA, None, None)
+    color = PictureObservation(k, np.zeros((10, 12, 3), np.uint8), CAMERA, None, None)
     seen = color if kind == "color" else of_depth(k, np.zeros((10, 12), np.float32), 2.0)
     assert seen.shape == (10, 12)
 
@@ -73,7 +73,7 @@ def test_depth_posterior_by_hand(kernels):
     """
     image = np.full((30, 50), 2.0, np.float32)
     image[:, 10:20], image[:, 20:30], image[:, 30:40] = 1.0, 3.0, np.nan
-    observation = TargetObservation(
+    observation = PictureObservation(
         kernels,
         np.zeros((30, 50, 3), np.uint8),
         CAMERA,
@@ -95,7 +95,7 @@ def test_depth_posterior_by_hand(kernels):
 def test_no_posterior_without_both(source, expected, kernels):
     """Without a source of depth, or an expected depth, there is no posterior."""
     image = np.full((8, 8), 2.0, np.float32)
-    observation = TargetObservation(
+    observation = PictureObservation(
         kernels,
         np.zeros((8, 8, 3), np.uint8),
         CAMERA,
