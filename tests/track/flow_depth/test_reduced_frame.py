@@ -7,13 +7,13 @@ import cv2
 import numpy as np
 import pytest
 from tricue import Box, FlowDepthTracker, Frame, Intrinsics, Status, StereoRig
-from tricue.track.flow_depth.disparity_geometry import DisparityGeometry
 from tricue.track.flow_depth.reduced_frame import reduce_frame
+from tricue.track.flow_depth.verged_geometry import VergedGeometry
 
 Params = FlowDepthTracker.Params
 WIDTH, HEIGHT = SIZE = (128, 96)
 RIG = StereoRig(Intrinsics.from_fov(*SIZE, 60), 0.12)
-GEOMETRY = DisparityGeometry.of(RIG, 0.0)
+GEOMETRY = VergedGeometry.of(RIG, 0.0)
 BOX = (48, 29, 32, 38)
 OURS, FAR, MARGIN = 12, 4, 60  # disparities, and columns that a turned camera sees in addition
 
@@ -79,7 +79,7 @@ def test_a_verged_right_image_is_turned_back(degrees, kernels):
     """Turned back and moved by the geometry's offset, the right image is the parallel camera's, where both
     saw something: to 3 levels in the mean.
     """
-    geometry = DisparityGeometry.of(RIG, degrees)
+    geometry = VergedGeometry.of(RIG, degrees)
     parallel = verged(0.0).right
     reduced = reduce_frame(kernels, verged(degrees), geometry, Params(vergence=degrees))
     moved = cv2.warpAffine(parallel, np.float32([[1, 0, geometry.offset], [0, 1, 0]]), SIZE)
@@ -98,7 +98,7 @@ def test_depth_is_a_pairs_disparity(degrees, kernels):
     depth = np.full((HEIGHT, WIDTH), 2.5, np.float32)
     depth[:9] = np.nan
     frame = Frame(np.rint(WALL[:, :WIDTH]).astype(np.uint8), depth=depth)
-    geometry = DisparityGeometry.of(RIG, degrees)
+    geometry = VergedGeometry.of(RIG, degrees)
     reduced = reduce_frame(kernels, frame, geometry, Params(vergence=degrees))
     assert reduced.right is None
     assert np.isnan(reduced.disparity[:9]).all()

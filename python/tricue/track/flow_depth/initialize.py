@@ -8,13 +8,13 @@ from tricue.errors import NoDepthInBoxError
 from tricue.kernels import Kernels
 from tricue.track.flow_depth.blocks import Blocks
 from tricue.track.flow_depth.cue_input import CueInput
-from tricue.track.flow_depth.disparity_geometry import DisparityGeometry
 from tricue.track.flow_depth.initial_disparity import MIN_DISPARITY_CELLS, find_initial_disparity
 from tricue.track.flow_depth.outline import PixelOutline
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Rectangle, cells_of, grown
 from tricue.track.flow_depth.reduced_frame import ReducedFrame
 from tricue.track.flow_depth.state import FlowDepthState
+from tricue.track.flow_depth.verged_geometry import VergedGeometry
 
 BOX_MARGIN = 0.15, 0.1  # of the box's width and height at each side, excluded from the first disparity
 
@@ -23,7 +23,7 @@ def initialize(
     k: Kernels,
     checked: CueInput,
     reduced: ReducedFrame,
-    geometry: DisparityGeometry,
+    geometry: VergedGeometry,
     target: Box,
     p: FlowDepthParams,
 ) -> FlowDepthState:

@@ -8,9 +8,9 @@ import numpy as np
 from tricue.arrays import Image, Plane
 from tricue.camera.frame import Frame
 from tricue.kernels import Kernels
-from tricue.track.flow_depth.disparity_geometry import DisparityGeometry
 from tricue.track.flow_depth.params import PAPER_COLUMNS, FlowDepthParams
 from tricue.track.flow_depth.rectangles import Region
+from tricue.track.flow_depth.verged_geometry import VergedGeometry
 
 
 class ReducedFrame(NamedTuple):
@@ -53,7 +53,7 @@ def cell_side(shape: tuple[int, ...], p: FlowDepthParams) -> int:
 def reduce_frame(
     k: Kernels,
     frame: Frame,
-    geometry: DisparityGeometry,
+    geometry: VergedGeometry,
     p: FlowDepthParams,
     wanted: WantedCells = WantedCells(),  # noqa: B008  it is immutable
 ) -> ReducedFrame:
@@ -81,7 +81,7 @@ def reduce_frame(
     return ReducedFrame(gray, k.reduce_gray(right, step, wanted.right), None, step, offset)
 
 
-def _depth_to_disparity(depth: Plane, geometry: DisparityGeometry, step: int) -> Plane:
+def _depth_to_disparity(depth: Plane, geometry: VergedGeometry, step: int) -> Plane:
     """The disparity (h, w), cells, of the geometry's stereo pair at each cell's middle pixel."""
     height, width = (size // step for size in depth.shape)
     middle = depth[step // 2 :: step, step // 2 :: step][:height, :width]

@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from tricue.track.base.track import Status
 from tricue.track.flow_depth.blocks import Blocks
-from tricue.track.flow_depth.disparity_geometry import DisparityGeometry
 from tricue.track.flow_depth.model import TargetModel
 from tricue.track.flow_depth.outline import PixelOutline
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Rectangle, Region
 from tricue.track.flow_depth.reduced_frame import ReducedFrame
+from tricue.track.flow_depth.verged_geometry import VergedGeometry
 
 Velocity = tuple[float, float]
 
@@ -27,7 +27,7 @@ class FlowDepthState(NamedTuple):
     """Everything that changes from frame to frame; lengths are in cells."""
 
     shape: tuple[int, ...]  # of the image
-    geometry: DisparityGeometry
+    geometry: VergedGeometry
     reduced: ReducedFrame  # the newest frame
     window: Rectangle  # around the blocks, section 4.5
     shift: Velocity  # expected until the next frame

@@ -22,7 +22,6 @@ from tricue.track.flow_depth.blocks import OCCLUDED_BLOCK, TARGET_BLOCK
 from tricue.track.flow_depth.complete_occlusion import disparity_in_window, is_back, is_occluded
 from tricue.track.flow_depth.cue_input import require_cue_channels
 from tricue.track.flow_depth.cues import Cues, measure
-from tricue.track.flow_depth.disparity_geometry import DisparityGeometry
 from tricue.track.flow_depth.initialize import initialize
 from tricue.track.flow_depth.learn import learn
 from tricue.track.flow_depth.overlay import block_boxes, target_mask
@@ -32,6 +31,7 @@ from tricue.track.flow_depth.read_cells import CueReach
 from tricue.track.flow_depth.rectangles import Rectangle, cells_of, contains, moved
 from tricue.track.flow_depth.reduced_frame import ReducedFrame, WantedCells, reduce_frame
 from tricue.track.flow_depth.state import FlowDepthState, Velocity
+from tricue.track.flow_depth.verged_geometry import VergedGeometry
 from tricue.track.flow_depth.verify import candidate_region, verify, verify_by
 
 MIN_REGION_SIDE = 4  # cells, of the measured region
@@ -203,16 +203,16 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
 
     _derived = (*TrackerBase._derived, "_reach")
 
-    def _geometry(self, shape: tuple[int, ...], frame: Frame) -> DisparityGeometry:
+    def _geometry(self, shape: tuple[int, ...], frame: Frame) -> VergedGeometry:
         """The geometry of the rig, or of the camera with an assumed second one beside it."""
         by_pair, vergence = _has_pair_alone(frame), self.params.vergence
         if self.rig is not None:
             channel = "depth" if frame.color is None else "color"
-            return DisparityGeometry.of(validation.rig_or_default(self.rig, shape, channel), vergence)
+            return VergedGeometry.of(validation.rig_or_default(self.rig, shape, channel), vergence)
         by_depth = frame.depth is not None and "disparity" in self.params.cues
         camera = validation.camera_or_default(self.intrinsics, shape, "depth" if by_depth else "color")
         assumed = StereoRig(camera, validation.DEFAULT_BASELINE)
-        return DisparityGeometry.of(assumed, vergence if by_pair else 0.0, is_metric=not by_pair)
+        return VergedGeometry.of(assumed, vergence if by_pair else 0.0, is_metric=not by_pair)
 
     def _track(self, state: FlowDepthState) -> Track:
         """The track of a state."""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from tricue.camera.rig import StereoRig
 
 
-class DisparityGeometry(NamedTuple):
+class VergedGeometry(NamedTuple):
     """The geometry of a stereo pair, or, with a default baseline, of a depth camera.
 
     camera: (4,) fx, fy, cx, cy, pixels. baseline: meters. angle: radians by which the right camera is turned
@@ -24,7 +24,7 @@ class DisparityGeometry(NamedTuple):
     is_metric: bool = True
 
     @classmethod
-    def of(cls, rig: StereoRig, vergence: float, is_metric: bool = True) -> "DisparityGeometry":
+    def of(cls, rig: StereoRig, vergence: float, is_metric: bool = True) -> "VergedGeometry":
         """The geometry of a rig; vergence in degrees."""
         return cls(rig.intrinsics.vector, rig.baseline, math.radians(vergence), is_metric)
 
