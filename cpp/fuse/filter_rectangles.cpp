@@ -67,7 +67,7 @@ public:
     /// The measurements of a state that was just measured.
     Vector histogram(const double* state) const {
         if (is_one_range()) return contrast_.shares();
-        const DepthModel& model = by_.model;
+        const ReferenceHistogram& model = by_.model;
         const double z = by_.middle > 0.0 ? by_.middle : state[2];
         return depth_shares(depth_, camera_, state, by_.places, z, model.reach, model.histogram.size());
     }
@@ -89,7 +89,7 @@ private:
     /// Whether the model's levels cover exactly the depths whose share is measured.
     bool is_one_range() const { return by_.middle == 0.0 && by_.model.reach == by_.reach; }
 
-    DepthModel contrast_model() const {
+    ReferenceHistogram contrast_model() const {
         if (is_one_range()) return by_.model;
         return {Eigen::Map<const Vector>(&kNoModel, 1), by_.reach};
     }

@@ -26,7 +26,7 @@ struct Refinement {
 
 /// How the depths in and around a rectangle give its likelihood.
 struct DepthLikelihood {
-    DepthModel model;
+    ReferenceHistogram model;
     double middle;
     Places places;
     double reach, occluder_margin;

@@ -33,9 +33,9 @@ depth_components_arrays(const Array<std::uint8_t>& labels, const Array<float>& d
                         int levels, int bins, int min_area, bool image) {
     const auto regions = mask_image(labels, "labels", "uint8 labels (H, W)");
     const auto meters = depth_image(depth, "depth");
-    const Signature signature{near, far, levels, bins};
+    const HistogramLayout layout{near, far, levels, bins};
     auto found = unlocked(std::ptrdiff_t{meters.rows} * meters.cols,
-                          [&] { return depth_components(regions, meters, signature, min_area, image); });
+                          [&] { return depth_components(regions, meters, layout, min_area, image); });
     return {give(std::move(found.table)), give(std::move(found.histograms)), give(std::move(found.columns)),
             give(std::move(found.rows)), give(std::move(found.image))};
 }
@@ -45,7 +45,7 @@ Array<double> depth_distance_arrays(const Array<float>& depth, const Array<doubl
                                     double occluder_margin) {
     const auto meters = depth_image(depth, "depth");
     const auto each = states(rectangles, "rectangles");
-    const DepthModel target{vector(model, "model"), reach};
+    const ReferenceHistogram target{vector(model, "model"), reach};
     const auto places = states(pattern, "pattern");
     return give(unlocked(each.rows() * places.rows(),
                          [&] { return depth_distance(meters, each, target, places, occluder_margin); }));
@@ -67,7 +67,7 @@ Array<double> depth_contrast_arrays(const Array<float>& depth, const Array<doubl
     const auto meters = depth_image(depth, "depth");
     const auto lens = vector(camera, "camera");
     const auto each = states(states_, "states");
-    const DepthModel target{vector(model, "model"), reach};
+    const ReferenceHistogram target{vector(model, "model"), reach};
     const Places places{grid.first, grid.second, ring.first, ring.second};
     const auto work = work_of(grid.first, grid.second, each.rows());
     return give(

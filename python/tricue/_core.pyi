@@ -654,7 +654,7 @@ def depth_components(
 ]:
     """
     Connected regions (8 neighbors) of one label other than 0 in a divided depth image, the largest
-    first, with their signatures.
+    first, with their histograms.
 
     Equally large regions are in the reading order of their first pixels. Pixels without a measurement
     belong to a region, but count neither in its mean nor in its histogram; in a region without

@@ -19,7 +19,7 @@ using Counts = std::vector<std::int32_t>;
 
 /// Neighbors in a row mostly have the same level: they are counted in different tables, so that they don't wait for each other.
 constexpr std::size_t kLanes = 4;
-constexpr int kMaxSignature = 4096;
+constexpr int kMaxBins = 4096;
 
 /// Levels of a row's pixels, `levels` where nothing was measured, and their depths, 0 there.
 TRICUE_MULTIVERSION
@@ -225,12 +225,12 @@ LabelImage label_pixels(const PixelRuns& runs, const Grouping& groups, const Dep
 
 /// Counts all components in a second pass over the runs, in reading order.
 std::vector<ComponentCounts> count_components(const PixelRuns& runs, const Grouping& groups,
-                                              const DepthView& depth, const Signature& signature) {
-    const double scale = signature.levels / (signature.far - signature.near);
+                                              const DepthView& depth, const HistogramLayout& layout) {
+    const double scale = layout.levels / (layout.far - layout.near);
     std::vector<std::int32_t> level(static_cast<std::size_t>(depth.cols));
     std::vector<double> meters(level.size());
     std::vector<ComponentCounts> tallies;
-    for (const Component& each : groups.components) tallies.emplace_back(each, signature.levels);
+    for (const Component& each : groups.components) tallies.emplace_back(each, layout.levels);
     int row = -1;
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const std::int32_t component = groups.component[i];
@@ -239,13 +239,13 @@ std::vector<ComponentCounts> count_components(const PixelRuns& runs, const Group
         const auto length = static_cast<std::size_t>(run.length());
         ComponentCounts& tally = tallies[static_cast<std::size_t>(component)];
         tally.add_box(run);
-        if (signature.levels == 0) {
+        if (layout.levels == 0) {
             tally.add_depth(depth.row(run.row) + run.begin, length);
             continue;
         }
         if (run.row != row) {
             row = run.row;
-            find_levels(depth.row(row), depth.cols, signature.near, scale, signature.levels, level.data(),
+            find_levels(depth.row(row), depth.cols, layout.near, scale, layout.levels, level.data(),
                         meters.data());
         }
         tally.add_depth(level.data() + run.begin, meters.data() + run.begin, length);
@@ -253,27 +253,27 @@ std::vector<ComponentCounts> count_components(const PixelRuns& runs, const Group
     return tallies;
 }
 
-void require_arguments(const ImageView& labels, const DepthView& depth, const Signature& signature,
+void require_arguments(const ImageView& labels, const DepthView& depth, const HistogramLayout& layout,
                        int min_area) {
     require_same_shape(labels, depth, "labels");
-    require_not_negative(signature.near, "near");
-    if (!(signature.far > signature.near && std::isfinite(signature.far)))
-        refuse("far", "a finite number above near", signature.far);
-    require_count(signature.levels, 0, kMaxSignature, "levels");
-    require_count(signature.bins, 1, kMaxSignature, "bins");
+    require_not_negative(layout.near, "near");
+    if (!(layout.far > layout.near && std::isfinite(layout.far)))
+        refuse("far", "a finite number above near", layout.far);
+    require_count(layout.levels, 0, kMaxBins, "levels");
+    require_count(layout.bins, 1, kMaxBins, "bins");
     if (min_area < 1) refuse("min_area", "at least 1", min_area);
 }
 
 }  // namespace
 
-DepthComponents describe_components(PixelRuns& runs, const DepthView& depth, const Signature& signature,
+DepthComponents describe_components(PixelRuns& runs, const DepthView& depth, const HistogramLayout& layout,
                                     int min_area, bool image) {
     const Grouping groups = group(runs, min_area);
     const auto C = static_cast<Eigen::Index>(groups.components.size());
-    DepthComponents result{States(C, 7), Floats::Zero(C, signature.levels), Floats::Zero(C, signature.bins),
-                           Floats::Zero(C, signature.bins),
+    DepthComponents result{States(C, 7), Floats::Zero(C, layout.levels), Floats::Zero(C, layout.bins),
+                           Floats::Zero(C, layout.bins),
                            image ? label_pixels(runs, groups, depth) : LabelImage()};
-    auto tallies = count_components(runs, groups, depth, signature);
+    auto tallies = count_components(runs, groups, depth, layout);
     for (Eigen::Index i = 0; i < C; ++i) {
         ComponentCounts& tally = tallies[static_cast<std::size_t>(i)];
         const Component& box = tally.box;
@@ -282,18 +282,18 @@ DepthComponents describe_components(PixelRuns& runs, const DepthView& depth, con
         result.table.row(i) << box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0,
             static_cast<double>(box.area), sum / static_cast<double>(measured), box.label;
         write_shares(tally.levels, measured, result.histograms.row(i).data());
-        const std::int64_t total = box.area * signature.bins;
-        write_shares(rebin(tally.columns, signature.bins), total, result.columns.row(i).data());
-        write_shares(rebin(tally.rows, signature.bins), total, result.rows.row(i).data());
+        const std::int64_t total = box.area * layout.bins;
+        write_shares(rebin(tally.columns, layout.bins), total, result.columns.row(i).data());
+        write_shares(rebin(tally.rows, layout.bins), total, result.rows.row(i).data());
     }
     return result;
 }
 
-DepthComponents depth_components(const ImageView& labels, const DepthView& depth, const Signature& signature,
-                                 int min_area, bool image) {
-    require_arguments(labels, depth, signature, min_area);
+DepthComponents depth_components(const ImageView& labels, const DepthView& depth,
+                                 const HistogramLayout& layout, int min_area, bool image) {
+    require_arguments(labels, depth, layout, min_area);
     PixelRuns runs = label_runs(labels, min_area == 1);
-    return describe_components(runs, depth, signature, min_area, image);
+    return describe_components(runs, depth, layout, min_area, image);
 }
 
 }  // namespace tricue

@@ -11,8 +11,8 @@
 
 namespace tricue {
 
-/// A region's description: a histogram of its depths, and how its pixels are spread over its box.
-struct Signature {
+/// How a region's depths, and its pixels over its box, are counted.
+struct HistogramLayout {
     double near, far;  ///< range of the histograms, meters, 0 <= near < far, finite
     int levels;        ///< levels of a histogram, 0 (none) to 4096
     int bins;          ///< equal parts of a box, across and down, whose pixels are counted, 1 to 4096
@@ -31,7 +31,7 @@ struct DepthComponents {
     LabelImage image;   ///< int32 (H, W): the region of each pixel, from 1; 0 if none; (0, 0) if not wanted
 };
 
-/// Connected regions (8 neighbors) of one label other than 0 in a divided depth image, the largest first, with their signatures.
+/// Connected regions (8 neighbors) of one label other than 0 in a divided depth image, the largest first, with their histograms.
 ///
 /// Equally large regions are in the reading order of their first pixels. Pixels without a measurement belong to a region, but
 /// count neither in its mean nor in its histogram; in a region without measurements the mean is NaN, and the histogram all 0.
@@ -46,8 +46,8 @@ struct DepthComponents {
 /// @param image whether the image of regions is wanted: it takes a fifth of the time
 /// @throws std::invalid_argument on labels of another shape, or parameters out of range
 /// Source: Sabeti, Parvizi, Wu 2008, section IV.A; labeling after Rosenfeld, Pfaltz 1966.
-DepthComponents depth_components(const ImageView& labels, const DepthView& depth, const Signature& signature,
-                                 int min_area, bool image);
+DepthComponents depth_components(const ImageView& labels, const DepthView& depth,
+                                 const HistogramLayout& layout, int min_area, bool image);
 
 /// The runs of equal labels of pixels that have one.
 ///
@@ -57,7 +57,7 @@ DepthComponents depth_components(const ImageView& labels, const DepthView& depth
 PixelRuns label_runs(const BitImage& labeled, const BitImage& changes, const ImageView& labels, bool single);
 
 /// The regions of these runs, as depth_components gives them.
-DepthComponents describe_components(PixelRuns& runs, const DepthView& depth, const Signature& signature,
+DepthComponents describe_components(PixelRuns& runs, const DepthView& depth, const HistogramLayout& layout,
                                     int min_area, bool image);
 
 }  // namespace tricue

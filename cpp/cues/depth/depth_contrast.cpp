@@ -165,7 +165,7 @@ void require_states(StatesRef states) {
         if (!(states(i, 2) > 0.0)) refuse("states", "Z above 0", states(i, 2));
 }
 
-void require_arguments(VectorRef camera, const DepthModel& model, const Places& places,
+void require_arguments(VectorRef camera, const ReferenceHistogram& model, const Places& places,
                        double occluder_margin) {
     require_camera(camera);
     require_count(places.rows, 1, kMaxSamples, "rows");
@@ -182,14 +182,15 @@ void require_arguments(VectorRef camera, const DepthModel& model, const Places& 
 struct RectangleContrast::Parts {
     GridReader reader;
     VectorRef camera;
-    DepthModel model;
+    ReferenceHistogram model;
     double occluder_margin, inside, around;  ///< meters, and numbers of places
     std::vector<DepthSamples> samples;
     std::vector<RelativeHistogram> histograms;
 };
 
-RectangleContrast::RectangleContrast(const DepthView& depth, VectorRef camera, const DepthModel& model,
-                                     const Places& places, double occluder_margin) {
+RectangleContrast::RectangleContrast(const DepthView& depth, VectorRef camera,
+                                     const ReferenceHistogram& model, const Places& places,
+                                     double occluder_margin) {
     require_arguments(camera, model, places, occluder_margin);
     const std::size_t inside = places_inside(places), around = places_around(places);
     const DepthSamples samples(places);
@@ -238,8 +239,8 @@ Vector RectangleContrast::shares() const {
     return parts_->histograms.front().shares();
 }
 
-States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states, const DepthModel& model,
-                      const Places& places, double occluder_margin) {
+States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states,
+                      const ReferenceHistogram& model, const Places& places, double occluder_margin) {
     require_states(states);
     return RectangleContrast(depth, camera, model, places, occluder_margin).measure(states, true);
 }

@@ -36,15 +36,15 @@ struct Places {
 ///     inside with a depth below Z - occluder_margin; share of the places around that count
 /// @throws std::invalid_argument on other shapes or values
 /// Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to Z, the share in front and the ring are ours.
-States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states, const DepthModel& model,
-                      const Places& places, double occluder_margin);
+States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states,
+                      const ReferenceHistogram& model, const Places& places, double occluder_margin);
 
 /// The same for several sets of rectangles, one after the other, with memory that is reused.
 class RectangleContrast {
 public:
     /// Camera and model must outlive it.
-    RectangleContrast(const DepthView& depth, VectorRef camera, const DepthModel& model, const Places& places,
-                      double occluder_margin);
+    RectangleContrast(const DepthView& depth, VectorRef camera, const ReferenceHistogram& model,
+                      const Places& places, double occluder_margin);
     ~RectangleContrast();
 
     /// (N, 4), as by depth_contrast; the share that is nearer only if wanted, else 0.

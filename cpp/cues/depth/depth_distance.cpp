@@ -7,7 +7,7 @@
 
 namespace tricue {
 
-States depth_distance(const DepthView& depth, StatesRef rectangles, const DepthModel& model,
+States depth_distance(const DepthView& depth, StatesRef rectangles, const ReferenceHistogram& model,
                       StatesRef pattern, double occluder_margin) {
     require_shape(rectangles, rectangles.rows(), 5, "rectangles");
     require_finite(rectangles, "rectangles");

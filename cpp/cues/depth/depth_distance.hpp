@@ -6,8 +6,8 @@
 
 namespace tricue {
 
-/// A model of a target's depths: a histogram of depth relative to the target's own.
-struct DepthModel {
+/// The histogram of a target's depths relative to its own depth.
+struct ReferenceHistogram {
     VectorRef histogram;
     double reach;  ///< the L levels of the histogram cover [-reach, reach), meters, finite, above 0
 };
@@ -29,7 +29,7 @@ struct DepthModel {
 ///     places whose depth is below z - occluder_margin
 /// @throws std::invalid_argument on other shapes or values
 /// Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to z and the share in front are ours.
-States depth_distance(const DepthView& depth, StatesRef rectangles, const DepthModel& model,
+States depth_distance(const DepthView& depth, StatesRef rectangles, const ReferenceHistogram& model,
                       StatesRef pattern, double occluder_margin);
 
 }  // namespace tricue
