@@ -5,16 +5,11 @@
 #include <vector>
 
 #include "base/arrays.hpp"
-#include "base/plane_view.hpp"
 #include "base/rectangle.hpp"
 #include "fuse/detail/block_grid.hpp"
+#include "fuse/detail/target_histograms.hpp"
 
 namespace tricue {
-
-/// One observation of each pixel: u, v or d, and its reliability.
-struct CueMap {
-    PlaneView values, weights;
-};
 
 /// The expected peak of a histogram.
 struct ExpectedPeak {
