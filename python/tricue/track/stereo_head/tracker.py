@@ -169,7 +169,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         if found is None:
             return None
         measured = measure(k, pair, state.geometry, *found, state.model, p)
-        if measured is None or not self._scores(state, measured, p.min_score_to_redetect):
+        if measured is None or not self._matches(state, measured, p.min_score_to_redetect):
             return None
         return measured
 
@@ -178,9 +178,9 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         distance = head_filter.mahalanobis_distance(predicted, measured.position, measured.noise)
         if not distance < self.params.max_deviations:
             return False
-        return self._scores(state, measured, self.params.min_score)
+        return self._matches(state, measured, self.params.min_score)
 
-    def _scores(self, state: HeadState, measured: HeadMeasurement, minimum: float) -> bool:
+    def _matches(self, state: HeadState, measured: HeadMeasurement, minimum: float) -> bool:
         """Whether score and share at the head's depth are at least ``minimum`` of their running means."""
         return (
             measured.match.score >= minimum * state.mean_score
