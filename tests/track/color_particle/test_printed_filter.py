@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from tricue import ColorParticleTracker
 from tricue.track.base.noise_pool import NoisePool
-from tricue.track.color_particle.tracker import STEPS
+from tricue.track.color_particle.tracker import STEPS_PER_FRAME
 
 PAPER = ColorParticleTracker.Params.paper()
 N = 100  # particles, section V
@@ -109,7 +109,7 @@ def test_a_script_of_section_iii_draws_the_same_particles(scene):
     for number, image in enumerate(images[1:]):
         track = tracker.update(image)
         if number > 0:  # the first frame's particles are all the same
-            points = (np.arange(N) + numbers.uniform(STEPS * number)) / N
+            points = (np.arange(N) + numbers.uniform(STEPS_PER_FRAME * number)) / N
             particles = particles[np.searchsorted(weights.cumsum(), points, side="right")]
         side = 2 * np.sqrt(estimate[2] * estimate[3])
         noise = np.array([*(0.5 + 0.05 * side + abs(velocity)), *(0.02 * estimate[2:])])  # (30)
@@ -118,7 +118,7 @@ def test_a_script_of_section_iii_draws_the_same_particles(scene):
         lower = [*np.maximum(estimate[:2] - 40, 0), *(0.01 * first[2:])]
         upper = [*np.minimum(estimate[:2] + 40, (width, height)), *(100 * first[2:])]
         proposal = Proposal(noise, np.array(lower), np.array(upper), skin)
-        particles, ratio = draw(particles, proposal, numbers.normal(STEPS * number, (N, 4)))
+        particles, ratio = draw(particles, proposal, numbers.normal(STEPS_PER_FRAME * number, (N, 4)))
         weights = np.array([likelihood(image, each, model) for each in particles]) * ratio  # (2)
         weights /= weights.sum()  # (31)
         velocity, estimate = (weights @ particles - estimate)[:2], weights @ particles

@@ -2,6 +2,7 @@
 """The color particle tracker of Sabeti, Parvizi and Wu (2008), section III."""
 
 import math
+from enum import IntEnum
 from typing import Any, ClassVar
 
 import numpy as np
@@ -32,7 +33,17 @@ REDETECTION_RATE = 0.5  # learning rate, once, when a lost target is detected ag
 REDETECTION_SHARE = 0.85  # from the frame's median likelihood (0) to the target's (1): detected again
 REDETECTION_LEAD = 1.5  # of min_lead, to detect a lost target again; background may have min_lead by chance
 NO_DRIFT = 0.0, 0.0, 0.0, 0.0
-NARROW, WIDE, CLOSE, STEPS = 0, 1, 2, 3  # steps of the particle filter in a frame, by the region searched
+
+
+class FilterStep(IntEnum):
+    """The steps of the particle filter in a frame. Each has random numbers of its own."""
+
+    NARROW = 0  # around the prediction
+    WIDE = 1  # far around the last ellipse
+    CLOSE = 2  # around the best place that was found
+
+
+STEPS_PER_FRAME = len(FilterStep)
 
 
 class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
@@ -149,7 +160,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         scarce = last.effective < p.resample_below * len(last.weights)
         proposal = Proposal(prediction, detection)
         particles = self._filter(
-            state, image, last.particles, last.weights, proposal, NARROW, resample=scarce
+            state, image, last.particles, last.weights, proposal, FilterStep.NARROW, resample=scarce
         )
         if particles.log_likelihood < state.mean_log_likelihood - p.likelihood_drop:
             particles = self._search_wide(state, image, particles, prediction)
@@ -173,12 +184,12 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         particles: Floats,
         weights: Floats,
         proposal: Proposal,
-        region: int,
+        which: FilterStep,
         resample: bool = False,
         searching: bool = False,
     ) -> ParticleSet:
-        """One step of the particle filter. region: NARROW, WIDE or CLOSE. searching: for a lost target."""
-        step = STEPS * state.frames + region
+        """One step of the particle filter. searching: for a lost target."""
+        step = STEPS_PER_FRAME * state.frames + which
         offset = self._noise.uniform(step) if resample else None
         noise = StepNoise(offset, self._noise.normal(step, particles.shape), self._correlation)
         return filter_step(self._k, image, state.appearance, particles, weights, noise, proposal, searching)
@@ -190,11 +201,15 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         spread = self.params.wide_search_spread * state.motion.side
         last = np.array(state.motion.ellipse)
         wide_prediction = prediction._replace(drift=NO_DRIFT, scale=(spread, spread, *prediction.scale[2:]))
-        wide = self._filter(state, image, *self._particles_at(last), Proposal(wide_prediction), WIDE)
+        wide = self._filter(
+            state, image, *self._particles_at(last), Proposal(wide_prediction), FilterStep.WIDE
+        )
         best = wide.particles[np.argmax(wide.weights)]
         x, y, minor, major = prediction.scale
         close_prediction = prediction._replace(drift=NO_DRIFT, scale=(x / 2, y / 2, minor / 2, major / 2))
-        close = self._filter(state, image, *self._particles_at(best), Proposal(close_prediction), CLOSE)
+        close = self._filter(
+            state, image, *self._particles_at(best), Proposal(close_prediction), FilterStep.CLOSE
+        )
         return max(narrow, close, key=lambda each: each.log_likelihood)
 
     def _redetect(self, state: State, image: Image) -> State:
@@ -206,7 +221,9 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         best = candidates[np.argmax(log_likelihood)]
         motion = state.motion.restart_at(tuple(best.tolist()))
         proposal = Proposal(motion.predict(p, state.shape))
-        particles = self._filter(state, image, *self._particles_at(best), proposal, CLOSE, searching=True)
+        particles = self._filter(
+            state, image, *self._particles_at(best), proposal, FilterStep.CLOSE, searching=True
+        )
         recognized = appearance.recognition(k, particles.seen, searching=True) >= p.min_score_to_redetect
         background = float(np.median(log_likelihood))
         required = background + REDETECTION_SHARE * (state.recognized_mean - background)
