@@ -46,7 +46,7 @@ MODULES = {
     "track.faces": "track.head_detection.face_detection",
     "track.opencv": "track.base.opencv",
     "track.params": "track.base.params",
-    "track.settings": "track.base.settings",
+    "track.settings": "cli.settings",
     "track.track": "track.base.track",
     "trax": "cli.trax",
 }

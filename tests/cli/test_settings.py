@@ -4,8 +4,8 @@ from pathlib import Path
 from typing import Literal
 
 import pytest
+from tricue.cli.settings import PAPER, make_tracker, papers, parse_settings, read_settings
 from tricue.track.base.registry import names, tracker_class
-from tricue.track.base.settings import PAPER, make_tracker, papers, parse_settings, read_settings
 
 
 @pytest.mark.parametrize("text", ["flow,disparity", "flow, disparity", "('flow', 'disparity')"])

@@ -8,12 +8,12 @@ from typing import Any
 
 from tricue.camera.frame import Frame
 from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.cli.settings import read_settings
 from tricue.evaluation import baselines
 from tricue.evaluation.frame_views import FrameView
 from tricue.evaluation.safe_tracker import SafeTracker
 from tricue.evaluation.tracker_spec import SequenceInfo, TrackerSpec
 from tricue.evaluation.trackers import tracker_specs
-from tricue.track.base.settings import read_settings
 
 CHANNELS = ("color", "depth", "right")
 

@@ -11,6 +11,7 @@ from typing import Any
 
 from tricue.cli.arguments import any_tracker_names, count, seconds, words
 from tricue.cli.progress import Progress
+from tricue.cli.settings import read_settings, third_party_settings
 from tricue.evaluation import baselines, tables
 from tricue.evaluation.attributes.measure import measure_all
 from tricue.evaluation.dataset import ReadOptions
@@ -28,7 +29,6 @@ from tricue.evaluation.results_folder import FORMS
 from tricue.evaluation.tasks import perform
 from tricue.evaluation.trackers import split_ours
 from tricue.track.base.registry import names
-from tricue.track.base.settings import read_settings, third_party_settings
 
 EXAMPLES = """\
 examples:

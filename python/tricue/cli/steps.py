@@ -111,7 +111,7 @@ def steps_of_targets(
             yield Step(index, frame, next(iter(tracks.values())), seconds, tracks=tracks)
 
 
-def with_known_numbers(found: Iterable[Step]) -> Iterator[Step]:
+def with_known_tracks(found: Iterable[Step]) -> Iterator[Step]:
     """The steps, with third parties' tracks made fit for files and pictures: see
     :func:`tricue.track.base.adapter.with_known_numbers`.
     """

@@ -20,7 +20,7 @@ from tricue.cli.outputs import STANDARD_OUTPUT, CsvOutput, JsonLines, JsonOutput
 from tricue.cli.progress import Progress
 from tricue.cli.signals import catch_signals
 from tricue.cli.starts import in_options, start_hint
-from tricue.cli.steps import RunClock, steps, steps_of_targets, with_known_numbers
+from tricue.cli.steps import RunClock, steps, steps_of_targets, with_known_tracks
 from tricue.cli.track_options import EXAMPLES, add_options
 from tricue.cli.track_preparation import TrackRun, prepare
 from tricue.cli.track_report import (
@@ -85,7 +85,7 @@ def _steps(
         found = steps(run.tracker, frames, run.start, clock, run.first)
     else:
         found = steps_of_targets(targets, frames, run.boxes, clock, run.first)
-    return with_known_numbers(map(run.known, _with_hints(found, run, clock)))
+    return with_known_tracks(map(run.known, _with_hints(found, run, clock)))
 
 
 def _with_hints(found: Iterator[Step], run: TrackRun, clock: RunClock) -> Iterator[Step]:

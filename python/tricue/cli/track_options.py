@@ -14,11 +14,11 @@ from tricue.cli.arguments import (
     start_box,
     tracker_name,
 )
+from tricue.cli.settings import PAPER
 from tricue.cli.source_options import add_source_options
 from tricue.cli.starts import DEFAULT_TRACKER, depth_tracker
 from tricue.draw.trail import DEFAULT_SECONDS
 from tricue.track.base.registry import names
-from tricue.track.base.settings import PAPER
 
 EXAMPLES = """\
 examples:

@@ -14,6 +14,7 @@ from tricue.cli.arguments import StartBox
 from tricue.cli.calibrations import find_calibration, is_registered
 from tricue.cli.output_files import check_different, check_not_read
 from tricue.cli.outputs import STANDARD_OUTPUT, Step
+from tricue.cli.settings import make_tracker, read_settings
 from tricue.cli.source_options import opening
 from tricue.cli.starts import choose_start, default_tracker
 from tricue.cli.steps import Start
@@ -23,7 +24,6 @@ from tricue.draw.video import check_name, written_path
 from tricue.draw.writable import check_writable
 from tricue.errors import BoxError
 from tricue.track.base.registry import traits
-from tricue.track.base.settings import make_tracker, read_settings
 from tricue.track.base.track import Tracker
 from tricue.track.base.validation import check_box_in
 from tricue.track.multi.tracker import MultiTracker

@@ -14,10 +14,10 @@ from pathlib import Path
 
 from tricue.cli.arguments import seed
 from tricue.cli.program import USAGE, Parser, silence_opencv
+from tricue.cli.settings import read_settings
 from tricue.errors import one_line
 from tricue.evaluation.toolkits.trax_server import TraxTracker, serve
 from tricue.track.base.registry import names
-from tricue.track.base.settings import read_settings
 
 PROGRAM = "python -m tricue.cli.trax"
 _NOTES = """\
