@@ -32,7 +32,7 @@ def script(
     totals = [cv2.integral(image) for image in images]
     sums = [total[y1, x1] - total[y1, x0] - total[y0, x1] + total[y0, x0] for total in totals]
     mean = np.divide(sums[2], sums[1], out=np.full(len(blocks), np.nan), where=sums[1] > 0)
-    near = np.abs(disparity[part] - np.float32(expected)) < np.float32(tolerance)
+    near = np.abs(disparity[part] - np.float32(expected)) <= np.float32(tolerance)
     total = cv2.integral(near.astype(np.uint8))
     similar = total[y1, x1] - total[y1, x0] - total[y0, x1] + total[y0, x0]
     return (x1 - x0) * (y1 - y0), sums[0], sums[1], mean, similar

@@ -61,7 +61,7 @@ def script(
     for x0, y0, x1, y1 in np.maximum(blocks, 0).tolist():
         part = disparity[y0:y1, x0:x1]
         known = part[np.isfinite(part)]
-        close = int(np.count_nonzero(np.abs(known - limits[0]) < limits[1]))
+        close = int(np.count_nonzero(np.abs(known - limits[0]) <= limits[1]))
         mean = known.mean(dtype=float) if known.size else np.nan
         rows_of.append((part.size, int(mask[y0:y1, x0:x1].sum()), known.size, mean, close))
     cells, targets, measured, mean, similar = (np.array(each) for each in zip(*rows_of, strict=True))

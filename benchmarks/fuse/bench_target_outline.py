@@ -18,7 +18,7 @@ def script(
     mine = np.zeros(mask.shape, np.bool_)
     for x0, y0, x1, y1 in blocks[states == 1].tolist():
         mine[y0:y1, x0:x1] = True
-    mine &= (mask != 0) | (np.abs(disparity - target) < tolerance)
+    mine &= (mask != 0) | (np.abs(disparity - target) <= tolerance)
     ys, xs = map(np.sort, np.nonzero(mine))
     out = int(0.02 * len(xs))
     return tuple(map(int, (xs[out], ys[out], xs[-1 - out] + 1, ys[-1 - out] + 1))), len(xs)

@@ -47,7 +47,7 @@ struct TargetObservation {
 /// @param corners float64 (N, 4): x0, y0, x1, y1 of each block in its grid
 /// @param place (size, x, y, left, top), finite: a corner c of the grid is at size c + (x, y) - (left, top), pixels
 /// @param states int64 (N,): 0 where a block isn't the target's
-/// @param limits (target, tolerance, occluder), disparities, pixels: similar ones differ by less than the tolerance from the
+/// @param limits (target, tolerance, occluder), disparities, pixels: similar ones differ by at most the tolerance from the
 ///     target's; those above the third are an occluder's
 /// @returns box (x0, y0, x1, y1), pixels, of the temporal window
 /// @returns count number of target pixels

@@ -19,7 +19,7 @@ TRICUE_MULTIVERSION
 void keep_near(const std::uint8_t* __restrict mask, const float* __restrict disparity, float target,
                float tolerance, int n, std::uint8_t* __restrict mine) {
     for_overlapping_blocks<16>(n, [=](std::ptrdiff_t x) {
-        const bool near = std::abs(disparity[x] - target) < tolerance;
+        const bool near = std::abs(disparity[x] - target) <= tolerance;
         mine[x] = (mine[x] != 0) & ((mask[x] != 0) | near);
     });
 }

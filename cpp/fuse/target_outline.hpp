@@ -9,7 +9,7 @@ namespace tricue {
 /// The rectangle around the target in its blocks: around its target pixels, and those at its disparity.
 ///
 /// The temporal_window, without clean-up and with a trim of 0.02, of the pixels in blocks of state 1 that are set in the mask or whose
-/// disparity differs by less than the tolerance from the target's.
+/// disparity differs by at most the tolerance from the target's.
 ///
 /// @param mask uint8 (H, W): target pixels, those that are not 0
 /// @param disparity float32 (H, W), pixels, NaN where there is none

@@ -163,14 +163,14 @@ def block_counts(
         blocks: float64 (N, 4): x0, y0, x1, y1, pixels, finite; a block has the pixels whose centers lie
             in it, the first pixel being [0, 1) x [0, 1)
         expected: a disparity, pixels; NaN for none
-        tolerance: a similar disparity differs by less than this from it, pixels
+        tolerance: a similar disparity differs by at most this from it, pixels
 
     Returns:
         pixels: int64 (N,): pixels of each block that are in the image
         targets: int64 (N,): those set in the mask
         measured: int64 (N,): those with a finite disparity
         mean: float64 (N,): mean of these disparities, pixels; NaN without any
-        similar: int64 (N,): those that differ by less than the tolerance from the expected one
+        similar: int64 (N,): those that differ by at most the tolerance from the expected one
 
     Raises:
         ValueError: on a mask of another shape, blocks of another shape, or corners that are not finite
@@ -2134,7 +2134,7 @@ def observe_target(
         place: (size, x, y, left, top), finite: a corner c of the grid is at size c + (x, y) - (left,
             top), pixels
         states: int64 (N,): 0 where a block isn't the target's
-        limits: (target, tolerance, occluder), disparities, pixels: similar ones differ by less than the
+        limits: (target, tolerance, occluder), disparities, pixels: similar ones differ by at most the
             tolerance from the target's; those above the third are an occluder's
 
     Returns:
@@ -3384,7 +3384,7 @@ def target_outline(
     The rectangle around the target in its blocks: around its target pixels, and those at its disparity.
 
     The temporal_window, without clean-up and with a trim of 0.02, of the pixels in blocks of state 1
-    that are set in the mask or whose disparity differs by less than the tolerance from the target's.
+    that are set in the mask or whose disparity differs by at most the tolerance from the target's.
 
     Args:
         mask: uint8 (H, W): target pixels, those that are not 0

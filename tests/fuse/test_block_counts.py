@@ -112,15 +112,22 @@ def test_example_by_hand(kernels: Kernels) -> None:
 
 
 def test_similar_disparities_are_within_the_tolerance(kernels: Kernels) -> None:
-    """What is counted as similar is what a mask of |d - expected| < tolerance marks."""
+    """What is counted as similar is what a mask of |d - expected| <= tolerance marks, at its edges, too."""
     mask, disparity = seen((60, 80))
     blocks = grid(-2, 3, 7, 8, 11)
-    near = np.abs(disparity - np.float32(3.3)) < np.float32(1.25)
+    near = np.abs(disparity - np.float32(3.3)) <= np.float32(1.25)
     _, targets, *_ = kernels.block_counts(near.astype(np.uint8), disparity, blocks)
     *_, similar = kernels.block_counts(mask, disparity, blocks, 3.3, 1.25)
     assert similar.sum() > 100
     assert_array_equal(similar, targets)
     assert not kernels.block_counts(mask, disparity, blocks)[4].any()
+    edges = np.float32([[1.75, 2, 4, 6, 6.25]])
+    for x in range(3):  # the kernel reads eight columns at a time, but one by one of a narrow image
+        padded = np.pad(edges, ((0, 0), (0, 8 * x)), constant_values=np.nan)
+        *_, similar = kernels.block_counts(
+            np.zeros_like(padded, np.uint8), padded, np.array([[0.0, 0, 5, 1]]), 4, 2
+        )
+        assert_array_equal(similar, [3])
 
 
 @given(st.integers(0, 2**32), st.floats(1, 9), st.floats(-1, 1), st.floats(-1, 1))

@@ -55,8 +55,8 @@ def test_boxes_what_was_drawn(by: str, kernels: Kernels) -> None:
 
 
 def test_another_disparity_is_not_the_targets(kernels: Kernels) -> None:
-    """What differs by the tolerance or more doesn't count, nor does what has no disparity."""
-    for disparity, count in ((8.49, 400), (8.5, 0), (7.5, 0), (7.51, 400), (np.nan, 0), (np.inf, 0)):
+    """What differs by more than the tolerance doesn't count, nor does what has no disparity."""
+    for disparity, count in ((8.5, 400), (8.51, 0), (7.49, 0), (7.5, 400), (np.nan, 0), (np.inf, 0)):
         assert kernels.target_outline(**case(disparity=np.full((H, W), disparity, np.float32)))[1] == count
 
 

@@ -49,7 +49,7 @@ TRICUE_INLINE void add_four(const float* disparity, const Pixels& pixels, const 
     const Ints4 finite = (values >= -kMaxFloat) & (values <= kMaxFloat) & counted;
     sums.measured -= finite;
     const Floats4 off = values - pixels.expected;
-    sums.similar -= (off < pixels.tolerance) & (off > -pixels.tolerance) & finite;
+    sums.similar -= (off <= pixels.tolerance) & (off >= -pixels.tolerance) & finite;
     Ints4 bits;
     load(&values, bits);
     bits &= finite;
@@ -100,7 +100,7 @@ inline void add_column(const Pixels& pixels, int x, Totals& totals) {
         const bool finite = std::abs(value) <= kMaxFloat;
         totals.sum += static_cast<double>(finite ? value : 0.0f);
         totals.measured += finite;
-        totals.similar += finite && std::abs(value - pixels.expected) < pixels.tolerance;
+        totals.similar += finite && std::abs(value - pixels.expected) <= pixels.tolerance;
         totals.targets += pixels.mask[y * pixels.mask_stride + x] != 0;
     }
 }

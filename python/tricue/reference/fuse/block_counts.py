@@ -29,7 +29,7 @@ def block_counts(
         inside = rectangle_pixels((x0, y0, x1, y1), mask.shape, "blocks")
         seen = disparity[inside]
         seen_finite = seen[np.isfinite(seen)]
-        similar[i] = np.count_nonzero(np.abs(seen_finite - np.float32(expected)) < np.float32(tolerance))
+        similar[i] = np.count_nonzero(np.abs(seen_finite - np.float32(expected)) <= np.float32(tolerance))
         pixels[i], measured[i] = seen.size, seen_finite.size
         targets[i] = np.count_nonzero(mask[inside])
         if seen_finite.size:

@@ -23,6 +23,6 @@ def target_outline(
     require_shape("mask", mask, disparity.shape)
     require_numbers(corners, states, "states")
     mine = block_mask(placed(corners, place)[states == 1], *mask.shape)
-    near = np.abs(disparity - np.float32(target)) < np.float32(tolerance)
+    near = np.abs(disparity - np.float32(target)) <= np.float32(tolerance)
     box, count, _ = temporal_window(mine & ((mask != 0) | near), 0, 0.0)
     return box, count
