@@ -21,7 +21,7 @@ MIN_SIZE = 0.1  # meters
 NO_DRIFT = np.zeros(5)
 
 
-class Prediction(NamedTuple):
+class RectanglePrediction(NamedTuple):
     """p(x' | x) = N(x + drift, diag(scale²)) between lower and upper, (5,) each, of a rectangle."""
 
     drift: Floats
@@ -48,7 +48,7 @@ class BodyMotion(NamedTuple):
         """The motion of a target at rest."""
         return cls(state, np.zeros(3), state[3:].copy(), size_known)
 
-    def predict(self, p: DepthParticleParams, seconds: float, missed: float) -> Prediction:
+    def predict(self, p: DepthParticleParams, seconds: float, missed: float) -> RectanglePrediction:
         """The particles' transition density over a number of seconds.
 
         The noise, K of (39), grows with the speed, with ``seconds``, and with ``missed``, the seconds for
@@ -63,7 +63,7 @@ class BodyMotion(NamedTuple):
             drift = np.array((vx * seconds, vy * seconds, vz * seconds, *to_mean))
         position = self.position_deviation(p, min(seconds + missed, max(seconds, MAX_NOISE_TIME)))
         scale = np.array((*position, p.size_noise * mean_width, p.size_noise * mean_height))
-        return Prediction(drift, scale, *_bounds(p.near, p.far))
+        return RectanglePrediction(drift, scale, *_bounds(p.near, p.far))
 
     def position_deviation(
         self, p: DepthParticleParams, seconds: float, before: Sequence[float] = MIN_POSITION_NOISE

@@ -19,7 +19,7 @@ from tricue.track.depth_particle.matching import (
     best_match,
     complete_body,
 )
-from tricue.track.depth_particle.motion import MAX_NOISE_TIME, BodyMotion, Prediction
+from tricue.track.depth_particle.motion import MAX_NOISE_TIME, BodyMotion, RectanglePrediction
 from tricue.track.depth_particle.occluder import follow_occluder, remove_occluder
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.state import State
@@ -44,7 +44,7 @@ def find_target(
     state: State,
     fg: Foreground,
     objects: Objects,
-    prediction: Prediction,
+    prediction: RectanglePrediction,
     seconds: float,
     p: DepthParticleParams,
 ) -> SearchResult:

@@ -26,7 +26,7 @@ from tricue.track.depth_particle.depth_model import DepthModel, DepthObservation
 from tricue.track.depth_particle.initialize import initialize_in_box, initialize_on_person
 from tricue.track.depth_particle.matching import TargetObject
 from tricue.track.depth_particle.measurement import NOT_MEASURED, OBJECT_DEVIATION, Measurement
-from tricue.track.depth_particle.motion import MIN_POSITION_NOISE, MIN_SIZE, BodyMotion, Prediction
+from tricue.track.depth_particle.motion import MIN_POSITION_NOISE, MIN_SIZE, BodyMotion, RectanglePrediction
 from tricue.track.depth_particle.occluder import find_occluder
 from tricue.track.depth_particle.others import region_in, remember_others
 from tricue.track.depth_particle.params import DepthParticleParams
@@ -198,7 +198,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         state: State,
         size: Floats,
         fg: Foreground,
-        prediction: Prediction,
+        prediction: RectanglePrediction,
         target: TargetObject | None,
         measured: Measurement,
     ) -> FilteredTarget:
@@ -270,7 +270,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             "signature": signature,
         }
 
-    def _coast(self, state: State, fg: Foreground, prediction: Prediction, seconds: float) -> State:
+    def _coast(self, state: State, fg: Foreground, prediction: RectanglePrediction, seconds: float) -> State:
         """The state of a missed target: moved as predicted; velocity, size and model are not learned."""
         p = self.params
         expected = np.clip(state.motion.state + prediction.drift, prediction.lower, prediction.upper)
