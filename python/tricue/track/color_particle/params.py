@@ -267,10 +267,9 @@ class ColorParticleParams(Params):
             (3) takes the most frequent color; as 8-bit colors hardly repeat, it is that of 32 levels a
             channel, in the middle third of the box. It stays that of the first frame.
             (9) is each pixel's largest channel, as its indices have it. The text calls it "the maximum RGB
-            value in the image", which "usually has a value of 1": (10) is then nearly 1 - delta, and skin
-            takes another threshold (``tricue reproduce sabeti-roc`` has both). As printed, (10) can't exceed
-            the largest channel of the reference color, as eta - delta <= c0 in each channel; so a dark skin
-            needs a lower threshold. The threshold comes from a ROC curve that isn't printed: our default.
+            value in the image" instead (``tricue reproduce sabeti-roc`` has both). (10) is at most the
+            largest channel of the reference color, so dark skin needs a lower threshold. The threshold comes
+            from a ROC curve that isn't printed: our default.
             In (11)-(16), I is 1 on the skin pixels of the whole image, and 0 elsewhere. (14)-(16) lack the
             division by the count, without which they are no covariance; it is taken, and 1 px² is added to
             both variances (``MIN_PIXEL_VARIANCE``), so that skin in one row has one, too. Print gives no

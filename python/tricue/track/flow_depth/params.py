@@ -408,9 +408,9 @@ class FlowDepthParams(Params):
         Where print is wrong:
 
         - (4) lacks the minus of (3); here it has it.
-        - (7) has a difference of slopes where a gradient method has one of images. The difference is taken as
-          printed, as if f had been filtered by g like the frames of (4); so the slopes in (7) and (9) are
-          those of this derivative along x, of a Gaussian of 1 cell, which a change of light hardly affects.
+        - (7) has a difference of slopes where a gradient method has one of images. It is taken as printed, as
+          if f had been filtered by g like the frames of (4): the slopes in (7) and (9) are those of the
+          derivative along x of a Gaussian of 1 cell.
         - (8) lacks its parentheses and moves rows alone, so that one depth has other disparities in other
           columns. Rows and columns are rectified (the kernel rectify_verged).
 
@@ -432,19 +432,18 @@ class FlowDepthParams(Params):
         - Histograms (section 4.2) are centered on the last peak. Peaks are those of the smoothed histograms,
           between bins by a parabola.
         - P(F) in (11) is constant, and has no number. Here P(obj|F) is P(F|obj) P(obj) over itself plus even
-          densities: a probability, and a threshold on it is one on P(F|obj) P(obj), as with a constant.
-          A pixel needs a measurement of every cue.
+          densities, which gives the same pixels. A pixel needs a measurement of every cue.
         - Votes and negative votes (section 4.4) add up over all frames in which a block has one state. A
           target block with too few target pixels for a vote counts as one without. A mean disparity needs a
           fifth of the block's cells; without it a block isn't nearer.
         - "Much larger" (sections 4.4 and 4.5) is the same margin for blocks and for the whole target. Too few
           target pixels are less than 0.2 of their running mean, or fewer than 8.
-        - Too few target pixels and no occluded block (section 4.5): the target is missed, moves on at its
-          last velocity as far as the image's edge. If something nearer hides it, it is never LOST, which
-          isn't printed; otherwise it is LOST after a while.
+        - Too few target pixels and no occluded block (section 4.5): the target is missed, and moves on at its
+          last velocity as far as the image's edge. It is LOST after a while, unless something nearer hides
+          it.
         - After a complete occlusion the disparity in the window is the target's.
-        - All thresholds, sizes and numbers of votes: those that did best of some 100 random settings on the
-          scenes of ``tricue reproduce okada-fig8``, seeds 0 to 2. The least reliability (9) is 0.3.
+        - All thresholds, sizes and numbers of votes: the best on scenes of ``tricue reproduce okada-fig8``.
+          The least reliability (9) is 0.3.
         """
         return cls(
             resolution=160,

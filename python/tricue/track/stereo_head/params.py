@@ -305,23 +305,21 @@ class StereoHeadParams(Params):
           first frame's ellipse, which has both. ``head_colors`` holds one of given samples instead.
         - (1), (2): print counts pixels. Histograms are divided by their sum here, as ellipses have different
           sizes; the intersection is a share of 1.
-        - (2): a isn't printed: 0.1. Nor is the gate's threshold on (1): 0.5. Of 120 random settings of these,
-          the window, the bins, the axes' ends and the maximum displacement, two did better, by 2 % at most.
+        - (2): a isn't printed: 0.1. Nor is the gate's threshold on (1): 0.5.
         - Search region, 16x4 pixels: the center moves up to 8 pixels to each side and 2 up and down.
-        - (3) sums over the ellipse, which would give one disparity to all its pixels and leave (5) nothing to
-          average. The text speaks of each pixel and of area-based correlation, so the sum is over a window
-          around each, whose side isn't printed: 5 pixels, the default. The sign of d is that of the rig.
+        - (3) sums over the ellipse, which would leave (5) nothing to average. The text speaks of each pixel,
+          so the sum is over a window around it. Its side isn't printed: 5 pixels, the default. The sign of d
+          is that of the rig.
         - (4), with 9 candidates: those around the whole number that is nearest to the expected disparity.
-        - (6): the maximum displacement per frame isn't printed: 3 m/s along each axis, which suited it best
-          of 1, 1.5 and 3 m/s.
+        - (6): the maximum displacement per frame isn't printed: 3 m/s along each axis, the best of 1, 1.5, 3.
         - Q of μ is said to depend on the bins alone: a bin's width / √12, the deviation of a color of
           which only the bin is known. Q of the intersection is 1, as printed.
         - (9): the coefficients aren't printed: fitted to back-projection with 1 pixel of disparity error, as
           figure 2 assumes, to first order, which leaves the square alone, and at the image's border for X and
           Y. These have no error on the optical axis, and in between less than by back-projection.
         - R: a diagonal of squares, of (9) at the measured position plus 0.1 mm, so that none is 0.
-        - e of μ and of the intersection are to be measured from a static head: as ``tricue reproduce
-          moreno-fig2`` measures them on the candidate, the root mean square over the distances.
+        - e of μ and of the intersection: as ``tricue reproduce moreno-fig2`` measures them on a static head,
+          the root mean square over the distances.
         - The position is filtered in the camera's frame, not in the world's; the rig's pose turns the result.
           Q is the same along all axes, so only (9) and a motion of the camera itself make a difference.
         - How the filter's μ goes back to the histogram isn't printed: the histogram is shifted as a whole.
