@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A depth tracker for the commands, and recordings for it."""
+"""Recordings for the commands, and a depth tracker."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -99,4 +99,18 @@ def recording(tmp_path: Path) -> Path:
     folder.mkdir(parents=True)
     for index, left in enumerate([None, None, 10, 18, 26, 34]):
         cv2.imwrite(str(folder / f"{index}.png"), person_at(left))
+    return folder
+
+
+@pytest.fixture
+def sequence(tmp_path: Path) -> Path:
+    """Ten bright images, the last two black, in OTB's layout; the true box moves 2 px right a frame."""
+    folder = tmp_path / "walk"
+    (folder / "img").mkdir(parents=True)
+    for index in range(10):
+        cv2.imwrite(
+            str(folder / "img" / f"{index:04}.png"), np.full((60, 80, 3), 200 * (index < 8), np.uint8)
+        )
+    lines = [f"{6 + 2 * index},11,20,20" for index in range(10)]
+    (folder / "groundtruth_rect.txt").write_text("\n".join(lines))
     return folder

@@ -1,5 +1,4 @@
 # SPDX-License-Identifier: MIT
-import csv
 import json
 import re
 import warnings
@@ -12,13 +11,10 @@ from tricue import Intrinsics
 from tricue.cli import main
 from tricue.track.base import registry
 
+from tests.cli.track_commands import read_csv
+
 MM = ("--depth-scale", "0.001")
 FOV = ("--fov", "60,45")
-
-
-def read_csv(path: Path) -> list[dict[str, str]]:
-    """The file's rows by column."""
-    return list(csv.DictReader(path.read_text().splitlines()))
 
 
 def color_images(folder: Path, count: int = 6) -> Path:
