@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tricue import Frame
 from tricue.camera.shared_frame import SharedFrame, messages_of, once, warn_of_frame
-from tricue.track.fused.frame_observation import observe_frame
+from tricue.track.fused.prepared_frame import prepare_frame
 
 IMAGE = np.zeros((6, 8, 3), np.uint8)
 
@@ -69,7 +69,7 @@ def test_it_goes_when_nobody_has_it():
     """What the fused tracker keeps of it doesn't keep it: no garbage collector is needed for its images."""
     image = IMAGE.copy()
     shared = SharedFrame.of(Frame(image))
-    assert observe_frame(shared, None, (None, None), True).color is shared.color
+    assert prepare_frame(shared, None, (None, None), True).color is shared.color
     gone = weakref.ref(shared.color)
     gc.disable()
     try:

@@ -17,10 +17,10 @@ from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import metrics
 from tricue.evaluation.confidence import LOST_OVERLAP
-from tricue.track.fused.frame_observation import observe_frame
 from tricue.track.fused.identity import IdentityFeatures
 from tricue.track.fused.localize import LocalizationModel, localize
 from tricue.track.fused.measure import Match, measure_candidate
+from tricue.track.fused.prepared_frame import prepare_frame
 from tricue.track.fused.proposals import LostTarget, propose_windows
 from tricue.track.fused.state import State
 from tricue.track.fused.tracker import FusedTracker
@@ -131,8 +131,8 @@ def _elsewhere(tracker: FusedTracker, frame: Frame, step: int, rng: np.random.Ge
     """The places with the most evidence, in a random window and in those that a search proposes."""
     state, p = _state(tracker), tracker.params
     k = kernels.load(tracker.kernels)
-    observed = observe_frame(frame, state.shape, (None, None), False)
-    observation = observed.for_target(k, None)
+    prepared = prepare_frame(frame, state.shape, (None, None), False)
+    observation = prepared.for_target(k, None)
     appearance = state.models[observation.kind]
     model = LocalizationModel(appearance, None, state.first_side, state.typical, p)
     height, width = state.shape

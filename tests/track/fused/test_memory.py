@@ -65,7 +65,7 @@ def model_of(tracker: FusedTracker) -> LocalizationModel:
 
 def match_of(tracker: FusedTracker, frame: Frame) -> Match:
     """What it finds around the target's place."""
-    observation = tracker._observe(frame, None).for_target(tracker._k, None)
+    observation = tracker._prepare(frame, None).for_target(tracker._k, None)
     return search_last_place(model_of(tracker), observation, TARGET)
 
 

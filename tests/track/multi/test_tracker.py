@@ -12,7 +12,7 @@ from tricue import Frame, MultiTracker, StereoRig, create
 from tricue.camera.rig import Intrinsics
 from tricue.errors import BoxError
 from tricue.scenes import overtaking
-from tricue.track.fused import frame_observation
+from tricue.track.fused import prepared_frame
 
 from tests.track.multi.kinds import FUSED, KINDS, each_workers, on
 
@@ -212,8 +212,8 @@ def test_what_is_alike_is_computed_once(things, started, monkeypatch):
     """Gray becomes BGR once a frame, not once a target; a tracker of another camera sees another frame."""
     gray = [Frame(np.ascontiguousarray(frame.color[..., 1])) for frame in things.frames]
     calls = []
-    bgr = frame_observation._bgr
-    monkeypatch.setattr(frame_observation, "_bgr", lambda image: calls.append(image) or bgr(image))
+    bgr = prepared_frame._bgr
+    monkeypatch.setattr(prepared_frame, "_bgr", lambda image: calls.append(image) or bgr(image))
     several = started(FUSED)
     for frame in gray[1:4]:
         several.update(frame)

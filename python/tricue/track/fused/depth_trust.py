@@ -16,7 +16,7 @@ from tricue.arrays import Image, Plane
 from tricue.camera.shared_frame import warn_of_frame
 from tricue.track.base.validation import ADDED_TIME_ERROR
 from tricue.track.fused.depth_sources import DepthImageSource
-from tricue.track.fused.frame_observation import FrameObservation
+from tricue.track.fused.prepared_frame import PreparedFrame
 
 MAX_METERS, MIN_METERS = 100.0, 0.01  # an image whose depths are all above or all below: another unit
 SAMPLED = 24, 32  # rows and columns that are compared, approximately
@@ -41,7 +41,7 @@ class DepthTrust(NamedTuple):
     frozen: bool = False
     told: frozenset[str] = frozenset()
 
-    def examine(self, frame: FrameObservation, seconds: float) -> tuple["DepthTrust", FrameObservation]:
+    def examine(self, frame: PreparedFrame, seconds: float) -> tuple["DepthTrust", PreparedFrame]:
         """The memory after a frame, and the frame, without its depth if that can't be trusted.
 
         seconds: since the last frame. ValueError for depth in another unit if there is no color to follow
@@ -80,9 +80,7 @@ class DepthTrust(NamedTuple):
             frozen = first is not None and color is not None and _differs(first, _thin(color))
         return DepthTrust(content, checksum, first, repeats, passed, frozen, self.told)
 
-    def _leave_out(
-        self, frame: FrameObservation, kind: str, message: str
-    ) -> tuple["DepthTrust", FrameObservation]:
+    def _leave_out(self, frame: PreparedFrame, kind: str, message: str) -> tuple["DepthTrust", PreparedFrame]:
         if kind not in self.told:
             warn_of_frame(frame.messages, f"frame.depth: {message}", stacklevel=4)
         return self._replace(told=self.told | {kind}), frame._replace(depth_source=None)

@@ -15,7 +15,6 @@ from tricue.track.fused.experts.depth import (
 )
 from tricue.track.fused.experts.size import SizeExpert
 from tricue.track.fused.experts.turn import TurnExpert
-from tricue.track.fused.frame_observation import FrameObservation
 from tricue.track.fused.identity import FirstColors
 from tricue.track.fused.localize import LocalizationModel, localize
 from tricue.track.fused.memory import Memory
@@ -24,12 +23,13 @@ from tricue.track.fused.outline import Sides, measure_reaches
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.position_filter import PositionFilter, back_project
+from tricue.track.fused.prepared_frame import PreparedFrame
 from tricue.track.fused.state import State
 from tricue.track.fused.target import Target
 from tricue.track.fused.window import Window, extract_window
 
 
-def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedParams) -> State:
+def initialize(k: Kernels, frame: PreparedFrame, target: Target, p: FusedParams) -> State:
     """The state after the first frame."""
     measured = measure_depth(frame.for_target(k, None), target, None)
     expected = None if measured is None else ExpectedDepth(measured.z, INITIAL_DEPTH_SPREAD)
@@ -56,7 +56,7 @@ def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedPara
     )
 
 
-def initialize_depth(state: State, frame: FrameObservation, k: Kernels, p: FusedParams) -> State:
+def initialize_depth(state: State, frame: PreparedFrame, k: Kernels, p: FusedParams) -> State:
     """The state with models of the depth at the target's last place, if none was measured before."""
     if state.depth is not None or frame.depth_source is None or state.missed_frames:
         return state
@@ -74,7 +74,7 @@ def initialize_depth(state: State, frame: FrameObservation, k: Kernels, p: Fused
     )
 
 
-def renew_models(state: State, frame: FrameObservation, k: Kernels, p: FusedParams) -> State:
+def renew_models(state: State, frame: PreparedFrame, k: Kernels, p: FusedParams) -> State:
     """The state with models of the whole object, if the present ones were made from a small part of it."""
     whole = state.depth_object
     if whole is None or whole.seen is None or not whole.outgrew_models or state.position is None:

@@ -18,7 +18,6 @@ from tricue.track.base.tracker import TrackerBase
 from tricue.track.base.traits import Channels, Traits
 from tricue.track.fused.depth_sources import DepthImageSource, ExpectedDepth, StereoSource
 from tricue.track.fused.depth_trust import DepthTrust
-from tricue.track.fused.frame_observation import FrameObservation, observe_frame, rig_and_camera
 from tricue.track.fused.initialize import ensure_models, initialize, initialize_depth, renew_models
 from tricue.track.fused.learn import update_models, update_object
 from tricue.track.fused.localize import LocalizationModel
@@ -28,6 +27,7 @@ from tricue.track.fused.models import AppearanceModels
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.position_filter import lateral_variances
+from tricue.track.fused.prepared_frame import PreparedFrame, prepare_frame, rig_and_camera
 from tricue.track.fused.proposals import LostTarget
 from tricue.track.fused.redetect import redetect
 from tricue.track.fused.search import search_last_place, search_local
@@ -97,15 +97,15 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         depth seems not to be registered to color or not to be in meters. Depth that isn't in meters is left
         out; without color, it raises ValueError.
         """
-        observed = self._observe(frame, None)
-        target = Target.of(validation.initial_box(box, observed.shape))
-        trust, observed = DepthTrust().examine(observed, 0.0)
-        if isinstance(observed.depth_source, StereoSource):
+        prepared = self._prepare(frame, None)
+        target = Target.of(validation.initial_box(box, prepared.shape))
+        trust, prepared = DepthTrust().examine(prepared, 0.0)
+        if isinstance(prepared.depth_source, StereoSource):
             warn_of_stereo(as_frame(frame))
-        elif isinstance(observed.depth_source, DepthImageSource) and observed.color is not None:
+        elif isinstance(prepared.depth_source, DepthImageSource) and prepared.color is not None:
             warn_of_depth(as_frame(frame))
-        state = initialize(self._k, observed, target, self.params)
-        return self._keep(state.replace(depth_trust=trust, is_metric=self._is_metric(observed)), frame)
+        state = initialize(self._k, prepared, target, self.params)
+        return self._keep(state.replace(depth_trust=trust, is_metric=self._is_metric(prepared)), frame)
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
@@ -116,25 +116,25 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         ``init``. An error leaves the tracker unchanged.
         """
         before = validation.require_initialized(self._state)
-        observed = self._observe(frame, before.shape)
-        seconds = validation.elapsed(before.timestamp, observed.timestamp, self.params.rate)
-        trust, observed = before.depth_trust.examine(observed, seconds)
-        state = self._predict(before, observed, trust, seconds)
-        state = initialize_depth(state, observed, self._k, self.params)
-        observation = observed.for_target(self._k, _expected_depth(state))
+        prepared = self._prepare(frame, before.shape)
+        seconds = validation.elapsed(before.timestamp, prepared.timestamp, self.params.rate)
+        trust, prepared = before.depth_trust.examine(prepared, seconds)
+        state = self._predict(before, prepared, trust, seconds)
+        state = initialize_depth(state, prepared, self._k, self.params)
+        observation = prepared.for_target(self._k, _expected_depth(state))
         state = ensure_models(state, observation, self.params)
         match = self._penalize_jump(state, self._search(state, observation))
         match = self._limit_log_odds(state, match)
         state = verify(state, match, self.params)
         state = update_models(before, state, observation, match, self.params)
         state = update_object(state, observation)
-        return self._keep(renew_models(state, observed, self._k, self.params), frame)
+        return self._keep(renew_models(state, prepared, self._k, self.params), frame)
 
-    def _observe(self, frame: FrameLike, shape: tuple[int, int] | None) -> FrameObservation:
+    def _prepare(self, frame: FrameLike, shape: tuple[int, int] | None) -> PreparedFrame:
         cameras = self.rig, self.intrinsics
-        return observe_frame(frame, shape, cameras, "depth" in self.params.cues)
+        return prepare_frame(frame, shape, cameras, "depth" in self.params.cues)
 
-    def _predict(self, state: State, observed: FrameObservation, trust: DepthTrust, seconds: float) -> State:
+    def _predict(self, state: State, prepared: PreparedFrame, trust: DepthTrust, seconds: float) -> State:
         """The state predicted for the frame, so many seconds later."""
         position, motion = state.position, state.motion
         if state.is_late():
@@ -142,26 +142,26 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         if position is not None:
             position = position.slow_down() if state.missed_frames else position
             rate = self.params.rate / UNTIMED_FACTOR
-            passed = validation.elapsed(state.timestamp, observed.timestamp, rate)
+            passed = validation.elapsed(state.timestamp, prepared.timestamp, rate)
             position = position.predict(self._k, passed, self.params)
         # Depth is measured along the image's axes: with depth the target is upright and has an outline.
-        upright = state.target if observed.depth_source is None else state.target._replace(turn=0)
+        upright = state.target if prepared.depth_source is None else state.target._replace(turn=0)
         return state.replace(
             target=upright,
             position=position,
             motion=motion,
             depth_trust=trust,
-            is_metric=state.is_metric and self._is_metric(observed),
-            timestamp=observed.timestamp,
+            is_metric=state.is_metric and self._is_metric(prepared),
+            timestamp=prepared.timestamp,
             unlearned_seconds=state.unlearned_seconds + seconds,
             seconds=seconds,
             mean_seconds=state.mean_seconds + MEAN_INTERVAL_RATE * (seconds - state.mean_seconds),
             frames=state.frames + 1,
         )
 
-    def _is_metric(self, observed: FrameObservation) -> bool:
+    def _is_metric(self, prepared: PreparedFrame) -> bool:
         """Whether the frame's depths are in meters: those of a stereo pair are only if its rig is known."""
-        return self.rig is not None or not isinstance(observed.depth_source, StereoSource)
+        return self.rig is not None or not isinstance(prepared.depth_source, StereoSource)
 
     def _search(self, state: State, observation: PictureObservation) -> Match:
         """The best match near the target's last place; in the whole frame if the target isn't followed."""

@@ -16,7 +16,7 @@ from tricue.track.fused.depth_sources import DepthImageSource, DepthSource, Expe
 from tricue.track.fused.picture_observation import PictureObservation
 
 
-class FrameObservation(NamedTuple):
+class PreparedFrame(NamedTuple):
     """A checked frame.
 
     shape: height and width. color: (H, W, 3) BGR; None if the frame has depth alone. depth_source: None
@@ -39,12 +39,12 @@ class FrameObservation(NamedTuple):
         return PictureObservation(k, self.color, self.camera, self.depth_source, expected)
 
 
-def observe_frame(
+def prepare_frame(
     frame: FrameLike,
     shape: tuple[int, int] | None,
     cameras: tuple[StereoRig | None, Intrinsics | None],
     with_depth: bool,
-) -> FrameObservation:
+) -> PreparedFrame:
     """Check and prepare a frame's channels.
 
     shape: the first frame's; None for the first. with_depth: whether to read depth in addition to color.
@@ -56,13 +56,13 @@ def observe_frame(
     if shape is not None and image.shape[:2] != shape:
         camera = cameras[0] or cameras[1]
         raise validation.changed_size(f"frame.{name}", "size", shape, image.shape[:2], camera)
-    return once(given, _observe, cameras, with_depth)
+    return once(given, _prepare, cameras, with_depth)
 
 
-def _observe(
+def _prepare(
     frame: Frame, cameras: tuple[StereoRig | None, Intrinsics | None], with_depth: bool
-) -> FrameObservation:
-    """The parts of a frame's observation that don't depend on the target."""
+) -> PreparedFrame:
+    """The same without the target, so that the trackers of several targets share it."""
     name, image = _picture(frame)
     size = image.shape[:2]
     if with_depth and frame.depth is not None:
@@ -70,7 +70,7 @@ def _observe(
     rig, camera = rig_and_camera(*cameras, size, name)
     color = None if frame.color is None else _bgr(frame.color)
     depth_source = _depth_source(frame, color, rig) if with_depth or color is None else None
-    return FrameObservation(size, color, depth_source, camera, frame.timestamp, messages_of(frame))
+    return PreparedFrame(size, color, depth_source, camera, frame.timestamp, messages_of(frame))
 
 
 def _picture(frame: Frame) -> tuple[str, Any]:
