@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box
-from tricue.app.frames import Recording
+from tricue.app.frames import RecordedFrames
 from tricue.app.session import Session
 from tricue.data.open_source import open_source
 from tricue.track.base import registry
@@ -97,7 +97,7 @@ def session_of() -> Iterator[Callable[..., Session]]:
 
     def make(place: Path, path: Path | None = None, **keywords: Any) -> Session:
         beside = place.with_name(place.name + ".tricue.json")
-        made.append(Session(Recording(open_source(place)), place, path or beside, **keywords))
+        made.append(Session(RecordedFrames(open_source(place)), place, path or beside, **keywords))
         return made[-1]
 
     yield make

@@ -16,7 +16,7 @@ from tricue import Box, Pose, Status, Track, app
 from tricue.app import exports
 from tricue.app import project as edits
 from tricue.app.exports import Tracked
-from tricue.app.frames import Recording
+from tricue.app.frames import RecordedFrames
 from tricue.app.project import Project
 from tricue.app.session import Session
 from tricue.cli import main
@@ -42,7 +42,10 @@ def tracked(video: Path) -> Tracked:
         2: Track(START, 0.0, Status.LOST),
     }
     return Tracked(
-        edits.add_tracks(project, {1: found}), Recording(open_source(video)), {"source": "video"}, world=True
+        edits.add_tracks(project, {1: found}),
+        RecordedFrames(open_source(video)),
+        {"source": "video"},
+        world=True,
     )
 
 
@@ -144,7 +147,9 @@ def test_coco_names_the_files_of_a_folder(tmp_path: Path) -> None:
     for at, image in enumerate(moving(2)):
         cv2.imwrite(str(tmp_path / f"img{at}.png"), image)
     project = edits.add_target(Project(), 0, START, "fused")
-    content = json.loads(exports.as_coco(Tracked(project, Recording(open_source(tmp_path)), {"source": "x"})))
+    content = json.loads(
+        exports.as_coco(Tracked(project, RecordedFrames(open_source(tmp_path)), {"source": "x"}))
+    )
     assert [image["file_name"] for image in content["images"]] == ["img0.png", "img1.png"]
 
 
@@ -154,7 +159,9 @@ def test_coco_has_each_images_size(tmp_path: Path) -> None:
         cv2.imwrite(str(tmp_path / f"{at}.png"), image[: HEIGHT - 20 * (at == 1)])
     (tmp_path / "3.png").write_bytes(b"no image")
     project = edits.add_target(Project(), 0, START, "fused")
-    content = json.loads(exports.as_coco(Tracked(project, Recording(open_source(tmp_path)), {"source": "x"})))
+    content = json.loads(
+        exports.as_coco(Tracked(project, RecordedFrames(open_source(tmp_path)), {"source": "x"}))
+    )
     sizes = [(each["width"], each["height"]) for each in content["images"]]
     assert sizes == [(WIDTH, HEIGHT), (WIDTH, HEIGHT - 20), (WIDTH, HEIGHT), (WIDTH, HEIGHT)]
 
@@ -197,7 +204,7 @@ def test_video_shows_the_trails(video: Path, tmp_path: Path) -> None:
     """With trails there is a line where the box's center came from, and none without."""
     project = edits.add_target(Project(), 0, START, "fused")
     tracks = {at: Track(START._replace(x=START.x + at), 0.9, Status.TRACKED) for at in range(FRAMES)}
-    whole = Tracked(edits.add_tracks(project, {1: tracks}), Recording(open_source(video)), {})
+    whole = Tracked(edits.add_tracks(project, {1: tracks}), RecordedFrames(open_source(video)), {})
     pictures = []
     for trail in (False, True):
         exports.write_video(tmp_path / "out.mp4", whole, lambda _: True, trail)
@@ -214,7 +221,7 @@ def test_trails_are_broken_where_nothing_is_known(video: Path, tmp_path: Path) -
     project = edits.add_target(Project(), 0, START, "fused")
     known = [*range(20), *range(40, FRAMES)]
     tracks = {at: Track(START._replace(x=START.x + at), 0.9, Status.TRACKED) for at in known}
-    whole = Tracked(edits.add_tracks(project, {1: tracks}), Recording(open_source(video)), {})
+    whole = Tracked(edits.add_tracks(project, {1: tracks}), RecordedFrames(open_source(video)), {})
     pictures = []
     for trail in (False, True):
         exports.write_video(tmp_path / "out.mp4", whole, lambda _: True, trail)
@@ -234,7 +241,7 @@ def test_video_can_be_given_up(tracked: Tracked, tmp_path: Path) -> None:
 
 def test_nothing_tracked_is_nothing_written(video: Path) -> None:
     """Exports of an empty project are valid and empty."""
-    empty = Tracked(Project(), Recording(open_source(video)), {"source": "video"})
+    empty = Tracked(Project(), RecordedFrames(open_source(video)), {"source": "video"})
     assert exports.as_csv(empty).splitlines() == [",".join(columns(TableForm(several=True)))]
     assert json.loads(exports.as_json(empty))["tracks"] == []
     assert exports.as_mot(empty) == ""

@@ -8,7 +8,7 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
-from tricue.app.frames import Recording
+from tricue.app.frames import RecordedFrames
 from tricue.app.seekable_video import SeekableVideo, read_index
 from tricue.data.open_source import open_source
 from tricue.data.streams import Video
@@ -39,7 +39,7 @@ def test_video_in_a_network_is_refused(video: Path, monkeypatch: pytest.MonkeyPa
     source = open_source(video)
     monkeypatch.setattr(source.channels["color"], "place", "http://host/v.mp4")
     with pytest.raises(ValueError, match=r"http://host/v\.mp4: expected a file; download the video"):
-        Recording(source)
+        RecordedFrames(source)
 
 
 @pytest.mark.parametrize("name", KINDS)
@@ -70,7 +70,7 @@ def test_times_are_those_that_a_reader_gives(name: str, times: list[float], tmp_
         for image, time in zip(moving(5), times, strict=True):
             writer.write(image, time)
     source = open_source(tmp_path / name)
-    recording = Recording(source)
+    recording = RecordedFrames(source)
     shown = [recording.seconds(at) for at in range(5)]
     assert shown == pytest.approx([frame.timestamp for frame in source], abs=1e-9)
     assert recording.fps == pytest.approx(compute_rate(source, 5)) == pytest.approx(4 / times[-1])
@@ -121,7 +121,7 @@ def test_cut_off_video_ends_where_it_is_cut(tmp_path: Path) -> None:
     """A video of which a part is missing has the frames that are there."""
     path = write_video(tmp_path / "video.mkv", moving())
     path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
-    recording = Recording(open_source(path))
+    recording = RecordedFrames(open_source(path))
     assert 10 < recording.length < FRAMES
     numbers = [number for number, _ in recording.frames(0, recording.length)]
     assert numbers[:10] == list(range(10))
@@ -176,7 +176,7 @@ def test_frame_beyond_the_end_is_refused(video: Path) -> None:
 
 def test_backwards_time_runs_on(video: Path) -> None:
     """Trackers see rising times backwards, too: those of a mirrored recording."""
-    recording = Recording(open_source(video))
+    recording = RecordedFrames(open_source(video))
     found = list(recording.frames(20, 10))
     assert [number for number, _ in found] == list(range(20, 10, -1))
     times = np.array([frame.timestamp for _, frame in found])
@@ -189,7 +189,7 @@ def test_folder_is_read_at_random(tmp_path: Path) -> None:
     images = moving(6)
     for at, image in enumerate(images):
         cv2.imwrite(str(tmp_path / f"{at}.png"), image)
-    recording = Recording(open_source(tmp_path, fps=10))
+    recording = RecordedFrames(open_source(tmp_path, fps=10))
     assert (recording.length, recording.size, recording.seconds(3)) == (6, (WIDTH, HEIGHT), 0.3)
     for at in (4, 0, 5, 2):
         assert np.array_equal(recording.frame(at).color, images[at])
@@ -200,7 +200,7 @@ def test_image_of_another_size_is_refused(tmp_path: Path) -> None:
     for at, image in enumerate(moving(3)):
         half = cv2.resize(image, (WIDTH // 2, HEIGHT // 2))
         cv2.imwrite(str(tmp_path / f"{at}.png"), half if at == 1 else image)
-    recording = Recording(open_source(tmp_path))
+    recording = RecordedFrames(open_source(tmp_path))
     with pytest.raises(ValueError, match="frame 1: expected the first frame's size 160x120, got 80x60 px"):
         recording.frame(1)
     assert [number for number, _ in recording.frames(0, 3)] == [0, 2]
@@ -209,7 +209,7 @@ def test_image_of_another_size_is_refused(tmp_path: Path) -> None:
 def test_pair_of_videos_is_sought_together(video: Path, tmp_path: Path) -> None:
     """Both videos of a stereo pair are at the wanted frame."""
     right = write_video(tmp_path / "right.mp4", moving()[::-1])
-    recording = Recording(open_source(video, right=right))
+    recording = RecordedFrames(open_source(video, right=right))
     frame = recording.frame(7)
     assert np.array_equal(frame.color, next(SeekableVideo(video).at([7]))[1])
     assert np.array_equal(frame.right, next(SeekableVideo(right).at([7]))[1])

@@ -22,7 +22,7 @@ from typing import Any
 import pytest
 import tricue.app
 from tricue.app import local_server, project_file, serve
-from tricue.app.frames import Recording
+from tricue.app.frames import RecordedFrames
 from tricue.cli import program
 from tricue.data.live import LiveStream
 from tricue.data.source import Source
@@ -275,7 +275,7 @@ class StandIn(LiveStream):
 def test_camera_is_no_recording() -> None:
     """One can't go back in a live camera; what to do instead is said."""
     with pytest.raises(ValueError, match="expected a recording, got a live camera"):
-        Recording(Source("camera 0", {"color": StandIn()}))
+        RecordedFrames(Source("camera 0", {"color": StandIn()}))
 
 
 def test_a_robots_recording_is_served(tmp_path: Path, server_of: Any) -> None:

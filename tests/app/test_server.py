@@ -17,8 +17,8 @@ from starlette.websockets import WebSocketDisconnect
 from tricue import Status, Track
 from tricue.app.commands import COMMANDS
 from tricue.app.feed import state
-from tricue.app.frames import Recording
-from tricue.app.runs import Run
+from tricue.app.frames import RecordedFrames
+from tricue.app.runs import TrackingRun
 from tricue.app.server import make_app
 from tricue.app.serving import Serving
 from tricue.app.session import Session
@@ -277,7 +277,7 @@ def test_a_run_that_is_undone_while_it_lasts(client: TestClient, serving: Servin
     """A page that was told some of its tracks is told those of before again."""
     do(client, "add", frame=3, box=BOX, tracker="fused")
     with live(client) as socket:
-        serving.session.run = Run(3, 1, (1,), [(1, 4, Track(START, 0.5, Status.TRACKED))])
+        serving.session.run = TrackingRun(3, 1, (1,), [(1, 4, Track(START, 0.5, Status.TRACKED))])
         while not socket.receive_json().get("run"):
             pass  # what is told before the state with the run, that with its tracks, too
         serving.session.run = None  # as undo does, which ends it first
@@ -291,7 +291,7 @@ def test_page_opened_during_a_run(client: TestClient, serving: Serving) -> None:
     """It is told the state, what was tracked before, and then what the run finds; errors of before aren't."""
     do(client, "add", frame=3, box=BOX, tracker="fused")
     serving.session.errors.append("an old one")
-    serving.session.run = Run(10, 1, (1,), [(1, 10, Track(START, 0.5, Status.TRACKED))])
+    serving.session.run = TrackingRun(10, 1, (1,), [(1, 10, Track(START, 0.5, Status.TRACKED))])
     with live(client) as socket:
         messages = [socket.receive_json() for _ in range(4)]
     serving.session.run = None
@@ -307,13 +307,13 @@ def test_a_run_that_ends_while_the_state_is_read(serving: Serving, monkeypatch: 
         """Its run ends just after it was looked at."""
 
         @property
-        def run(self) -> Run | None:  # type: ignore[override]
+        def run(self) -> TrackingRun | None:  # type: ignore[override]
             run, self.__dict__["run"] = self.__dict__["run"], None
             if run is not None:
                 self.last_run, self.runs = run, self.runs + 1
             return run
 
-    serving.session.run = Run(10, 1, (), [])
+    serving.session.run = TrackingRun(10, 1, (), [])
     monkeypatch.setattr(serving.session, "__class__", Ending)
     first, then = state(serving), state(serving)
     assert first["run"] is not None
@@ -364,7 +364,7 @@ def test_depth_is_shown_in_one_range(tmp_path: Path, session_of: Callable[..., S
         depth = np.full((HEIGHT, WIDTH), 1000 + 500 * at, np.uint16)
         depth[:, WIDTH // 2 :] = 2000
         cv2.imwrite(str(tmp_path / f"{at}.png"), depth)
-    session = Session(Recording(open_source(tmp_path, depth_scale=0.001)), tmp_path, None)
+    session = Session(RecordedFrames(open_source(tmp_path, depth_scale=0.001)), tmp_path, None)
     serving = Serving(session)
     assert serving.depth_span == pytest.approx((1.0, 3.5), abs=0.01)
     client = TestClient(make_app(serving), f"{HOST}/{serving.token}/")
@@ -383,7 +383,7 @@ def test_depth_that_cannot_be_read(tmp_path: Path) -> None:
     for at in range(5):
         cv2.imwrite(str(tmp_path / f"{at}.png"), np.full((HEIGHT, WIDTH), 1000 + 500 * at, np.uint16))
     (tmp_path / "4.png").write_bytes((tmp_path / "3.png").read_bytes()[:40])
-    opened = Recording(open_source(tmp_path, depth_scale=0.001))
+    opened = RecordedFrames(open_source(tmp_path, depth_scale=0.001))
     serving = Serving(Session(opened, tmp_path, None))
     client = TestClient(make_app(serving), f"{HOST}/{serving.token}/")
     assert [client.get(f"frame/{at}.jpg").status_code for at in range(5)] == [200] * 4 + [404]
@@ -423,12 +423,12 @@ def test_a_long_recording_keeps_no_other_request_waiting(
     """The times of hours of frames take seconds, in which other requests are answered."""
     answered, late = threading.Event(), list[int]()
 
-    def slow(_: Recording, number: int) -> float:
+    def slow(_: RecordedFrames, number: int) -> float:
         if not late and not answered.wait(5):
             late.append(number)
         return number / 30
 
-    monkeypatch.setattr(Recording, "seconds", slow)
+    monkeypatch.setattr(RecordedFrames, "seconds", slow)
     with live(client):
         assert client.get("state").status_code == 200
         answered.set()

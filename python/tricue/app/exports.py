@@ -11,8 +11,8 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from tricue.app.frames import Recording
-from tricue.app.project import Project, Target
+from tricue.app.frames import RecordedFrames
+from tricue.app.project import Project, ProjectTarget
 from tricue.arrays import Image
 from tricue.camera.frame import Frame
 from tricue.data.streams import image_names
@@ -35,7 +35,7 @@ class Tracked:
     """
 
     project: Project
-    recording: Recording
+    recording: RecordedFrames
     about: dict[str, Any]
     world: bool = False
 
@@ -44,7 +44,7 @@ class Tracked:
         """The form of its tables."""
         return TableForm(self.world, several=True)
 
-    def tracks(self) -> Iterator[tuple[int, Target, Track]]:
+    def tracks(self) -> Iterator[tuple[int, ProjectTarget, Track]]:
         """Frame, target and track, sorted by frame and then by id."""
         rows = [(at, target.id) for target in self.project.targets for at in target.tracks]
         by_id = {target.id: target for target in self.project.targets}
@@ -129,7 +129,7 @@ def write_video(path: Path, tracked: Tracked, progress: Callable[[int], bool], t
 
 
 def draw_targets(
-    frame: Frame, tracks: Sequence[tuple[Target, Track]], trails: Mapping[int, Trail] | None = None
+    frame: Frame, tracks: Sequence[tuple[ProjectTarget, Track]], trails: Mapping[int, Trail] | None = None
 ) -> Image:
     """The frame's image, enlarged if it is small, with each target's box and name in its color.
 

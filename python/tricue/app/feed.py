@@ -10,9 +10,9 @@ import numpy as np
 from starlette.concurrency import run_in_threadpool
 from starlette.websockets import WebSocket
 
-from tricue.app.frames import Recording
-from tricue.app.project import Target
-from tricue.app.runs import Run
+from tricue.app.frames import RecordedFrames
+from tricue.app.project import ProjectTarget
+from tricue.app.runs import TrackingRun
 from tricue.app.serving import Serving
 from tricue.app.web import jpeg, talk, tell
 from tricue.track.base.track import Status, Track
@@ -35,7 +35,7 @@ class _Page:
         self.serving, self.socket = serving, socket
         self.known: dict[int, Any] = {}  # the tracks of each target that were sent
         self.state: dict[str, Any] | None = None
-        self.run: Run | None = None
+        self.run: TrackingRun | None = None
         self.found = 0  # how many of the run's tracks were sent
         self.mixed: set[int] = set()  # targets with some of the run's tracks sent
         self.errors = len(serving.session.errors)
@@ -58,7 +58,7 @@ class _Page:
             await self._tell_errors()
             await asyncio.sleep(LIVE_INTERVAL)
 
-    async def _tell_run(self, run: Run | None) -> None:
+    async def _tell_run(self, run: TrackingRun | None) -> None:
         if run is not self.run:
             self.run, self.found, self.sent = run, 0, -1
         if run is None:
@@ -139,13 +139,13 @@ def state(serving: Serving) -> dict[str, Any]:
     }
 
 
-def _times(recording: Recording) -> list[float]:
+def _times(recording: RecordedFrames) -> list[float]:
     """The frames' times relative to the first; those of robot recordings are seconds since 1970."""
     begin = recording.seconds(0)
     return [round(recording.seconds(number) - begin, 4) for number in range(recording.length)]
 
 
-def _as_told(target: Target) -> dict[str, Any]:
+def _as_told(target: ProjectTarget) -> dict[str, Any]:
     return {
         "id": target.id,
         "name": target.name,

@@ -20,7 +20,7 @@ from tricue.data.streams import Stream, Video, mean_rate
 MAX_UNREADABLE = 30  # consecutive frames, after which a recording counts as broken
 
 
-class Recording:
+class RecordedFrames:
     """A source's frames in any order, with a known number of frames. For one thread at a time.
 
     fps: frames per second; the mean rate of a video whose rate isn't constant. first: the number of the first
@@ -45,9 +45,9 @@ class Recording:
         if isinstance(self.source.clock, SeekableVideo):
             self.fps = mean_rate(self.fps, self.length, self.seconds(self.length - 1))
 
-    def again(self) -> "Recording":
+    def again(self) -> "RecordedFrames":
         """The same recording for another thread."""
-        other = object.__new__(Recording)
+        other = object.__new__(RecordedFrames)
         other.source = replace(self.source, channels=_again(self.source))
         other.length, other.fps = self.length, self.fps
         other.first, other.size = self.first, self.size

@@ -14,7 +14,7 @@ MAX_UNDO = 200  # steps
 
 
 @dataclass(frozen=True)
-class Target:
+class ProjectTarget:
     """One target: ``drawn`` has the boxes that the user drew, ``tracks`` all known tracks, by frame.
 
     A drawn box is also in ``tracks``, with score 1, until the tracker that starts on it gives its own track;
@@ -38,10 +38,10 @@ class Target:
 class Project:
     """The targets, in order of their ids, and the next one's id; ids are never reused."""
 
-    targets: tuple[Target, ...] = ()
+    targets: tuple[ProjectTarget, ...] = ()
     next_id: int = 1
 
-    def target(self, number: int) -> Target:
+    def target(self, number: int) -> ProjectTarget:
         """The target of an id; ValueError if there is none."""
         for target in self.targets:
             if target.id == number:
@@ -51,7 +51,7 @@ class Project:
 
 def add_target(project: Project, frame: int, box: Any, tracker: str) -> Project:
     """The project with a new target, with a box drawn in a frame; BoxError for an invalid box."""
-    new = Target(project.next_id, f"Target {project.next_id}", tracker)
+    new = ProjectTarget(project.next_id, f"Target {project.next_id}", tracker)
     return Project((*project.targets, _with_drawn(new, frame, as_box(box))), project.next_id + 1)
 
 
@@ -63,7 +63,7 @@ def draw_box(project: Project, number: int, frame: int, box: Any) -> Project:
 def erase_box(project: Project, number: int, frame: int) -> Project:
     """The project without a target's drawn box and track in a frame; ValueError if it has none."""
 
-    def without(target: Target) -> Target:
+    def without(target: ProjectTarget) -> ProjectTarget:
         if frame not in target.drawn and frame not in target.tracks:
             raise ValueError(f"{target.name}: expected a box in frame {frame}, there is none")
         drawn = {at: box for at, box in target.drawn.items() if at != frame}
@@ -173,7 +173,7 @@ class History:
         return History(self.future[0], (*self.past, self.present), self.future[1:])
 
 
-def _with_drawn(target: Target, frame: int, box: Box) -> Target:
+def _with_drawn(target: ProjectTarget, frame: int, box: Box) -> ProjectTarget:
     track = Track(box, 1.0, Status.TRACKED)
     return replace(
         target,
@@ -183,7 +183,7 @@ def _with_drawn(target: Target, frame: int, box: Box) -> Target:
     )
 
 
-def _changed(project: Project, number: int, change: Callable[[Target], Target]) -> Project:
+def _changed(project: Project, number: int, change: Callable[[ProjectTarget], ProjectTarget]) -> Project:
     before = project.target(number)
     after = change(before)
     return replace(project, targets=tuple(after if each is before else each for each in project.targets))

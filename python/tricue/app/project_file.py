@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from tricue.app.project import Project, Target
+from tricue.app.project import Project, ProjectTarget
 from tricue.camera.box import Box, as_box
 from tricue.camera.pose import Pose
 from tricue.data.files import image_paths
@@ -191,11 +191,11 @@ def _rounded(numbers: Any) -> list[float]:
     return [round(float(number), 6) for number in numbers]
 
 
-def _target(entry: Mapping[str, Any], pose: Pose | None) -> Target:
+def _target(entry: Mapping[str, Any], pose: Pose | None) -> ProjectTarget:
     drawn = {_frame(at): as_box(box) for at, box in entry["drawn"].items()}
     tracks = {_frame(values[0]): _track(values, pose) for values in entry["tracks"]}
     untracked = map(_frame, entry.get("untracked", ()))  # older files lack it
-    return Target(
+    return ProjectTarget(
         int(entry["id"]),
         str(entry["name"]),
         str(entry["tracker"]),

@@ -8,8 +8,8 @@ from contextlib import closing
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from tricue.app.frames import Recording
-from tricue.app.project import Target
+from tricue.app.frames import RecordedFrames
+from tricue.app.project import ProjectTarget
 from tricue.app.trackers import make_tracker
 from tricue.camera.frame import Frame
 from tricue.data.prefetch import prefetch
@@ -21,7 +21,7 @@ Report = Callable[[Exception, str], None]
 
 
 @dataclass
-class Run:
+class TrackingRun:
     """A tracking run; ``found`` grows frame by frame while it runs. step: 1, or -1 backward."""
 
     start: int
@@ -64,21 +64,23 @@ class Follower:
     cameras: the trackers' keywords intrinsics or rig, if known. report: gets a tracker's error and its place.
     """
 
-    def __init__(self, recording: Recording, cameras: Mapping[str, Any], seed: int, report: Report) -> None:
+    def __init__(
+        self, recording: RecordedFrames, cameras: Mapping[str, Any], seed: int, report: Report
+    ) -> None:
         self.recording, self.cameras, self.seed, self.report = recording, cameras, seed, report
         self._paused: dict[int, Paused] = {}
 
-    def can_start(self, target: Target, frame: int, step: Direction) -> bool:
+    def can_start(self, target: ProjectTarget, frame: int, step: Direction) -> bool:
         """Whether the target has a box in this frame, or a tracker that paused there."""
         return has_box(target, frame) or self._resumed(target, frame, step) is not None
 
-    def end(self, target: Target, frame: int, step: Direction) -> int:
+    def end(self, target: ProjectTarget, frame: int, step: Direction) -> int:
         """The frame before which a target's run ends: its next drawn box, or the end of the recording."""
         last = self.recording.length if step > 0 else -1
         drawn = target.next_drawn(frame, step)
         return last if drawn is None else drawn
 
-    def follow(self, run: Run, targets: Sequence[Target]) -> None:
+    def follow(self, run: TrackingRun, targets: Sequence[ProjectTarget]) -> None:
         """Follow the targets, adding tracks to the run as they are found."""
         ends = {each.id: self.end(each, run.start, run.step) for each in targets}
         stop = max(end * run.step for end in ends.values()) * run.step
@@ -100,7 +102,12 @@ class Follower:
             recording.frame(stop - run.step)  # raises the reason why the run ended early
 
     def _step(
-        self, run: Run, target: Target, following: dict[int, Tracker], number: int, frame: Frame
+        self,
+        run: TrackingRun,
+        target: ProjectTarget,
+        following: dict[int, Tracker],
+        number: int,
+        frame: Frame,
     ) -> None:
         """Follow one target into one frame; an error ends the run only for this target."""
         tracker, before = following[target.id], time.perf_counter()
@@ -124,10 +131,10 @@ class Follower:
         run.found.append((target.id, number, track))
         self._paused[target.id] = Paused(tracker, number, run.step, track, target.tracker)
 
-    def _new(self, target: Target) -> Tracker:
+    def _new(self, target: ProjectTarget) -> Tracker:
         return make_tracker(target.tracker, self.recording.source, self.cameras, self.seed)
 
-    def _resumed(self, target: Target, frame: int, step: Direction) -> Tracker | None:
+    def _resumed(self, target: ProjectTarget, frame: int, step: Direction) -> Tracker | None:
         """The tracker that paused in this frame, if nothing has changed there since."""
         paused = self._paused.get(target.id)
         if paused is None or (paused.frame, paused.step, paused.name) != (frame, step, target.tracker):
@@ -135,7 +142,7 @@ class Follower:
         return paused.tracker if target.tracks.get(frame) is paused.last else None
 
 
-def has_box(target: Target, frame: int) -> bool:
+def has_box(target: ProjectTarget, frame: int) -> bool:
     """Whether a run of a target can start in this frame: it has a box there and isn't lost."""
     track = target.tracks.get(frame)
     return track is not None and track.status is not Status.LOST

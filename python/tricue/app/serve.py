@@ -12,7 +12,7 @@ from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any
 
-from tricue.app.frames import Recording
+from tricue.app.frames import RecordedFrames
 from tricue.app.local_server import serve_until_ended, show
 from tricue.app.project_file import data_folder, path_beside, project_path, readable
 from tricue.app.server import make_app
@@ -46,7 +46,7 @@ def serve_project(
             say(f"{place.name} is open already at {own.url}")
             show(own.url, browser)
             return
-        recording = Recording(source)
+        recording = RecordedFrames(source)
         kept = _begun(path, path_beside(place))
 
         def announce(url: str) -> None:  # once the port is known to be free
@@ -87,7 +87,7 @@ def serve_selection(
 ) -> list[tuple[int, Box]]:
     """The boxes drawn in a page without a project; see :func:`tricue.app.select_boxes`."""
     source = open_source(place, **opening)
-    with closing(Session(Recording(source), place, None)) as session:
+    with closing(Session(RecordedFrames(source), place, None)) as session:
         serving = Serving(session, selecting=True)
         serve_until_ended(
             serving, make_app(serving), port, browser, lambda text: print(text, file=sys.stderr)

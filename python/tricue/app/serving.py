@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from tricue.app.exports import boxed_channel, picture
-from tricue.app.frames import Recording
+from tricue.app.frames import RecordedFrames
 from tricue.app.local_server import Served
 from tricue.app.session import Session
 from tricue.app.trackers import default_tracker
@@ -33,7 +33,7 @@ class Serving(Served):
         self.tracker = self.tracker or default_tracker(self.session.trackers)
 
     @contextmanager
-    def recording(self) -> Iterator[Recording]:
+    def recording(self) -> Iterator[RecordedFrames]:
         """The recording, for one thread at a time."""
         with self.frame_lock:
             yield self.session.recording

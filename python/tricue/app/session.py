@@ -10,9 +10,9 @@ from typing import Any
 from tricue.app import project as edits
 from tricue.app import project_file
 from tricue.app.exports import Tracked
-from tricue.app.frames import Recording
-from tricue.app.project import History, Project, Target
-from tricue.app.runs import Direction, Follower, Run
+from tricue.app.frames import RecordedFrames
+from tricue.app.project import History, Project, ProjectTarget
+from tricue.app.runs import Direction, Follower, TrackingRun
 from tricue.app.saver import Saver
 from tricue.app.trackers import fitting_trackers
 from tricue.app.video_job import VideoJob
@@ -31,7 +31,7 @@ class Session:
 
     def __init__(
         self,
-        recording: Recording,
+        recording: RecordedFrames,
         place: Path,
         path: Path | None,
         cameras: Mapping[str, Any] | None = None,
@@ -42,10 +42,10 @@ class Session:
         self.footprint = project_file.footprint(place, recording.length, recording.size)
         self.trackers = fitting_trackers(recording.source)
         self.history = History()
-        self.run: Run | None = None
+        self.run: TrackingRun | None = None
         self.job: VideoJob | None = None
         self.errors: list[str] = []
-        self.last_run: Run | None = None
+        self.last_run: TrackingRun | None = None
         self.runs = 0  # number of ended runs
         self.changed_video: list[str] = []
         self._shortened = False  # whether the file has more, in frames that no longer exist
@@ -196,7 +196,7 @@ class Session:
                 )
             with self._lock:
                 before, self.history = self.history, self.history.step()
-                run = self.run = Run(frame, step, tuple(each.id for each in able))
+                run = self.run = TrackingRun(frame, step, tuple(each.id for each in able))
             self._thread = threading.Thread(target=self._follow, args=(run, able, before), daemon=True)
             self._thread.start()
             self._saver.changed(save=False)
@@ -209,7 +209,7 @@ class Session:
         run.stop.set()
         thread.join()
 
-    def _follow(self, run: Run, targets: Sequence[Target], before: History) -> None:
+    def _follow(self, run: TrackingRun, targets: Sequence[ProjectTarget], before: History) -> None:
         try:
             self._follower.follow(run, targets)
         except Exception as error:  # from a reader; trackers' errors are caught individually

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from tricue import Box, Frame, Status, Track
 from tricue.app.live.recorder import Recorder
-from tricue.app.project import Target
+from tricue.app.project import ProjectTarget
 from tricue.export.table import TableForm
 
 frame, track = Frame(np.zeros((48, 64, 3), np.uint8)), Track(Box(1, 2, 30, 40), 1.0, Status.TRACKED)
@@ -22,7 +22,7 @@ recorder = Recorder(Path("o"), {"source": "a camera"}, 30.0, TableForm(several=T
 resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[1]),) * 2)
 try:
     for number in range(100):
-        recorder.write(number, number / 30, frame, [(Target(1, "Target 1", "fused"), track)])
+        recorder.write(number, number / 30, frame, [(ProjectTarget(1, "Target 1", "fused"), track)])
 except OSError as error:
     print(error)
 recorder.close()

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import zstandard
 from tricue import open_source
-from tricue.app.frames import Recording
+from tricue.app.frames import RecordedFrames
 from tricue.cli.program import main
 from tricue.data.joint import JointStream
 from tricue.doctor.install import install_extra
@@ -67,7 +67,7 @@ def test_a_damaged_first_image(tmp_path: Path, damaged: set[int], of_frames: int
     before = f"took the first whole image in place of {of_frames} damaged before it"
     assert source.remarks[0] == before
     assert blues(source.frames([0, 1, 21])) == pytest.approx([shown[at] for at in (0, 1, 21)], abs=2)
-    page = Recording(open_source(path))
+    page = RecordedFrames(open_source(path))
     assert (page.size, page.first) == ((32, 24), of_frames)
     with pytest.raises(ValueError, match="can't be decoded"):
         page.frame(0)
@@ -110,7 +110,7 @@ def test_a_message_that_is_not_decompressed(tmp_path: Path) -> None:
     source = open_source(folder)
     assert blues(source) == [10, 20, 40, 50, 60]
     assert source.remarks == ("left out 1 unreadable message",)
-    Recording(source).frame(4)  # lists the frames first
+    RecordedFrames(source).frame(4)  # lists the frames first
     assert source.remarks == ("left out 1 unreadable message",)
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tricue.app.frames import Recording
+from tricue.app.frames import RecordedFrames
 from tricue.data.open_source import open_source
 from tricue.data.recordings import seekable
 
@@ -102,7 +102,7 @@ def test_any_frame_is_that_of_reading_on(
     monkeypatch.setattr(seekable, "MAX_SKIPPED", SECOND // 3)
     place = write(tmp_path, apart(120))
     expected = list(open_source(place))
-    recording = Recording(open_source(place))
+    recording = RecordedFrames(open_source(place))
     assert (recording.length, recording.size) == (len(expected), (160, 120))
     assert len(expected) > 40
     order = random.Random(0).sample(range(len(expected)), len(expected))
@@ -119,7 +119,7 @@ def test_frames_are_sought(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     """It proves that a far frame is read from where it is: most of the file is left alone."""
     from tricue.data.recordings.recording import Recording as Topics
 
-    recording = Recording(open_source(bag1(tmp_path, apart(400))))
+    recording = RecordedFrames(open_source(bag1(tmp_path, apart(400))))
     read: list[int] = []
     images = Topics.images
     monkeypatch.setattr(
@@ -139,7 +139,7 @@ def test_images_of_one_time(tmp_path: Path) -> None:
         raw("/a", START + at * SECOND // 30, color(at), "bgr8", recorded=START + at // 5 * SECOND // 6)
         for at in range(30)
     ]
-    recording = Recording(open_source(bag1(tmp_path, sent)))
+    recording = RecordedFrames(open_source(bag1(tmp_path, sent)))
     for number in (17, 3, 29, 16, 0):
         image = recording.frame(number).color
         assert image is not None
@@ -156,7 +156,7 @@ def test_a_damaged_image_is_named(tmp_path: Path) -> None:
         )
         for at in range(8)
     ]
-    recording = Recording(open_source(bag1(tmp_path, sent)))
+    recording = RecordedFrames(open_source(bag1(tmp_path, sent)))
     with pytest.raises(ValueError, match="can't be decoded"):
         recording.frame(4)
     assert [number for number, _ in recording.frames(0, 8)] == [0, 1, 2, 3, 5, 6, 7]
@@ -165,12 +165,12 @@ def test_a_damaged_image_is_named(tmp_path: Path) -> None:
 PEAK = """
 import sys, tracemalloc
 from pathlib import Path
-from tricue.app.frames import Recording
+from tricue.app.frames import RecordedFrames
 from tricue.data.open_source import open_source
 from tricue.data.recordings import seekable
 seekable.KEPT_BYTES = 2 << 20
 tracemalloc.start()
-recording = Recording(open_source(Path(sys.argv[1])))
+recording = RecordedFrames(open_source(Path(sys.argv[1])))
 for number in [*range(recording.length), *reversed(range(recording.length))]:
     recording.frame(number)
 print(tracemalloc.get_traced_memory()[1])

@@ -11,7 +11,7 @@ from queue import Full, Queue
 from typing import Any, NamedTuple
 
 from tricue.app.exports import draw_targets
-from tricue.app.project import Target
+from tricue.app.project import ProjectTarget
 from tricue.camera.frame import Frame
 from tricue.draw.video import OverlayWriter
 from tricue.errors import one_line
@@ -23,7 +23,7 @@ from tricue.track.base.track import Track
 MAX_WAITING = 8  # frames waiting to be drawn; with more, the video shows one for longer
 MAX_STILL = 1.0  # seconds for which the video shows one picture at most, even if none comes for longer
 
-Tracks = Sequence[tuple[Target, Track]]
+Tracks = Sequence[tuple[ProjectTarget, Track]]
 
 
 class VideoFrame(NamedTuple):

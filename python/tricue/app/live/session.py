@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from tricue.app.frames import image_of
 from tricue.app.live.backlog import Backlog
 from tricue.app.live.recorder import Recorder
-from tricue.app.project import Target, checked_name
+from tricue.app.project import ProjectTarget, checked_name
 from tricue.app.trackers import fitting_trackers, make_tracker
 from tricue.camera.box import Box, as_box
 from tricue.camera.frame import Frame
@@ -41,7 +41,7 @@ class Opened(NamedTuple):
 class Followed:
     """A target, its tracker, and its last track, in frame ``at``. stopped: whether by an error."""
 
-    target: Target
+    target: ProjectTarget
     tracker: Tracker
     track: Track
     at: int
@@ -251,7 +251,7 @@ class LiveSession:
     def add(self, frame: Any, box: Any, tracker: Any) -> int:
         """Follow what is in a box of a frame; return the target's id."""
         with self._lock:
-            target = Target(self._next_id, f"Target {self._next_id}", self._known(tracker))
+            target = ProjectTarget(self._next_id, f"Target {self._next_id}", self._known(tracker))
             self._follow(target, frame, as_box(box))
             self._next_id += 1
             return target.id
@@ -285,7 +285,7 @@ class LiveSession:
             else:
                 self._follow(chosen, followed.at, followed.track.box)
 
-    def _follow(self, target: Target, number: Any, box: Box) -> None:
+    def _follow(self, target: ProjectTarget, number: Any, box: Box) -> None:
         """Start a tracker in a frame that may be slightly old; it catches up at the next frame."""
         if self.source is None or not isinstance(number, int):
             raise ValueError(f"frame: expected the number of a frame that is shown, got {number!r:.40}")
