@@ -6,19 +6,19 @@ from tricue.track.flow_depth.blocks import OCCLUDED_BLOCK, Blocks
 from tricue.track.flow_depth.cues import Cues
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.state import FlowDepthState
-from tricue.track.flow_depth.verify import Verdict, disparity_limits, estimate_in_frame
+from tricue.track.flow_depth.verify import TargetEvidence, disparity_limits, estimate_in_frame
 
 
 def is_occluded(
-    state: FlowDepthState, cues: Cues, verdict: Verdict, blocks: Blocks, p: FlowDepthParams
+    state: FlowDepthState, cues: Cues, evidence: TargetEvidence, blocks: Blocks, p: FlowDepthParams
 ) -> bool:
     """Whether the target is completely occluded in this frame, with its blocks after the frame's votes.
 
     It is if its disparity has become much larger, and if it has too few pixels and an occluded block.
     """
-    if verdict.disparity > disparity_limits(state, state.disparity, cues.disparity_scale, p).occluder:
+    if evidence.disparity > disparity_limits(state, state.disparity, cues.disparity_scale, p).occluder:
         return True
-    return not verdict.has_pixels(state, p.min_pixels) and bool((blocks.states == OCCLUDED_BLOCK).any())
+    return not evidence.has_pixels(state, p.min_pixels) and bool((blocks.states == OCCLUDED_BLOCK).any())
 
 
 def is_back(state: FlowDepthState, disparity: float, cues: Cues, p: FlowDepthParams) -> bool:

@@ -9,7 +9,7 @@ from tricue.track.flow_depth.cues import Cues
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Rectangle, around, moved
 from tricue.track.flow_depth.state import FlowDepthState, Velocity
-from tricue.track.flow_depth.verify import Verdict, disparity_limits
+from tricue.track.flow_depth.verify import TargetEvidence, disparity_limits
 
 MAX_OCCLUDED_FOR_OUTLINE = 0.05  # of the blocks, up to which the outline is learned
 MAX_OCCLUDED_FOR_MEANS = 0.15  # of the blocks, up to which the running means are learned
@@ -19,41 +19,41 @@ CENTER_VELOCITY_RATE = 0.3  # of the pixels' center's step; the learning rate of
 
 
 def learn(
-    k: Kernels, state: FlowDepthState, cues: Cues, verdict: Verdict, p: FlowDepthParams
+    k: Kernels, state: FlowDepthState, cues: Cues, evidence: TargetEvidence, p: FlowDepthParams
 ) -> FlowDepthState:
     """The state after a frame in which the target was found."""
-    model, velocity, disparity = verdict.model, state.velocity, state.disparity
+    model, velocity, disparity = evidence.model, state.velocity, state.disparity
     if not state.missed_seconds:
-        velocity = (model.peaks[0], model.peaks[1]) if cues.flow else _follow_center(state, verdict)
+        velocity = (model.peaks[0], model.peaks[1]) if cues.flow else _follow_center(state, evidence)
         disparity = state.disparity if cues.disparity is None else model.peaks[-1]
         if p.velocity_smoothing:
-            velocity = state.smooth_velocity(velocity, verdict.pixel_count)
+            velocity = state.smooth_velocity(velocity, evidence.pixel_count)
     blocks = state.blocks
     if p.block_rules == "adaptive":
         blocks = blocks.resized(_estimate_size(state, disparity))
-    blocks = blocks.voted(k, verdict.observed, verdict.limits, p)
+    blocks = blocks.voted(k, evidence.observed, evidence.limits, p)
     state = state._replace(
         region=cues.region,
-        pixels=verdict.pixels,
+        pixels=evidence.pixels,
         velocity=velocity,
         disparity=disparity,
         model=model,
-        temporal_window=verdict.temporal_window,
+        temporal_window=evidence.temporal_window,
         missed_seconds=0.0,
         occluded=False,
-        score=min(verdict.pixel_count / max(state.mean_pixels, 1.0), 1.0),
+        score=min(evidence.pixel_count / max(state.mean_pixels, 1.0), 1.0),
         blocks=blocks,
-        window=_target_window(blocks, verdict, p) or state.window,
+        window=_target_window(blocks, evidence, p) or state.window,
     )
-    return _learn_unoccluded(k, state, cues, verdict, p)
+    return _learn_unoccluded(k, state, cues, evidence, p)
 
 
-def _target_window(blocks: Blocks, verdict: Verdict, p: FlowDepthParams) -> Rectangle | None:
+def _target_window(blocks: Blocks, evidence: TargetEvidence, p: FlowDepthParams) -> Rectangle | None:
     """The window around the blocks, section 4.5, and also around the target pixels if they count."""
     window = blocks.window
     if p.target_window == "outline":
         return window
-    return verdict.temporal_window if window is None else around(window, verdict.temporal_window)
+    return evidence.temporal_window if window is None else around(window, evidence.temporal_window)
 
 
 def _estimate_size(state: FlowDepthState, disparity: float) -> float:
@@ -67,7 +67,7 @@ def _estimate_size(state: FlowDepthState, disparity: float) -> float:
 
 
 def _learn_unoccluded(
-    k: Kernels, state: FlowDepthState, cues: Cues, verdict: Verdict, p: FlowDepthParams
+    k: Kernels, state: FlowDepthState, cues: Cues, evidence: TargetEvidence, p: FlowDepthParams
 ) -> FlowDepthState:
     """Learn the outline and the running means if few blocks are occluded."""
     states, outline = state.blocks.states, state.outline
@@ -76,7 +76,7 @@ def _learn_unoccluded(
     if occluded <= MAX_OCCLUDED_FOR_OUTLINE and cues.disparity is not None:
         blocks, limits = state.blocks, disparity_limits(state, state.disparity, cues.disparity_scale, p)
         box, count = k.target_outline(
-            verdict.pixels,
+            evidence.pixels,
             cues.disparity.values,
             blocks.corners,
             blocks.place_in(cues.region),
@@ -88,14 +88,14 @@ def _learn_unoccluded(
             outline = outline.learned(moved(box, *cues.region[:2]), blocks)
     is_first = state.learned_frames < FIRST_MEANS
     if occluded <= (MAX_OCCLUDED_FOR_FIRST_MEANS if is_first else MAX_OCCLUDED_FOR_MEANS):
-        return state.with_means(verdict.pixel_count, outline)
+        return state.with_means(evidence.pixel_count, outline)
     return state._replace(outline=outline)
 
 
-def _follow_center(state: FlowDepthState, verdict: Verdict) -> Velocity:
+def _follow_center(state: FlowDepthState, evidence: TargetEvidence) -> Velocity:
     """The velocity of the target pixels' center, used without flow; not in the paper."""
     (x, y), (new_x, new_y) = (
-        ((x0 + x1) / 2, (y0 + y1) / 2) for x0, y0, x1, y1 in (state.temporal_window, verdict.temporal_window)
+        ((x0 + x1) / 2, (y0 + y1) / 2) for x0, y0, x1, y1 in (state.temporal_window, evidence.temporal_window)
     )
     u, v = state.velocity
     return u + CENTER_VELOCITY_RATE * (new_x - x), v + CENTER_VELOCITY_RATE * (new_y - y)

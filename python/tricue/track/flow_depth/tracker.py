@@ -149,19 +149,19 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
     def _follow(self, state: FlowDepthState, cues: Cues, seconds: float) -> FlowDepthState:
         """Sections 4.2 to 4.5: verify that the target is there and learn, or coast while it is missed."""
         p, k = self.params, self._k
-        verdict = verify(k, state, cues, p)
-        if verdict.found(state, p):
-            return learn(k, state, cues, verdict, p)
+        evidence = verify(k, state, cues, p)
+        if evidence.found(state, p):
+            return learn(k, state, cues, evidence, p)
         blocks = state.blocks
         if not state.missed_seconds:
-            blocks = blocks.voted(k, verdict.observed, verdict.limits, p)
+            blocks = blocks.voted(k, evidence.observed, evidence.limits, p)
         return _coast(
             state,
             seconds,
             region=cues.region,
-            pixels=verdict.pixels,
+            pixels=evidence.pixels,
             blocks=blocks,
-            occluded=verdict.occluded_share >= MIN_OCCLUDED_SHARE,
+            occluded=evidence.occluded_share >= MIN_OCCLUDED_SHARE,
         )
 
     def _follow_by_disparity(self, state: FlowDepthState, cues: Cues, seconds: float) -> FlowDepthState:
@@ -175,14 +175,14 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
             state = state._replace(
                 disparity=disparity, occluder_disparity=math.nan, temporal_window=state.window
             )
-        verdict = verify_by(k, state, cues, None, p)
-        blocks = state.blocks.voted(k, verdict.observed, verdict.limits, p)
-        if is_occluded(state, cues, verdict, blocks, p):
+        evidence = verify_by(k, state, cues, None, p)
+        blocks = state.blocks.voted(k, evidence.observed, evidence.limits, p)
+        if is_occluded(state, cues, evidence, blocks, p):
             disparity = disparity_in_window(k, state._replace(occluded=False), cues, p)
             return _coast(state, seconds, blocks=blocks, occluded=True, occluder_disparity=disparity)
-        if verdict.has_pixels(state, p.min_pixels):
-            return learn(k, state._replace(missed_seconds=0.0), cues, verdict, p)
-        return _coast(state, seconds, blocks=blocks, pixels=verdict.pixels, occluded=False)
+        if evidence.has_pixels(state, p.min_pixels):
+            return learn(k, state._replace(missed_seconds=0.0), cues, evidence, p)
+        return _coast(state, seconds, blocks=blocks, pixels=evidence.pixels, occluded=False)
 
     def _for_next(
         self, reduced: ReducedFrame, wanted: WantedCells, candidate: Rectangle, frame: Frame

@@ -24,7 +24,7 @@ MIN_TARGET_PIXELS = 8
 REDETECTION_OCCLUSION = 0.1  # of the blocks; how many more may be occluded when the target is re-detected
 
 
-class Verdict(NamedTuple):
+class TargetEvidence(NamedTuple):
     """The evidence for the target in a frame.
 
     model: used for the search. disparity: the target's, cells. pixels: (h, w) 1 at the target's pixels.
@@ -54,14 +54,14 @@ class Verdict(NamedTuple):
         return self.pixel_count >= max(share * state.mean_pixels, MIN_TARGET_PIXELS)
 
 
-def verify(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) -> Verdict:
+def verify(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) -> TargetEvidence:
     """Find the target's pixels and blocks by the cues; a missed target keeps its previous model."""
     return verify_by(k, state, cues, state.model if state.missed_seconds else None, p)
 
 
 def verify_by(
     k: Kernels, state: FlowDepthState, cues: Cues, model: TargetModel | None, p: FlowDepthParams
-) -> Verdict:
+) -> TargetEvidence:
     """The same by a given model and the state's disparity, or else by this frame's model and disparity.
 
     Without disparities every cell of a block counts as measured.
@@ -88,7 +88,7 @@ def verify_by(
         limits,
     )
     seen = BlockObservation(*observed)
-    return Verdict(model, disparity, pixels, count, moved(box, x, y), seen, limits, share)
+    return TargetEvidence(model, disparity, pixels, count, moved(box, x, y), seen, limits, share)
 
 
 def disparity_limits(
