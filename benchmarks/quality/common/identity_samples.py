@@ -22,7 +22,7 @@ from tricue.track.fused.localize import LocalizationModel, localize
 from tricue.track.fused.measure import Match, measure_candidate
 from tricue.track.fused.prepared_frame import prepare_frame
 from tricue.track.fused.proposals import LostTarget, propose_windows
-from tricue.track.fused.state import State
+from tricue.track.fused.state import FusedState
 from tricue.track.fused.tracker import FusedTracker
 from tricue.track.fused.verify import running_mean_rate
 from tricue.track.fused.window import extract_windows
@@ -143,7 +143,7 @@ def _elsewhere(tracker: FusedTracker, frame: Frame, step: int, rng: np.random.Ge
     return [measure_candidate(model, each) for each in candidates[:ELSEWHERE_PLACES]]
 
 
-def _state(tracker: FusedTracker) -> State:
+def _state(tracker: FusedTracker) -> FusedState:
     """A tracker's state, which has the features of its last match."""
     state = tracker._state
     assert state is not None, "the tracker was initialized"

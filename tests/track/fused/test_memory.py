@@ -19,7 +19,7 @@ from tricue.track.fused.memory import (
     limit_log_odds,
 )
 from tricue.track.fused.search import search_last_place
-from tricue.track.fused.state import State
+from tricue.track.fused.state import FusedState
 from tricue.track.fused.target import Target
 
 Image = NDArray[np.uint8]
@@ -51,7 +51,7 @@ def followed(card: int, frames: int = 40) -> FusedTracker:
     return tracker
 
 
-def state_of(tracker: FusedTracker) -> State:
+def state_of(tracker: FusedTracker) -> FusedState:
     """After the last frame."""
     assert tracker._state is not None
     return tracker._state

@@ -13,7 +13,7 @@ from tricue.track.fused.measure import Match
 from tricue.track.fused.memory import Memory
 from tricue.track.fused.outline import Sides
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.state import MIN_LOST_FRAMES, State
+from tricue.track.fused.state import MIN_LOST_FRAMES, FusedState
 from tricue.track.fused.target import Target
 from tricue.track.fused.verify import verify
 
@@ -31,10 +31,12 @@ def match(odds: float, covered: float = 0.0, depth: object = None) -> Match:
     return Match(candidate, THERE, odds, 0.0, None, covered)
 
 
-def state(lost: bool) -> State:
+def state(lost: bool) -> FusedState:
     """Of a target that was followed for ten frames, or is LOST."""
     sides = Sides.cut_by_border(HERE, (240, 320))
-    fresh = State((240, 320), {}, Memory({}, {}), HERE, 40.0, 40.0, 0.5, sides, seconds=1 / 30, frames=10)
+    fresh = FusedState(
+        (240, 320), {}, Memory({}, {}), HERE, 40.0, 40.0, 0.5, sides, seconds=1 / 30, frames=10
+    )
     return replace(fresh, missed_frames=MIN_LOST_FRAMES, missed_seconds=10.0) if lost else fresh
 
 

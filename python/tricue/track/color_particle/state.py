@@ -31,7 +31,7 @@ class ParticleSet(NamedTuple):
     seen: Any
 
 
-class State(NamedTuple):
+class ColorParticleState(NamedTuple):
     """Everything that changes from frame to frame; immutable, ``update`` replaces it."""
 
     shape: tuple[int, ...]  # of the first frame

@@ -22,7 +22,7 @@ from tricue.track.color_particle.motion import EllipseMotion, EllipsePrediction,
 from tricue.track.color_particle.params import NEVER, ColorParticleParams
 from tricue.track.color_particle.realignment import GAIN_TO_FORGET, moved, realign
 from tricue.track.color_particle.skin_detection import detect_skin, draw_candidates, reference_color
-from tricue.track.color_particle.state import ParticleSet, State
+from tricue.track.color_particle.state import ColorParticleState, ParticleSet
 from tricue.track.head_detection.start_box import head_or_face_to_start_on
 
 MEAN_RATE = 0.05  # per frame, of the running means of the log-likelihood
@@ -46,7 +46,7 @@ class FilterStep(IntEnum):
 STEPS_PER_FRAME = len(FilterStep)
 
 
-class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
+class ColorParticleTracker(TrackerBase[ColorParticleParams, ColorParticleState]):
     """Tracks a face, or any target with distinctive colors and structure, in BGR video.
 
     Particles are ellipses (x, y, minor, major). They are drawn from the target's motion model and from the
@@ -113,7 +113,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         seen = appearance.observe(k, image, window)
         log_likelihood = float(appearance.log_likelihood(k, image, window[None])[0])
         particles, weights = self._particles_at(window)
-        state = State(
+        state = ColorParticleState(
             shape=image.shape,
             appearance=appearance,
             skin_color=reference_color(k, image, ellipse),
@@ -151,7 +151,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         )
         return self._keep(state, frame)
 
-    def _follow(self, state: State, image: Image) -> State:
+    def _follow(self, state: ColorParticleState, image: Image) -> ColorParticleState:
         """Predict, measure, weigh, estimate; repeat in a wide search if the likelihood has dropped."""
         k, p, motion = self._k, self.params, state.motion
         prediction = motion.predict(p, state.shape)
@@ -179,7 +179,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
 
     def _filter(
         self,
-        state: State,
+        state: ColorParticleState,
         image: Image,
         particles: Floats,
         weights: Floats,
@@ -195,7 +195,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         return filter_step(self._k, image, state.appearance, particles, weights, noise, proposal, searching)
 
     def _search_wide(
-        self, state: State, image: Image, narrow: ParticleSet, prediction: EllipsePrediction
+        self, state: ColorParticleState, image: Image, narrow: ParticleSet, prediction: EllipsePrediction
     ) -> ParticleSet:
         """Search widely around the last ellipse, then closely around the best particle: for sudden motion."""
         spread = self.params.wide_search_spread * state.motion.side
@@ -212,7 +212,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         )
         return max(narrow, close, key=lambda each: each.log_likelihood)
 
-    def _redetect(self, state: State, image: Image) -> State:
+    def _redetect(self, state: ColorParticleState, image: Image) -> ColorParticleState:
         """Search for a lost target in the whole frame, and track it again if it is recognized."""
         k, p, appearance = self._k, self.params, state.appearance
         rng = np.random.default_rng((self.seed, state.frames))
@@ -237,12 +237,12 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
 
     def _accept(
         self,
-        state: State,
+        state: ColorParticleState,
         image: Image,
         particles: ParticleSet,
         motion: EllipseMotion,
         first_log_likelihood: float | None = None,
-    ) -> State:
+    ) -> ColorParticleState:
         """The state with these particles, which are on the target or not by recognition and likelihood.
 
         While the target is covered, some place has similar ranks by chance. Its likelihood, which includes
@@ -279,14 +279,16 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             missed_frames=0 if recognized else state.missed_frames + 1,
         )
 
-    def _update_lead(self, state: State, image: Image, particles: ParticleSet) -> float:
+    def _update_lead(self, state: ColorParticleState, image: Image, particles: ParticleSet) -> float:
         """The running mean of the lead, which is measured in some frames, and always while it is missed."""
         if not state.missed_frames and state.frames % LEAD_EVERY != LEAD_EVERY - 1:
             return state.lead
         lead = self._lead(state.appearance, image, particles.ellipse, particles.log_likelihood)
         return state.lead + LEAD_RATE * (lead - state.lead)
 
-    def _recognizes(self, state: State, particles: ParticleSet, recognition: float, score: float) -> bool:
+    def _recognizes(
+        self, state: ColorParticleState, particles: ParticleSet, recognition: float, score: float
+    ) -> bool:
         """Whether the target is where the particles are."""
         p = self.params
         least = state.recognized_mean - p.max_likelihood_drop
@@ -298,7 +300,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             return False
         return not self._has_jumped(state, particles)
 
-    def _has_jumped(self, state: State, particles: ParticleSet) -> bool:
+    def _has_jumped(self, state: ColorParticleState, particles: ParticleSet) -> bool:
         """Whether the estimate is less likely than usual, and farther from the predicted place than a wide
         search usually goes.
         """
@@ -314,7 +316,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         """The lead over the windows beside an ellipse (4,); NEVER if likelihoods aren't comparable."""
         return appearance.lead(self._k, image, ellipse, log_likelihood) if self._comparable else NEVER
 
-    def _learn(self, state: State, image: Image, rate: float) -> Appearance:
+    def _learn(self, state: ColorParticleState, image: Image, rate: float) -> Appearance:
         """The appearance with the estimated window blended in."""
         particles, color_rate = state.particles, self.params.color_rate
         return state.appearance.learn(self._k, image, particles.ellipse, particles.seen, rate, color_rate)
@@ -323,7 +325,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         """All particles at one ellipse (4,), and their weights."""
         return np.repeat(ellipse[None], self.params.particles, axis=0), self._equal
 
-    def _track(self, state: State) -> Track:
+    def _track(self, state: ColorParticleState) -> Track:
         if state.is_tracked(self.params):
             status = Status.TRACKED
         else:

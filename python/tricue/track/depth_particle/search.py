@@ -22,7 +22,7 @@ from tricue.track.depth_particle.matching import (
 from tricue.track.depth_particle.motion import MAX_NOISE_TIME, BodyMotion, RectanglePrediction
 from tricue.track.depth_particle.occluder import follow_occluder, remove_occluder
 from tricue.track.depth_particle.params import DepthParticleParams
-from tricue.track.depth_particle.state import State
+from tricue.track.depth_particle.state import DepthParticleState
 
 MAX_SEARCH_TIME = 10.0  # seconds over which the search region of a lost target grows
 
@@ -41,7 +41,7 @@ class SearchResult(NamedTuple):
 
 def find_target(
     k: Kernels,
-    state: State,
+    state: DepthParticleState,
     fg: Foreground,
     objects: Objects,
     prediction: RectanglePrediction,
@@ -72,7 +72,7 @@ def find_target(
 
 
 def _other_costs(
-    k: Kernels, state: State, fg: Foreground, objects: Objects, p: DepthParticleParams
+    k: Kernels, state: DepthParticleState, fg: Foreground, objects: Objects, p: DepthParticleParams
 ) -> Floats:
     """The costs (C,), nats, for a depth histogram unlike the target's and for not being human; or none."""
     if not (p.human_filter or p.depth_signature) or len(objects.states) == 0:
@@ -88,7 +88,7 @@ def _other_costs(
 
 
 def _candidates(
-    state: State, objects: Objects, seconds: float, p: DepthParticleParams
+    state: DepthParticleState, objects: Objects, seconds: float, p: DepthParticleParams
 ) -> tuple[Objects, Floats | None]:
     """All objects but the occluder, and the occluder's position (3,), meters, if there is one."""
     if state.occluder is None:

@@ -32,7 +32,7 @@ class ParticleSet(NamedTuple):
         return cls(np.repeat(state[None], n, axis=0), np.full(n, 1 / n), state, np.zeros((5, 5)))
 
 
-class State(NamedTuple):
+class DepthParticleState(NamedTuple):
     """Everything that changes from frame to frame; immutable, ``update`` replaces it."""
 
     shape: tuple[int, ...]  # of the first frame

@@ -31,7 +31,7 @@ from tricue.track.depth_particle.occluder import find_occluder
 from tricue.track.depth_particle.others import region_in, remember_others
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.search import find_target
-from tricue.track.depth_particle.state import ParticleSet, State
+from tricue.track.depth_particle.state import DepthParticleState, ParticleSet
 
 REFINE_POSITION = (0.06, 0.05, 0.05)  # meters of X, Y, Z, standard deviation of the second sampling
 REFINE_SIZE = 0.05  # relative standard deviation of the size in the second sampling
@@ -56,7 +56,7 @@ class FilteredTarget(NamedTuple):
     histogram: Floats
 
 
-class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
+class DepthParticleTracker(TrackerBase[DepthParticleParams, DepthParticleState]):
     """Tracks a person, or another free-standing object, in depth images; needs neither color nor light.
 
     Particles are rectangles in meters: center (X, Y, Z), width and height. They are drawn from the motion
@@ -140,7 +140,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         model = DepthModel.empty(self.params)
         model = model.learn(model.histogram_in(self._k, fg, target.state), 1.0)
         observed = model.observe(self._k, fg, target.state)
-        state = State(
+        state = DepthParticleState(
             shape=depth.shape,
             camera=camera,
             plane=plane,
@@ -169,8 +169,8 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         return self._keep(self._follow(before, depth, timestamp, seconds), frame)
 
     def _follow(
-        self, state: State, depth: NDArray[np.float32], timestamp: float | None, seconds: float
-    ) -> State:
+        self, state: DepthParticleState, depth: NDArray[np.float32], timestamp: float | None, seconds: float
+    ) -> DepthParticleState:
         """Segment, predict, measure, weigh, estimate; learn, or coast if the target is missed."""
         k, p = self._k, self.params
         fg, plane = extract_foreground(k, depth, state.camera, state.plane, state.frames + 1, p)
@@ -195,7 +195,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
 
     def _filter(
         self,
-        state: State,
+        state: DepthParticleState,
         size: Floats,
         fg: Foreground,
         prediction: RectanglePrediction,
@@ -229,7 +229,9 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         found = ParticleSet(particles, weights, mean, covariance)
         return FilteredTarget(found, state.model.observation(observed), histogram)
 
-    def _recognizes(self, state: State, observed: DepthObservation, target: TargetObject | None) -> bool:
+    def _recognizes(
+        self, state: DepthParticleState, observed: DepthObservation, target: TargetObject | None
+    ) -> bool:
         """Whether the target is visible at the estimate; if it was missed, only if it matches an object."""
         if state.missed_seconds > 0 and target is None:
             return False
@@ -239,8 +241,13 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         )
 
     def _accept(
-        self, state: State, fg: Foreground, found: FilteredTarget, motion: BodyMotion, changes: Changes
-    ) -> State:
+        self,
+        state: DepthParticleState,
+        fg: Foreground,
+        found: FilteredTarget,
+        motion: BodyMotion,
+        changes: Changes,
+    ) -> DepthParticleState:
         """The state after the target was found at the particles' estimate, with other changes."""
         others = remember_others(
             self._k, state.others, fg, found.particles.state, self.params.histogram_reach
@@ -257,7 +264,9 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             **changes,
         )
 
-    def _learn(self, state: State, found: FilteredTarget, target: TargetObject | None) -> Changes:
+    def _learn(
+        self, state: DepthParticleState, found: FilteredTarget, target: TargetObject | None
+    ) -> Changes:
         """The updated depth model, running means and signature of the state."""
         p, signature, observed = self.params, state.signature, found.observed
         if target is not None and all(target.whole.tolist()):
@@ -270,7 +279,9 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             "signature": signature,
         }
 
-    def _coast(self, state: State, fg: Foreground, prediction: RectanglePrediction, seconds: float) -> State:
+    def _coast(
+        self, state: DepthParticleState, fg: Foreground, prediction: RectanglePrediction, seconds: float
+    ) -> DepthParticleState:
         """The state of a missed target: moved as predicted; velocity, size and model are not learned."""
         p = self.params
         expected = np.clip(state.motion.state + prediction.drift, prediction.lower, prediction.upper)
@@ -294,7 +305,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             occluder=occluder,
         )
 
-    def _track(self, state: State) -> Track:
+    def _track(self, state: DepthParticleState) -> Track:
         box = project_box(state.motion.state, state.camera)
         if state.missed_seconds == 0:
             status = Status.TRACKED

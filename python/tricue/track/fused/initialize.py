@@ -24,12 +24,12 @@ from tricue.track.fused.params import FusedParams
 from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.position_filter import PositionFilter, back_project
 from tricue.track.fused.prepared_frame import PreparedFrame
-from tricue.track.fused.state import State
+from tricue.track.fused.state import FusedState
 from tricue.track.fused.target import Target
 from tricue.track.fused.window import Window, extract_window
 
 
-def initialize(k: Kernels, frame: PreparedFrame, target: Target, p: FusedParams) -> State:
+def initialize(k: Kernels, frame: PreparedFrame, target: Target, p: FusedParams) -> FusedState:
     """The state after the first frame."""
     measured = measure_depth(frame.for_target(k, None), target, None)
     expected = None if measured is None else ExpectedDepth(measured.z, INITIAL_DEPTH_SPREAD)
@@ -39,7 +39,7 @@ def initialize(k: Kernels, frame: PreparedFrame, target: Target, p: FusedParams)
     appearance = _appearance_models(window, p)
     model = LocalizationModel(appearance, depth, target.side, None, p)
     models: ModelsByKind = {observation.kind: appearance}
-    return State(
+    return FusedState(
         shape=frame.shape,
         mean_seconds=1 / p.rate,
         models=models,
@@ -56,7 +56,7 @@ def initialize(k: Kernels, frame: PreparedFrame, target: Target, p: FusedParams)
     )
 
 
-def initialize_depth(state: State, frame: PreparedFrame, k: Kernels, p: FusedParams) -> State:
+def initialize_depth(state: FusedState, frame: PreparedFrame, k: Kernels, p: FusedParams) -> FusedState:
     """The state with models of the depth at the target's last place, if none was measured before."""
     if state.depth is not None or frame.depth_source is None or state.missed_frames:
         return state
@@ -74,7 +74,7 @@ def initialize_depth(state: State, frame: PreparedFrame, k: Kernels, p: FusedPar
     )
 
 
-def renew_models(state: State, frame: PreparedFrame, k: Kernels, p: FusedParams) -> State:
+def renew_models(state: FusedState, frame: PreparedFrame, k: Kernels, p: FusedParams) -> FusedState:
     """The state with models of the whole object, if the present ones were made from a small part of it."""
     whole = state.depth_object
     if whole is None or whole.seen is None or not whole.outgrew_models or state.position is None:
@@ -92,7 +92,7 @@ def renew_models(state: State, frame: PreparedFrame, k: Kernels, p: FusedParams)
     )
 
 
-def ensure_models(state: State, observation: PictureObservation, p: FusedParams) -> State:
+def ensure_models(state: FusedState, observation: PictureObservation, p: FusedParams) -> FusedState:
     """The state with models for the picture's kind; new ones are made where the target should be now."""
     if observation.kind in state.models:
         return state

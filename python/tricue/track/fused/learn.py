@@ -19,7 +19,7 @@ from tricue.track.fused.outline import Outline, Side, measure_reaches
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.picture_observation import PictureObservation
 from tricue.track.fused.position_filter import PositionFilter, back_project
-from tricue.track.fused.state import State
+from tricue.track.fused.state import FusedState
 from tricue.track.fused.target import Target
 from tricue.track.fused.window import CELL_PIXELS, NO_PLANE, Window, extract_window
 
@@ -31,8 +31,8 @@ MIN_FIRST_RESPONSE = 0.2  # of the first frame's filter, whose response to the u
 
 
 def update_models(
-    before: State, state: State, observation: PictureObservation, match: Match, p: FusedParams
-) -> State:
+    before: FusedState, state: FusedState, observation: PictureObservation, match: Match, p: FusedParams
+) -> FusedState:
     """The state with a match blended into its models.
 
     before: the state after the last frame. Nothing is learned if the target wasn't moved to the match.
@@ -92,7 +92,7 @@ def rate_over(seconds: float, rate: float) -> float:
     return 1 - kept
 
 
-def update_object(state: State, observation: PictureObservation) -> State:
+def update_object(state: FusedState, observation: PictureObservation) -> FusedState:
     """The state with the outline of the target's object, if the target is an object of the depth image.
 
     A repeated depth image isn't searched: it may be older than the color image that gave the target's place.
@@ -112,7 +112,7 @@ def update_object(state: State, observation: PictureObservation) -> State:
     return state.replace(depth_object=known, outline=Outline.of(known.seen.box, state.target))
 
 
-def _update_outline(state: State, match: Match, p: FusedParams) -> State:
+def _update_outline(state: FusedState, match: Match, p: FusedParams) -> FusedState:
     if state.missed_frames or state.sides.are_hidden or state.depth_object is not None:
         return state
     place = match.candidate.window, match.candidate.right, match.candidate.down
@@ -124,8 +124,8 @@ def _update_outline(state: State, match: Match, p: FusedParams) -> State:
 
 
 def _update_depth(
-    state: State, observation: PictureObservation, match: Match, was_lost: bool, p: FusedParams
-) -> State:
+    state: FusedState, observation: PictureObservation, match: Match, was_lost: bool, p: FusedParams
+) -> FusedState:
     """Correct the position filter and the depth expert by the measured depth.
 
     When a LOST target is recognized again, the position filter is restarted. If no depth is measured, a

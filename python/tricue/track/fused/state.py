@@ -25,7 +25,7 @@ MIN_INTERVAL_SHARE = 1 / 3  # of the mean interval between frames
 
 
 @dataclass(frozen=True)
-class State:
+class FusedState:
     """The immutable state of the tracker after a frame."""
 
     shape: tuple[int, int]  # of the first frame
@@ -58,10 +58,12 @@ class State:
     frames: int = 0  # since init
     timestamp: float | None = None
 
-    def replace(self, **changes: Any) -> "State":
+    def replace(self, **changes: Any) -> "FusedState":
         """The state with some attributes changed; a named tuple of this size takes four times as long."""
-        assert changes.keys() <= vars(self).keys(), f"expected fields of a State, got {', '.join(changes)}"
-        changed = object.__new__(State)
+        assert changes.keys() <= vars(self).keys(), (
+            f"expected fields of a FusedState, got {', '.join(changes)}"
+        )
+        changed = object.__new__(FusedState)
         vars(changed).update(vars(self))
         vars(changed).update(changes)
         return changed

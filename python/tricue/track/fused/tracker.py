@@ -31,7 +31,7 @@ from tricue.track.fused.prepared_frame import PreparedFrame, prepare_frame, rig_
 from tricue.track.fused.proposals import LostTarget
 from tricue.track.fused.redetect import redetect
 from tricue.track.fused.search import search_last_place, search_local
-from tricue.track.fused.state import State
+from tricue.track.fused.state import FusedState
 from tricue.track.fused.target import Target
 from tricue.track.fused.verify import verify
 
@@ -42,7 +42,7 @@ MEAN_INTERVAL_RATE = 0.05  # per frame, of the running mean of the time between 
 UNTIMED_FACTOR = 2.0  # the time between frames without timestamps may be so many times that given by ``rate``
 
 
-class FusedTracker(TrackerBase[FusedParams, State]):
+class FusedTracker(TrackerBase[FusedParams, FusedState]):
     """Follows any target by adding up the evidence of several experts, with whatever channels a frame has.
 
     A correlation filter, the target's colors and its depth localize it. A second filter, in log-polar
@@ -134,7 +134,9 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         cameras = self.rig, self.intrinsics
         return prepare_frame(frame, shape, cameras, "depth" in self.params.cues)
 
-    def _predict(self, state: State, prepared: PreparedFrame, trust: DepthTrust, seconds: float) -> State:
+    def _predict(
+        self, state: FusedState, prepared: PreparedFrame, trust: DepthTrust, seconds: float
+    ) -> FusedState:
         """The state predicted for the frame, so many seconds later."""
         position, motion = state.position, state.motion
         if state.is_late():
@@ -163,7 +165,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         """Whether the frame's depths are in meters: those of a stereo pair are only if its rig is known."""
         return self.rig is not None or not isinstance(prepared.depth_source, StereoSource)
 
-    def _search(self, state: State, observation: PictureObservation) -> Match:
+    def _search(self, state: FusedState, observation: PictureObservation) -> Match:
         """The best match near the target's last place; in the whole frame if the target isn't followed."""
         p = self.params
         model = _localization_model(state, state.models[observation.kind], p)
@@ -174,19 +176,19 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         lost = LostTarget(last, state.position, state.missed_frames, state.frames)
         return redetect(model, observation, lost, local, state.clutter.min_log_odds(p))
 
-    def _penalize_jump(self, state: State, match: Match) -> Match:
+    def _penalize_jump(self, state: FusedState, match: Match) -> Match:
         """The match with its log-odds reduced by the penalty for its jump."""
         penalty = state.motion.penalty(state.target, match.target, state.seconds, self.params.jump_weight)
         return match._replace(log_odds=match.log_odds - penalty)
 
-    def _limit_log_odds(self, state: State, match: Match) -> Match:
+    def _limit_log_odds(self, state: FusedState, match: Match) -> Match:
         """The match with log-odds limited by the older models; not with depth, which shows occluders."""
         models = state.memory.older.get(match.observation.kind)
         if match.observation.depth_source is not None or models is None:
             return match
         return limit_log_odds(_localization_model(state, models, self.params), match)
 
-    def _track(self, state: State) -> Track:
+    def _track(self, state: FusedState) -> Track:
         if state.missed_frames == 0:
             status = Status.TRACKED
         elif state.occluded or not state.is_lost(self.params):
@@ -197,7 +199,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         return Track(box, state.score, status, *self._estimate(state, box))
 
     def _estimate(
-        self, state: State, box: Box
+        self, state: FusedState, box: Box
     ) -> tuple[Floats, Floats, float | None] | tuple[None, None, None]:
         """The position, covariance and depth of a track with that box; None until depth is measured.
 
@@ -220,11 +222,11 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         return position, covariance, float(position[2])
 
 
-def _localization_model(state: State, appearance: AppearanceModels, p: FusedParams) -> LocalizationModel:
+def _localization_model(state: FusedState, appearance: AppearanceModels, p: FusedParams) -> LocalizationModel:
     return LocalizationModel(appearance, state.depth, state.first_side, state.typical, p)
 
 
-def _expected_depth(state: State) -> ExpectedDepth | None:
+def _expected_depth(state: FusedState) -> ExpectedDepth | None:
     if state.position is None or state.depth is None:
         return None
     return state.position.expected_depth(state.depth.depth_spread)

@@ -12,12 +12,12 @@ from tricue.track.fused.clutter import NO_CLUTTER
 from tricue.track.fused.identity import log_odds_of, score_of
 from tricue.track.fused.measure import Match
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.state import State
+from tricue.track.fused.state import FusedState
 
 VERIFIED_TIME_CONSTANT = 0.65  # seconds; of running means over frames in which the target is recognized
 
 
-def verify(state: State, match: Match, p: FusedParams) -> State:
+def verify(state: FusedState, match: Match, p: FusedParams) -> FusedState:
     """Move the target to the match if that may be the target; count the frame as missed if it isn't."""
     occluded = match.covered > p.max_covered
     needed = _min_log_odds(state, match, p)
@@ -68,7 +68,7 @@ def running_mean_rate(frames: int, seconds: float) -> float:
     return max(1 / frames, 1 - math.exp(-seconds / VERIFIED_TIME_CONSTANT))
 
 
-def _min_log_odds(state: State, match: Match, p: FusedParams) -> float:
+def _min_log_odds(state: FusedState, match: Match, p: FusedParams) -> float:
     """The log-odds that a match needs to be recognized."""
     sees_occluders = match.observation.depth_source is not None
     if state.is_lost(p) or (state.missed_frames and not sees_occluders):

@@ -10,7 +10,7 @@ from tricue.track.stereo_head.prepared_pair import Color
 from tricue.track.stereo_head.stereo_geometry import Point, StereoGeometry
 
 
-class HeadState(NamedTuple):
+class StereoHeadState(NamedTuple):
     """Everything that changes from frame to frame."""
 
     shape: tuple[int, ...]  # of the left image

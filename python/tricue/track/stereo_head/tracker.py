@@ -22,7 +22,7 @@ from tricue.track.stereo_head.measure import HeadMeasurement, measure
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.prepared_pair import PreparedPair
 from tricue.track.stereo_head.search_frame import LostHead, search_frame
-from tricue.track.stereo_head.state import HeadState
+from tricue.track.stereo_head.state import StereoHeadState
 from tricue.track.stereo_head.stereo_geometry import StereoGeometry
 
 MIN_SEARCH_RADIUS = 0.3  # meters from where a head that was just missed was last seen
@@ -31,7 +31,7 @@ MAX_BOX_SIDE = 4000  # pixels
 MEAN_RATE = 0.05  # per frame, of running means
 
 
-class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
+class StereoHeadTracker(TrackerBase[StereoHeadParams, StereoHeadState]):
     """Follows a head in the colors of a rectified stereo pair, in meters and in changing light.
 
     An ellipse of the head's size is moved to where its colors are most like the model of skin and hair, and
@@ -93,7 +93,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         first_mean = pair.mean if self.params.compensate_light else None
         first = self._measure_first(pair, geometry, head)
         histogram, model, color = self._mix(first.histogram, first.histogram, 0.0, first.histogram)
-        state = HeadState(
+        state = StereoHeadState(
             shape=left.shape,
             geometry=geometry,
             size=geometry.size(*head.ellipse[2:], first.position[2]),
@@ -138,8 +138,8 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         return first
 
     def _follow(
-        self, state: HeadState, pair: PreparedPair, seconds: float, timestamp: float | None
-    ) -> HeadState:
+        self, state: StereoHeadState, pair: PreparedPair, seconds: float, timestamp: float | None
+    ) -> StereoHeadState:
         """Predict, measure, correct and learn; or re-detect, or coast, if the head isn't recognized."""
         k, p, geometry = self._k, self.params, state.geometry
         predicted = head_filter.predict(k, state.filter, seconds, p)
@@ -160,7 +160,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         missed_seconds = state.missed_seconds + seconds
         return state._replace(filter=coasting, missed_seconds=missed_seconds, score=0.0, timestamp=timestamp)
 
-    def _redetect(self, state: HeadState, pair: PreparedPair) -> HeadMeasurement | None:
+    def _redetect(self, state: StereoHeadState, pair: PreparedPair) -> HeadMeasurement | None:
         """The head anywhere in the image within its possible motion; None if it isn't recognized."""
         k, p = self._k, self.params
         radius = MIN_SEARCH_RADIUS + p.max_speed * state.missed_seconds
@@ -173,14 +173,14 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
             return None
         return measured
 
-    def _recognizes(self, state: HeadState, measured: HeadMeasurement, predicted: HeadFilter) -> bool:
+    def _recognizes(self, state: StereoHeadState, measured: HeadMeasurement, predicted: HeadFilter) -> bool:
         """Whether a measurement matches the head and is near the predicted position."""
         distance = head_filter.mahalanobis_distance(predicted, measured.position, measured.noise)
         if not distance < self.params.max_deviations:
             return False
         return self._matches(state, measured, self.params.min_score)
 
-    def _matches(self, state: HeadState, measured: HeadMeasurement, minimum: float) -> bool:
+    def _matches(self, state: StereoHeadState, measured: HeadMeasurement, minimum: float) -> bool:
         """Whether score and share at the head's depth are at least ``minimum`` of their running means."""
         return (
             measured.match.score >= minimum * state.mean_score
@@ -189,11 +189,11 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
 
     def _learn(
         self,
-        state: HeadState,
+        state: StereoHeadState,
         measured: HeadMeasurement,
         predicted: HeadFilter | None,
         timestamp: float | None,
-    ) -> HeadState:
+    ) -> StereoHeadState:
         """The state after a frame with the head; its colors are learned if they are like the model's.
 
         predicted: the prediction to correct; without it the filter restarts.
@@ -212,7 +212,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
             shifted = self._k.shift_histogram(learned, p.bins, p.max_chroma, head.color)
             learned, model, _ = self._mix(shifted, shifted, 0.0, first)
         off = 0.0 if unlike else match.intersection - state.mean_intersection
-        return HeadState(
+        return StereoHeadState(
             shape=state.shape,
             geometry=state.geometry,
             size=state.size,
@@ -240,7 +240,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
             histogram, measured, rate, first, p.first_frame_weight, p.bins, p.max_chroma
         )
 
-    def _track(self, state: HeadState) -> Track:
+    def _track(self, state: StereoHeadState) -> Track:
         """The track of a state; without a rig it has no position."""
         position = state.filter.position
         box = Box.from_ellipse(*state.geometry.ellipse(position, state.size))
