@@ -6,7 +6,7 @@ import os
 import pytest
 from tricue.doctor import cameras
 from tricue.doctor.finding import Verdict
-from tricue.doctor.probe import Answer
+from tricue.doctor.probe import ProbeAnswer
 
 
 @pytest.fixture
@@ -55,9 +55,9 @@ def test_one_that_may_not_be_opened(system, tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     ("answer", "verdict", "text"),
     [
-        (Answer({"names": ["D435", "D405"]}), Verdict.OK, "D435, D405"),
-        (Answer({"names": []}), Verdict.ABSENT, "none found"),
-        (Answer({}, "RuntimeError: no backend"), Verdict.BROKEN, "RuntimeError: no backend"),
+        (ProbeAnswer({"names": ["D435", "D405"]}), Verdict.OK, "D435, D405"),
+        (ProbeAnswer({"names": []}), Verdict.ABSENT, "none found"),
+        (ProbeAnswer({}, "RuntimeError: no backend"), Verdict.BROKEN, "RuntimeError: no backend"),
     ],
 )
 def test_depth_cameras_are_asked_for_where_their_library_is(system, monkeypatch, answer, verdict, text):

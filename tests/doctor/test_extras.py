@@ -6,7 +6,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 import pytest
 from tricue.doctor import extras
 from tricue.doctor.finding import Verdict
-from tricue.doctor.probe import Answer
+from tricue.doctor.probe import ProbeAnswer
 from tricue.doctor.requirements import Requirement
 
 VERSIONS = {"here": "2.0", "old": "0.9", "odd-one": "1.0"}
@@ -16,10 +16,10 @@ VERSIONS = {"here": "2.0", "old": "0.9", "odd-one": "1.0"}
 def judge(monkeypatch):
     """``judge(requirement, ...)``: the finding on an extra of these packages."""
     monkeypatch.setattr(extras, "installed", lambda package: VERSIONS.get(package, ""))
-    imports: dict[str, Future[Answer]] = {}
+    imports: dict[str, Future[ProbeAnswer]] = {}
     for module, error in {"here": "", "old": "", "odd_one": "OSError: libodd.so: cannot open"}.items():
         imports[module] = Future()
-        imports[module].set_result(Answer({}, error))
+        imports[module].set_result(ProbeAnswer({}, error))
     return lambda *needs: extras.judge("some", needs, imports)
 
 
@@ -63,7 +63,7 @@ def test_only_what_is_installed_is_imported(monkeypatch):
     tried = []
     monkeypatch.setattr(extras, "required", lambda: needs)
     monkeypatch.setattr(extras, "installed", lambda package: VERSIONS.get(package, ""))
-    monkeypatch.setattr(extras, "probe", lambda code: tried.append(code) or Answer({}))
+    monkeypatch.setattr(extras, "probe", lambda code: tried.append(code) or ProbeAnswer({}))
     with ThreadPoolExecutor(1) as pool:
         (found,) = extras.find_extras(pool)
     assert (found.name, found.verdict) == ("a", Verdict.ABSENT)

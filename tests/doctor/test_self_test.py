@@ -4,7 +4,7 @@
 import pytest
 from tricue.doctor import encoders
 from tricue.doctor.finding import Verdict
-from tricue.doctor.probe import Answer
+from tricue.doctor.probe import ProbeAnswer
 from tricue.doctor.self_test import find_self_test, judge
 
 GOOD = {"speed": 5000.0, "same": True, "difference": 1e-13, "off": 1.0}
@@ -30,24 +30,24 @@ def test_this_installation_passes():
 )
 def test_what_is_wrong_is_a_failure(wrong, said):
     """Each of the numbers by itself."""
-    found = judge(Answer({**GOOD, **wrong}))
+    found = judge(ProbeAnswer({**GOOD, **wrong}))
     assert found.verdict is Verdict.FAILED
     assert said in found.text
 
 
 def test_a_crash_is_a_failure():
     """As of kernels for another processor."""
-    found = judge(Answer({}, "ends the process with SIGILL"))
+    found = judge(ProbeAnswer({}, "ends the process with SIGILL"))
     assert (found.verdict, found.text) == (Verdict.FAILED, "ends the process with SIGILL")
 
 
 @pytest.mark.parametrize(
     ("answer", "verdict", "text"),
     [
-        (Answer({"count": 10}), Verdict.OK, "by PyAV"),
-        (Answer({"count": 7}), Verdict.BROKEN, "by PyAV: of 10 frames written 7 can be read"),
-        (Answer({}, "ModuleNotFoundError: No module named 'av'"), Verdict.ABSENT, "needs PyAV"),
-        (Answer({}, "OSError: unknown codec"), Verdict.BROKEN, "by PyAV: OSError: unknown codec"),
+        (ProbeAnswer({"count": 10}), Verdict.OK, "by PyAV"),
+        (ProbeAnswer({"count": 7}), Verdict.BROKEN, "by PyAV: of 10 frames written 7 can be read"),
+        (ProbeAnswer({}, "ModuleNotFoundError: No module named 'av'"), Verdict.ABSENT, "needs PyAV"),
+        (ProbeAnswer({}, "OSError: unknown codec"), Verdict.BROKEN, "by PyAV: OSError: unknown codec"),
     ],
 )
 def test_an_encoder_is_judged_by_what_can_be_read(answer, verdict, text):

@@ -21,7 +21,7 @@ from tricue.track.head_detection.face_detection import (
     MATCH_BONUS,
     MIRRORED,
     WINDOW,
-    Channels,
+    FaceChannels,
     Pixels,
     Vote,
     cells,
@@ -63,11 +63,11 @@ class Model(NamedTuple):
     votes: Sequence[Vote] = ()
     vote_bias: float = 0.0
 
-    def matches(self, channels: Channels) -> Plane:
+    def matches(self, channels: FaceChannels) -> Plane:
         """How well all windows match the template."""
         return match(channels, self.template, self.bias)
 
-    def scores(self, channels: Channels, matches: Plane, y: Pixels, x: Pixels) -> Floats:
+    def scores(self, channels: FaceChannels, matches: Plane, y: Pixels, x: Pixels) -> Floats:
         """The scores of the windows that start at these pixels."""
         if not self.votes:
             return np.asarray(matches[y, x], np.float64)
@@ -94,7 +94,7 @@ def learn(portraits: Sequence[Image], scenes: Sequence[Image], rng: Random) -> M
     return _with_votes(_template(faces, others), faces, others, VOTES, rng)
 
 
-def features(channels: Channels, y: Iterable[int], x: Iterable[int]) -> NDArray[np.float16]:
+def features(channels: FaceChannels, y: Iterable[int], x: Iterable[int]) -> NDArray[np.float16]:
     """All coarse and then all fine cells of the windows that start at these pixels, a row for a window."""
     at_y, at_x = (np.asarray([*at], np.intp)[:, np.newaxis, np.newaxis] for at in (y, x))
     found = []

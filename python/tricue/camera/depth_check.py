@@ -30,7 +30,7 @@ MIN_PEAK, MIN_ADVANTAGE = (4.2, 5.2), (1.3, 1.4)
 """For shifts alone, and for shifts with scales, which are more, so that one fits by chance more easily."""
 
 
-class Fit(NamedTuple):
+class EdgeFit(NamedTuple):
     """The shift and scale of depth after which its edges fit best to those of color.
 
     right, down: pixels. error: how far shift and scale move the image's pixels, root mean square, pixels.
@@ -56,7 +56,7 @@ class DepthCheck(NamedTuple):
 
     edges: int
     width: int
-    fits: tuple[Fit, ...] = ()
+    fits: tuple[EdgeFit, ...] = ()
 
     @property
     def problem(self) -> str:
@@ -95,13 +95,13 @@ def check_depth(color: NDArray[np.uint8], depth: Plane) -> DepthCheck:
     errors = np.sqrt(spread[:, None, None] + shifts[:, None] ** 2 + shifts**2)
     best_registered = max(float(matches[errors <= MAX_REGISTERED_ERROR].max()), 1e-9)
 
-    def best_of(chosen: NDArray[np.intp]) -> Fit:
+    def best_of(chosen: NDArray[np.intp]) -> EdgeFit:
         scale, down, right = np.unravel_index(
             int(matches[chosen].argmax()), (len(chosen), *matches.shape[1:])
         )
         at = chosen[scale], down, right
         match = float(matches[at])
-        return Fit(
+        return EdgeFit(
             step * int(shifts[right]),
             step * int(shifts[down]),
             float(SCALES[at[0]]),

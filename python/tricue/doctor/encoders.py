@@ -5,7 +5,7 @@ from concurrent.futures import Executor
 
 from tricue.doctor.finding import Finding, Verdict
 from tricue.doctor.install import install_extra
-from tricue.doctor.probe import Answer, probe
+from tricue.doctor.probe import ProbeAnswer, probe
 
 SECTION = "Video encoders"
 FRAMES = 10
@@ -45,7 +45,7 @@ def find_encoders(pool: Executor) -> list[Finding]:
     return [_judge(name, answer.result()) for name, answer in answers.items()]
 
 
-def _judge(name: str, answer: Answer) -> Finding:
+def _judge(name: str, answer: ProbeAnswer) -> Finding:
     encoder, _ = ENCODERS[name]
     library = LIBRARIES[encoder]
     if "No module named 'av'" in answer.error:

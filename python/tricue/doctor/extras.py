@@ -6,7 +6,7 @@ from concurrent.futures import Executor, Future
 
 from tricue.doctor.finding import Finding, Verdict
 from tricue.doctor.install import pip
-from tricue.doctor.probe import Answer, probe
+from tricue.doctor.probe import ProbeAnswer, probe
 from tricue.doctor.requirements import FOR_DEVELOPERS, Requirement, installed, required
 
 SECTION = "Extras"
@@ -18,7 +18,7 @@ def find_extras(pool: Executor) -> list[Finding]:
     if not extras:
         return [Finding(SECTION, "extras", Verdict.ABSENT, "unknown, as pip didn't install this tricue")]
     modules = {each.module: each.package for needs in extras.values() for each in needs}
-    imports: dict[str, Future[Answer]] = {
+    imports: dict[str, Future[ProbeAnswer]] = {
         module: pool.submit(probe, f"import {module}\nreport()")
         for module, package in modules.items()
         if installed(package)
@@ -26,7 +26,7 @@ def find_extras(pool: Executor) -> list[Finding]:
     return [judge(name, needs, imports) for name, needs in extras.items()]
 
 
-def judge(name: str, needs: Iterable[Requirement], imports: Mapping[str, Future[Answer]]) -> Finding:
+def judge(name: str, needs: Iterable[Requirement], imports: Mapping[str, Future[ProbeAnswer]]) -> Finding:
     """The finding on an extra's packages. imports: the results of importing the installed ones."""
     there, missing, old, broken = [], [], [], []
     for each in needs:

@@ -5,7 +5,7 @@ from importlib import metadata
 
 from tricue.doctor.finding import Finding, Verdict
 from tricue.doctor.install import pip, short
-from tricue.doctor.probe import Answer, probe
+from tricue.doctor.probe import ProbeAnswer, probe
 from tricue.doctor.requirements import Requirement, installed, required
 
 SECTION = "cv2, OpenCV for Python"
@@ -54,7 +54,7 @@ def _needed() -> Requirement:
     return next((each for each in core if each.package == HEADLESS), Requirement(HEADLESS))
 
 
-def _import(answer: Answer, providers: dict[str, str]) -> Finding:
+def _import(answer: ProbeAnswer, providers: dict[str, str]) -> Finding:
     needed = _needed()
     again = pip("--force-reinstall", "--no-deps", next(iter(providers), str(needed)))
     if answer.error:

@@ -26,14 +26,14 @@ MAX_ERROR = 300  # characters of an error that are shown
 
 
 @dataclass(frozen=True)
-class Answer:
+class ProbeAnswer:
     """The code's report, or why there is none."""
 
     values: dict[str, Any]
     error: str = ""
 
 
-def probe(code: str, seconds: float = SECONDS) -> Answer:
+def probe(code: str, seconds: float = SECONDS) -> ProbeAnswer:
     """Run code that calls ``report(name=value, ...)`` once, by this Python and on its path."""
     indented = "".join(f"    {line}\n" for line in code.strip().splitlines())
     script = _FRAME.format(path=[*map(str, sys.path)], mark=_MARK, code=indented)
@@ -48,19 +48,19 @@ def probe(code: str, seconds: float = SECONDS) -> Answer:
             check=False,
         )
     except subprocess.TimeoutExpired:
-        return Answer({}, f"gives no answer for {seconds:g} s")
+        return ProbeAnswer({}, f"gives no answer for {seconds:g} s")
     except OSError as error:
-        return Answer({}, f"no process can be started: {error.strerror}")
+        return ProbeAnswer({}, f"no process can be started: {error.strerror}")
     return _read(done)
 
 
-def _read(done: "subprocess.CompletedProcess[str]") -> Answer:
+def _read(done: "subprocess.CompletedProcess[str]") -> ProbeAnswer:
     reports = [line for line in done.stdout.splitlines() if line.startswith(_MARK)]
     if not reports:
-        return Answer({}, _ended(done.returncode))
+        return ProbeAnswer({}, _ended(done.returncode))
     values: dict[str, Any] = json.loads(reports[-1].removeprefix(_MARK))
     error = str(values.pop("error", ""))
-    return Answer(values, error if len(error) <= MAX_ERROR else f"{error[:MAX_ERROR]}...")
+    return ProbeAnswer(values, error if len(error) <= MAX_ERROR else f"{error[:MAX_ERROR]}...")
 
 
 def _ended(code: int) -> str:

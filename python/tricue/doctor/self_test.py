@@ -2,7 +2,7 @@
 """Runs a tracker on a rendered target for about a second: is it right and reproducible, and how fast?"""
 
 from tricue.doctor.finding import Finding, Verdict
-from tricue.doctor.probe import Answer, probe
+from tricue.doctor.probe import ProbeAnswer, probe
 
 SECTION = "Self test"
 MAX_ERROR = 3.0
@@ -51,7 +51,7 @@ def find_self_test() -> list[Finding]:
     return [judge(probe(_TRACK))]
 
 
-def judge(answer: Answer) -> Finding:
+def judge(answer: ProbeAnswer) -> Finding:
     """The finding from the test's numbers."""
     name = "color-particle"
     if answer.error:

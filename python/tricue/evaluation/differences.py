@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from tricue.evaluation.evaluate import Evaluation
 from tricue.evaluation.protocols import ONE_PASS
 from tricue.evaluation.rows import by_sequence
-from tricue.evaluation.significance import Comparison, compare
+from tricue.evaluation.significance import TrackerComparison, compare
 
 BETTER: Mapping[str, int] = {
     "auc": 1,
@@ -26,7 +26,9 @@ all frames of a group, so they have no interval over sequences.
 """
 
 
-def comparison(evaluation: Evaluation, group: str, key: str = "auc", protocol: str = ONE_PASS) -> Comparison:
+def comparison(
+    evaluation: Evaluation, group: str, key: str = "auc", protocol: str = ONE_PASS
+) -> TrackerComparison:
     """The trackers that ran on the group, by one of the numbers of BETTER."""
     values = {}
     for spec in evaluation.trackers:

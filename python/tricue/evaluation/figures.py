@@ -17,7 +17,7 @@ from tricue.evaluation.differences import comparison
 from tricue.evaluation.evaluate import Evaluation
 from tricue.evaluation.report.plot_styles import LineStyle, line_styles
 from tricue.evaluation.report.plots import Group, Plot, by_number, dash_pattern, plots_of
-from tricue.evaluation.significance import Comparison, Pair
+from tricue.evaluation.significance import Pair, TrackerComparison
 
 FOLDER = "figures"
 FORMATS = ("pdf", "svg", "png")
@@ -145,7 +145,7 @@ def _legend(axes: Any, styles: Sequence[LineStyle], texts: Sequence[str], marker
     )
 
 
-def _matrix(found: Comparison) -> Callable[[Any], None]:
+def _matrix(found: TrackerComparison) -> Callable[[Any], None]:
     """Differences of the mean AUC, row minus column. Colored: different, adjusted for all pairs; pale: only
     the pair's own interval excludes 0; white: neither.
     """

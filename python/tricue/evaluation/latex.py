@@ -13,7 +13,7 @@ from tricue.evaluation.attributes.results import sequences_with, tracker_lines
 from tricue.evaluation.differences import BETTER, comparison, protocols_of
 from tricue.evaluation.evaluate import Evaluation
 from tricue.evaluation.markdown import unmarked
-from tricue.evaluation.significance import Comparison
+from tricue.evaluation.significance import TrackerComparison
 
 _COLUMNS = {
     "auc": "AUC",
@@ -107,7 +107,7 @@ def _by_attribute(evaluation: Evaluation, group: str, lines: Sequence[dict[str, 
     return _table(["Attribute", "sequences", *map(escape, trackers)], rows, caption, f"{group}-attributes")
 
 
-def _cell(found: Comparison, tracker: str, key: str) -> str:
+def _cell(found: TrackerComparison, tracker: str, key: str) -> str:
     """The mean, bold if among the best; for AUC with its interval."""
     interval = found.means.get(tracker)
     if interval is None or math.isnan(interval.mean):
@@ -129,7 +129,7 @@ def _caption(evaluation: Evaluation, group: str) -> str:
     return f"{count} sequence{'s' if count != 1 else ''} of the group ``{escape(group)}''."
 
 
-def _told(found: Comparison) -> str:
+def _told(found: TrackerComparison) -> str:
     if not found.telling:
         return "Too few recordings to tell trackers apart."
     about = _BOLD if found.separable else unmarked(len(found.pairs)) if found.pairs else ""

@@ -11,7 +11,7 @@ from tricue.evaluation.dataset import short_names
 from tricue.evaluation.differences import comparison, protocols_of
 from tricue.evaluation.evaluate import Evaluation
 from tricue.evaluation.protocols import ONE_PASS
-from tricue.evaluation.significance import Comparison
+from tricue.evaluation.significance import TrackerComparison
 from tricue.evaluation.tables import Line, speeds, summary
 
 _PRINTED_COLUMNS = {
@@ -61,7 +61,7 @@ def markdown(evaluation: Evaluation) -> str:
     return "\n\n".join(found)
 
 
-def telling(found: Comparison) -> str:
+def telling(found: TrackerComparison) -> str:
     """A sentence on what a group's table can show."""
     if not found.telling:
         count = "one recording" if found.recordings == 1 else f"{found.recordings} recordings"
@@ -87,7 +87,7 @@ def unmarked(pairs: int) -> str:
     )
 
 
-def interval_text(found: Comparison, tracker: str) -> str:
+def interval_text(found: TrackerComparison, tracker: str) -> str:
     """The ends of a tracker's interval, with a * if it is among the best; "-" without an interval."""
     _, low, high = found.means[tracker]
     if math.isnan(low):
@@ -95,7 +95,7 @@ def interval_text(found: Comparison, tracker: str) -> str:
     return f"[{low:.2f}, {high:.2f}]{' *' if tracker in found.leaders() else ''}"
 
 
-def _protocol_table(group: str, compared: Mapping[str, Comparison]) -> str:
+def _protocol_table(group: str, compared: Mapping[str, TrackerComparison]) -> str:
     """AUC with its interval, by protocol."""
     rows = [[f"{group}: AUC", *compared], ["---"] * (len(compared) + 1)]
     for tracker in dict.fromkeys(name for each in compared.values() for name in each.means):
@@ -112,7 +112,7 @@ def _group_table(
     group: str,
     lines: Sequence[Line],
     speeds_by_tracker: Mapping[tuple[str, str], Line],
-    found: Comparison,
+    found: TrackerComparison,
 ) -> str:
     columns = [name for name in _PRINTED_COLUMNS if any(not math.isnan(line[name]) for line in lines)]
     if "true_negative" not in columns:

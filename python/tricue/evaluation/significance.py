@@ -45,7 +45,7 @@ class Pair:
 
 
 @dataclass(frozen=True, slots=True)
-class Comparison:
+class TrackerComparison:
     """Several trackers, compared by one number. means: by tracker. pairs: all with a sequence in common."""
 
     means: Mapping[str, Interval]
@@ -84,7 +84,7 @@ class Comparison:
         return frozenset({best, *equals})
 
 
-def compare(values: Mapping[str, Values], recordings: Mapping[str, str]) -> Comparison:
+def compare(values: Mapping[str, Values], recordings: Mapping[str, str]) -> TrackerComparison:
     """Compare trackers. values: by tracker. recordings: the recording of each sequence; sequences of one
     recording are resampled together, and a sequence not listed is a recording of its own.
     """
@@ -97,7 +97,7 @@ def compare(values: Mapping[str, Values], recordings: Mapping[str, str]) -> Comp
     pairs = [each for each in found if each is not None]
     adjusted = holm([each.p for each in pairs])
     sequences = {sequence for each in known.values() for sequence in each}
-    return Comparison(
+    return TrackerComparison(
         means,
         [_with_adjusted(each, p) for each, p in zip(pairs, adjusted, strict=True)],
         len({recordings.get(each, each) for each in sequences}),

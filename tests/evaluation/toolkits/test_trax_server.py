@@ -19,7 +19,7 @@ from tricue.doctor.install import install_extra
 from tricue.evaluation.toolkits import trax_server
 from tricue.evaluation.toolkits.trax_server import (
     EMPTY_BOX,
-    Answer,
+    TraxReply,
     TraxSession,
     TraxTracker,
     bounding_box,
@@ -311,12 +311,12 @@ def test_answers_are_finite_and_confidences_in_range() -> None:
     session, frame = TraxSession(lambda _: Scripted(*tracks)), Frame(np.zeros((9, 9, 3), np.uint8))  # type: ignore[arg-type,return-value]
     with pytest.raises(RuntimeError, match="expected initialize"):
         session.follow(frame)
-    assert session.start(frame, Box(1, 2, 3, 4)) == Answer(Box(1, 2, 3, 4), 0.5)
+    assert session.start(frame, Box(1, 2, 3, 4)) == TraxReply(Box(1, 2, 3, 4), 0.5)
     assert [session.follow(frame) for _ in tracks] == [
-        Answer(Box(4, 5, 6, 7), 0.0),
-        Answer(Box(4, 5, 6, 7), 0.0),
-        Answer(Box(8, 5, 6, 7), 0.0),
-        Answer(Box(9, 5, 6, 7), 1.0),
+        TraxReply(Box(4, 5, 6, 7), 0.0),
+        TraxReply(Box(4, 5, 6, 7), 0.0),
+        TraxReply(Box(8, 5, 6, 7), 0.0),
+        TraxReply(Box(9, 5, 6, 7), 1.0),
     ]
 
 
@@ -326,7 +326,7 @@ def test_a_session_survives_a_start_but_no_bad_frame(images: Path) -> None:
     with pytest.warns(UserWarning, match="not started"):
         assert session.start(frame_of(images, 1, "depth"), Box(900, 9, 9, 9)).confidence == 0
     with pytest.warns(UserWarning, match="not started"):
-        assert session.start(frame_of(images, 1, "depth"), Box(*[math.nan] * 4)) == Answer(EMPTY_BOX, 0)
+        assert session.start(frame_of(images, 1, "depth"), Box(*[math.nan] * 4)) == TraxReply(EMPTY_BOX, 0)
     with pytest.raises(ValueError, match="channel depth"):
         session.start(frame_of(images, 1), Box(20, 20, 30, 30))
 
@@ -335,7 +335,7 @@ def test_an_error_of_any_class_names_the_files(images: Path) -> None:
     """It proves that the reason reaches the client, also of a class that isn't made from a text alone."""
 
     class Broken:
-        def follow(self, frame: Frame) -> Answer:
+        def follow(self, frame: Frame) -> TraxReply:
             raise UnicodeDecodeError("utf-8", b"x", 0, 1, "invalid start byte")
 
     image = SimpleNamespace(path=lambda: str(images / "color" / "1.png"))

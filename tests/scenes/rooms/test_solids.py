@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 from tricue.camera.rig import Intrinsics
 from tricue.scenes.rendering.stereo_camera import Lamp, RayCamera, RayImage
-from tricue.scenes.rooms.solids import Pose, make_box, make_can
+from tricue.scenes.rooms.solids import Placement, make_box, make_can
 
 CAMERA = Intrinsics.from_fov(160, 120, 60.0)
 LAMP = Lamp(np.array([0.0, -1.0, 0.0]), 0.6)
@@ -34,7 +34,7 @@ def test_a_box_is_closed_from_all_sides(seed):
     """Its faces, those turned away left out, are what rays meet that enter a box, but at its border."""
     rng = np.random.default_rng(seed)
     size = rng.uniform(0.2, 0.5, 3)
-    pose = Pose.at(np.array([0.05, 0.1, 1.5]), *rng.uniform(-3, 3, 3))
+    pose = Placement.at(np.array([0.05, 0.1, 1.5]), *rng.uniform(-3, 3, 3))
     found, true = depth_of(make_box(size, [GRAY]).placed(pose)), box_depth(size, pose)
     both = np.isfinite(found) & np.isfinite(true)
     assert both.sum() > 300
@@ -44,7 +44,7 @@ def test_a_box_is_closed_from_all_sides(seed):
 
 def test_a_can_is_round_and_has_a_lid():
     """Seen from above, it is as wide as its diameter at all heights, without gaps; the lid is its highest."""
-    pose = Pose.at(np.array([0, 0.1, 1.0]), tilt=-0.5)
+    pose = Placement.at(np.array([0, 0.1, 1.0]), tilt=-0.5)
     depth = depth_of(make_can(0.1, 0.25, GRAY, GRAY, LAMP).placed(pose))
     seen = np.isfinite(depth)
     for row in np.flatnonzero(seen.any(axis=1))[8:-8]:
@@ -58,7 +58,7 @@ def test_box_is_around_the_pixels(seed):
     """Of a box and a can's lid and sides, to a pixel."""
     rng = np.random.default_rng(seed)
     solid = make_box(np.array([0.2, 0.3, 0.1]), [GRAY]) + make_can(0.08, 0.4, GRAY, GRAY, LAMP)
-    placed = solid.placed(Pose.at(np.array([0, 0.15, 1.2]), *rng.uniform(-0.6, 0.6, 3)))
+    placed = solid.placed(Placement.at(np.array([0, 0.15, 1.2]), *rng.uniform(-0.6, 0.6, 3)))
     rows, columns = np.nonzero(np.isfinite(depth_of(placed)))
     x, y, width, height = placed.box(CAMERA)
     found = [columns.min(), rows.min(), columns.max() + 1, rows.max() + 1]
@@ -67,5 +67,5 @@ def test_box_is_around_the_pixels(seed):
 
 def test_behind_the_camera_there_is_no_box():
     """A thing that is partly behind the camera has none."""
-    near = make_box(np.array([0.2, 0.2, 0.4]), [GRAY]).placed(Pose.at(np.array([0, 0, 0.1])))
+    near = make_box(np.array([0.2, 0.2, 0.4]), [GRAY]).placed(Placement.at(np.array([0, 0, 0.1])))
     assert np.isnan(near.box(CAMERA)).all()

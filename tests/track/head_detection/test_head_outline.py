@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, kernels
-from tricue.track.head_detection.head_outline import Outline, find_outline
+from tricue.track.head_detection.head_outline import HeadOutline, find_outline
 
 Image = NDArray[np.uint8]
 ASPECT = 0.22 / 0.17
@@ -31,7 +31,7 @@ def moved(box: Box, right: float, down: float, scale: float) -> Box:
     return Box.from_ellipse(x + right * box.width, y + down * box.height, width / 2, height / 2)
 
 
-def find(image: Image, box: Box) -> Outline:
+def find(image: Image, box: Box) -> HeadOutline:
     """The outline by native kernels."""
     return find_outline(kernels.load("native"), image, box)
 
@@ -68,7 +68,7 @@ def test_edges_that_run_anywhere_are_none() -> None:
     stripes = np.where(np.arange(300) // 4 % 2, 200, 50).astype(np.uint8) * np.ones((240, 1), np.uint8)
     assert find(cv2.GaussianBlur(noise, (0, 0), 2), box).evidence < 0.4
     assert find(stripes, box).evidence < 0.4
-    assert find(np.full((240, 300, 3), 90, np.uint8), box) == Outline(0.0, box)
+    assert find(np.full((240, 300, 3), 90, np.uint8), box) == HeadOutline(0.0, box)
 
 
 def test_a_head_at_the_border_is_no_error() -> None:

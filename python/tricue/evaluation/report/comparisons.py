@@ -13,7 +13,7 @@ from tricue.evaluation.markdown import telling
 from tricue.evaluation.report.markup import Html, joined, number, scrolled, tag
 from tricue.evaluation.report.plot_styles import LineStyle, swatch
 from tricue.evaluation.report.plots import by_number
-from tricue.evaluation.significance import Comparison, Pair
+from tricue.evaluation.significance import Pair, TrackerComparison
 
 
 def interval(low: float, high: float, digits: int = 2) -> Html | None:
@@ -23,7 +23,7 @@ def interval(low: float, high: float, digits: int = 2) -> Html | None:
     return tag("small", f"[{low:.{digits}f}, {high:.{digits}f}]", class_="interval")
 
 
-def told(found: Comparison) -> Html:
+def told(found: TrackerComparison) -> Html:
     """A sentence on what the table above it can show."""
     return tag("p", telling(found).replace("*:", "Marked:"), class_="note")
 
@@ -138,7 +138,7 @@ def _name(tracker: str, styles: Mapping[str, LineStyle]) -> Html:
     return tag("th", swatch(styles[tracker]), tag("span", tracker, class_="who"), scope="row")
 
 
-def _mean_cell(found: Comparison, tracker: str, leaders: frozenset[str]) -> Html:
+def _mean_cell(found: TrackerComparison, tracker: str, leaders: frozenset[str]) -> Html:
     each = found.means.get(tracker)
     if each is None or math.isnan(each.mean):
         return tag("td", number(math.nan))
@@ -148,7 +148,7 @@ def _mean_cell(found: Comparison, tracker: str, leaders: frozenset[str]) -> Html
     return tag("td", inner, interval(each.low, each.high), class_="best" if best else None)
 
 
-def _pair_cell(found: Comparison, first: str, second: str) -> Html:
+def _pair_cell(found: TrackerComparison, first: str, second: str) -> Html:
     pair = None if first == second else found.pair(first, second)
     if pair is None:
         return tag("td", class_="none")

@@ -11,7 +11,7 @@ from tricue.evaluation.report.columns import Column, best, with_numbers
 from tricue.evaluation.report.comparisons import interval, told
 from tricue.evaluation.report.markup import Html, scrolled, tag
 from tricue.evaluation.report.plot_styles import LineStyle, swatch
-from tricue.evaluation.significance import Comparison
+from tricue.evaluation.significance import TrackerComparison
 
 Line = dict[str, Any]
 
@@ -25,7 +25,7 @@ def summary_table(
     total: int,
     ours: set[str],
     styles: Mapping[str, LineStyle],
-    compared: Mapping[str, Comparison],
+    compared: Mapping[str, TrackerComparison],
 ) -> Html:
     """lines: the summary's and the speeds' lines of the group, merged. total: the group's sequences.
     compared: the comparison by column; in columns of times, which aren't compared, only the best is marked.
@@ -59,7 +59,7 @@ def summary_table(
 
 
 def _marked(
-    column: Column, lines: Sequence[Line], whole: set[str], compared: Mapping[str, Comparison]
+    column: Column, lines: Sequence[Line], whole: set[str], compared: Mapping[str, TrackerComparison]
 ) -> frozenset[str]:
     """The trackers whose numbers are marked, of those that ran on all sequences."""
     if column.key in compared:
@@ -84,7 +84,9 @@ def _who(line: Line, total: int, ours: set[str], styles: Mapping[str, LineStyle]
     return tag("th", swatch(styles[name]), tag("span", name, class_="who"), badge, few, scope="row")
 
 
-def _cell(column: Column, line: Line, marked: frozenset[str], compared: Mapping[str, Comparison]) -> Html:
+def _cell(
+    column: Column, line: Line, marked: frozenset[str], compared: Mapping[str, TrackerComparison]
+) -> Html:
     value, is_best = line[column.key], line["tracker"] in marked
     text = column.text(value)
     if math.isnan(value):

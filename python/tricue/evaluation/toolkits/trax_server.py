@@ -36,7 +36,7 @@ EMPTY_BOX = Box(0.0, 0.0, 0.0, 0.0)  # VOT's convention for an absent target
 Errors = (OSError, RuntimeError, TypeError, ValueError)
 
 
-class Answer(NamedTuple):
+class TraxReply(NamedTuple):
     """The reply for a frame: the target's box, pixels, and the confidence in [0, 1]."""
 
     box: Box
@@ -108,21 +108,21 @@ class TraxSession:
     def __init__(self, make: Callable[[Frame], Tracker]) -> None:
         self._make = make
         self._tracker: Tracker | None = None
-        self._answer: Answer | None = None
+        self._answer: TraxReply | None = None
 
-    def start(self, frame: Frame, box: Box) -> Answer:
+    def start(self, frame: Frame, box: Box) -> TraxReply:
         """Start anew on the box, enlarged to MIN_BOX_SIZE. Errors in the frame are raised."""
         tracker = self._make(frame)
         try:
             track = tracker.init(frame, widen_box(box))
         except BoxError as error:
             warnings.warn(f"not started, the answer is the box itself: {error}", stacklevel=2)
-            self._tracker, self._answer = None, Answer(box if _finite(box) else EMPTY_BOX, 0.0)
+            self._tracker, self._answer = None, TraxReply(box if _finite(box) else EMPTY_BOX, 0.0)
         else:
             self._tracker, self._answer = tracker, make_answer(track, box)
         return self._answer
 
-    def follow(self, frame: Frame) -> Answer:
+    def follow(self, frame: Frame) -> TraxReply:
         """The answer for the next frame; RuntimeError before ``start``."""
         if self._answer is None:
             raise RuntimeError("expected initialize before the next frame")
@@ -131,13 +131,13 @@ class TraxSession:
         return self._answer
 
 
-def make_answer(track: Track, last: Box) -> Answer:
+def make_answer(track: Track, last: Box) -> TraxReply:
     """The box and score of a track. A box that isn't finite is replaced by the last one: a NaN would make the
     VOT toolkit abort the whole evaluation.
     """
     if not _finite(track.box):
-        return Answer(last, 0.0)
-    return Answer(track.box, min(max(track.score, 0.0), 1.0) if math.isfinite(track.score) else 0.0)
+        return TraxReply(last, 0.0)
+    return TraxReply(track.box, min(max(track.score, 0.0), 1.0) if math.isfinite(track.score) else 0.0)
 
 
 def widen_box(box: Box) -> Box:

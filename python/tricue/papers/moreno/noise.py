@@ -104,7 +104,7 @@ def _printed(rig: StereoRig) -> Floats:
     return np.array(fit_polynomials(StereoGeometry.of(rig), StereoHeadParams.paper()))
 
 
-class Fit(NamedTuple):
+class CubicFit(NamedTuple):
     """One model's quantity over distance: means (K,) at K distances, and a cubic polynomial."""
 
     distances: Floats
@@ -117,7 +117,7 @@ class Fit(NamedTuple):
         return float(np.sqrt(np.mean(self.means**2)))
 
 
-def fit(runs: Sequence[NoiseRun], model: str, index: int) -> Fit:
+def fit(runs: Sequence[NoiseRun], model: str, index: int) -> CubicFit:
     """Root mean squares over the seeds at each distance, and a cubic polynomial fitted to them.
 
     The fit minimizes relative errors, because the values grow by an order of magnitude.
@@ -132,7 +132,7 @@ def fit(runs: Sequence[NoiseRun], model: str, index: int) -> Fit:
     polynomial = np.zeros(4)
     weights = 1 / np.maximum(means, MIN_RELATIVE_VALUE * means.max())
     polynomial[3 - order :] = np.polyfit(distances, means, order, w=weights)
-    return Fit(distances, means, polynomial)
+    return CubicFit(distances, means, polynomial)
 
 
 def summarize(runs: Sequence[NoiseRun]) -> str:

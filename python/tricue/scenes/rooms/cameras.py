@@ -8,7 +8,7 @@ import numpy as np
 
 from tricue.scenes.arrays import Array
 from tricue.scenes.motion import sample_sway
-from tricue.scenes.rooms.solids import Pose
+from tricue.scenes.rooms.solids import Placement
 
 DOWN = np.array([0.0, 1, 0])
 TREMBLE = 0.004  # radians, of a handheld camera
@@ -22,7 +22,7 @@ class Viewpoint(NamedTuple):
     azimuth: float
     pitch: float
 
-    def pose(self) -> Pose:
+    def pose(self) -> Placement:
         """The pose that transforms the world into the camera's frame."""
         level = self.distance * math.cos(self.pitch)
         away = np.array([level * math.sin(self.azimuth), self.distance * math.sin(self.pitch), 0])
@@ -31,15 +31,15 @@ class Viewpoint(NamedTuple):
         right = np.cross(DOWN, forward)
         right /= np.linalg.norm(right)
         rotation = np.stack([right, np.cross(forward, right), forward])
-        return Pose(rotation, -rotation @ (self.look_at - away))
+        return Placement(rotation, -rotation @ (self.look_at - away))
 
 
-def stand(view: Viewpoint, frames: int) -> list[Pose]:
+def stand(view: Viewpoint, frames: int) -> list[Placement]:
     """The poses of a camera on a stand."""
     return [view.pose()] * frames
 
 
-def hold(view: Viewpoint, frames: int, rate: float, rng: np.random.Generator) -> list[Pose]:
+def hold(view: Viewpoint, frames: int, rate: float, rng: np.random.Generator) -> list[Placement]:
     """The poses of a handheld camera, which moves about, nearer and farther, and around."""
     time = np.arange(frames) / rate
     around, up, near, *aside = (sample_sway(time, 2.0, 6.0, rng) for _ in range(6))
@@ -58,7 +58,7 @@ def hold(view: Viewpoint, frames: int, rate: float, rng: np.random.Generator) ->
     return [_turned(pose, shake) for pose, shake in zip(poses, shakes, strict=True)]
 
 
-def _turned(pose: Pose, angles: Array) -> Pose:
+def _turned(pose: Placement, angles: Array) -> Placement:
     yaw, tilt, roll = angles.tolist()
-    turn = Pose.at(np.zeros(3), yaw, roll, tilt).rotation
-    return Pose(turn @ pose.rotation, turn @ pose.offset)
+    turn = Placement.at(np.zeros(3), yaw, roll, tilt).rotation
+    return Placement(turn @ pose.rotation, turn @ pose.offset)

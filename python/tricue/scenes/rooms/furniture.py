@@ -6,7 +6,7 @@ import numpy as np
 from tricue.scenes.arrays import Array
 from tricue.scenes.rendering.stereo_camera import Lamp
 from tricue.scenes.rooms import looks
-from tricue.scenes.rooms.solids import Pose, Solid, make_box
+from tricue.scenes.rooms.solids import Placement, Solid, make_box
 from tricue.scenes.rooms.things import TARGET_SHAPES, Thing, make_thing
 
 TABLE_HEIGHT, TABLE_THICKNESS = 0.73, 0.03  # meters
@@ -28,7 +28,7 @@ def make_shell(floor: float, back: float, front: float, rng: np.random.Generator
     for side in (-1, 1):
         at = np.array([side * (ROOM_WIDTH + thick) / 2, floor, middle])
         shell.append((np.array([thick, WALL_HEIGHT, deep]), at, wall))
-    walls = [Thing(make_box(size, [cover]).placed(Pose.at(at)), size) for size, at, cover in shell]
+    walls = [Thing(make_box(size, [cover]).placed(Placement.at(at)), size) for size, at, cover in shell]
     return walls + [_make_panel(floor, back, rng) for _ in range(int(rng.integers(1, 4)))]
 
 
@@ -37,19 +37,19 @@ def _make_panel(floor: float, back: float, rng: np.random.Generator) -> Thing:
     size = np.array([rng.uniform(0.4, 1.5), rng.uniform(0.4, 1.2), 0.01])
     at = np.array([rng.uniform(-2.0, 2.0), floor - rng.uniform(0.5, 1.6), back - 0.01])
     cover = looks.cover(looks.THING_KINDS[:1], 64, 96, rng) * np.float32(rng.choice([0.25, 1.0]))
-    return Thing(make_box(size, [cover]).placed(Pose.at(at)), size, shiny=True)
+    return Thing(make_box(size, [cover]).placed(Placement.at(at)), size, shiny=True)
 
 
 def make_table(width: float, depth: float, rng: np.random.Generator) -> list[Thing]:
     """A table, a plate and four legs, whose top is at y = 0 with its center at the origin."""
     plate = np.array([width, TABLE_THICKNESS, depth])
     top = make_box(plate, [looks.furniture_cover(256, 384, rng)]).placed(
-        Pose.at(np.array([0, TABLE_THICKNESS, 0]))
+        Placement.at(np.array([0, TABLE_THICKNESS, 0]))
     )
     leg = np.array([0.05, TABLE_HEIGHT - TABLE_THICKNESS, 0.05])
     cover = looks.furniture_cover(64, 16, rng)
     corners = [(x * (width / 2 - 0.06), z * (depth / 2 - 0.06)) for x in (-1, 1) for z in (-1, 1)]
-    legs = [make_box(leg, [cover]).placed(Pose.at(np.array([x, TABLE_HEIGHT, z]))) for x, z in corners]
+    legs = [make_box(leg, [cover]).placed(Placement.at(np.array([x, TABLE_HEIGHT, z]))) for x, z in corners]
     shiny = bool(rng.random() < 0.2)
     return [Thing(top, plate, shiny), *(Thing(each, leg) for each in legs)]
 
@@ -71,7 +71,7 @@ def scatter_things(count: int, free: Array, area: Array, lamp: Lamp, rng: np.ran
         if (np.hypot(*(taken[:, :2] - place).T) < taken[:, 2] + radius + MIN_CLEARANCE).any():
             continue
         taken = np.vstack([taken, [*place, radius]])
-        pose = Pose.at(np.array([place[0], 0, place[1]]), yaw=rng.uniform(-np.pi, np.pi))
+        pose = Placement.at(np.array([place[0], 0, place[1]]), yaw=rng.uniform(-np.pi, np.pi))
         made.append(thing._replace(solid=thing.solid.placed(pose)))
     return made
 

@@ -17,7 +17,7 @@ from tricue.scenes.rendering.stereo_camera import Lamp
 from tricue.scenes.rooms import cameras
 from tricue.scenes.rooms.cameras import Viewpoint
 from tricue.scenes.rooms.furniture import TABLE_HEIGHT, make_shell, make_table, scatter_things
-from tricue.scenes.rooms.solids import Pose, Solid
+from tricue.scenes.rooms.solids import Placement, Solid
 from tricue.scenes.rooms.things import TARGET_SHAPES, Thing, make_hand, make_thing
 
 DURATIONS = {4.0: 10.0, 15.0: 5.0, 30.0: 3.0}  # seconds, by frames per second
@@ -35,7 +35,7 @@ class RoomPlan:
 
     rate: float
     lamp: Lamp
-    cameras: list[Pose]
+    cameras: list[Placement]
     still: list[Thing]
     target: list[Solid]
     shiny: bool  # whether the target is shiny
@@ -69,7 +69,7 @@ class _Table:
     def time(self) -> Array:
         return np.arange(self.frames) / self.rate
 
-    def plan(self, camera: list[Pose], target: list[Solid]) -> RoomPlan:
+    def plan(self, camera: list[Placement], target: list[Solid]) -> RoomPlan:
         return RoomPlan(self.rate, self.lamp, camera, self.still, target, self.thing.shiny)
 
     def path(self, reach: tuple[float, float], speed: float) -> Array:
@@ -84,7 +84,7 @@ class _Table:
         forearm = np.array([side, self.rng.uniform(-0.4, 0.1), self.rng.uniform(-0.2, 0.7)])
         length = max(MIN_SLEEVE, 3 * self.half_view)  # it ends outside the image
         hand = make_hand(forearm / np.linalg.norm(forearm), thing.size, length, self.rng)
-        return hand.placed(Pose.at(np.array([0, -GRIP_SHARE * thing.size[1], 0])))
+        return hand.placed(Placement.at(np.array([0, -GRIP_SHARE * thing.size[1], 0])))
 
 
 def plan_room(kind: str, camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
@@ -129,7 +129,7 @@ def _set_table(
 def stand_on_table(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
     """The target stands on a table; the camera is handheld."""
     made = _set_table(camera, rng)
-    pose = Pose.at(made.place, yaw=rng.uniform(-0.6, 0.6))
+    pose = Placement.at(made.place, yaw=rng.uniform(-0.6, 0.6))
     target = [made.thing.solid.placed(pose)] * made.frames
     return made.plan(cameras.hold(made.view, made.frames, made.rate, rng), target)
 
@@ -139,7 +139,7 @@ def lean_on_wall(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
     made = _set_table(camera, rng, against_wall=True)
     flat = np.diag([1.0, 1.0, min(0.02 / made.thing.size[2], 1.0)])
     tilt = -rng.uniform(0.08, 0.3)
-    lean = Pose.at(made.place - [0, 0, made.thing.size[1] * math.sin(-tilt) + 0.01], tilt=tilt)
+    lean = Placement.at(made.place - [0, 0, made.thing.size[1] * math.sin(-tilt) + 0.01], tilt=tilt)
     squeezed = Solid(
         tuple(
             face._replace(corner=flat @ face.corner, along=flat @ face.along, down=flat @ face.down)
@@ -159,7 +159,7 @@ def push_over_table(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
     path = made.path(reach, rng.uniform(0.3, 0.9))
     yaw = rng.uniform(-0.4, 0.4) + 0.3 * sample_sway(made.time, 1.5, 4.0, rng)
     hand = made.hand(made.thing)
-    poses = [Pose.at(at, yaw=turn) for at, turn in zip(path, yaw.tolist(), strict=True)]
+    poses = [Placement.at(at, yaw=turn) for at, turn in zip(path, yaw.tolist(), strict=True)]
     plan = made.plan(cameras.stand(made.view, made.frames), [made.thing.solid.placed(pose) for pose in poses])
     plan.movers = [[hand.placed(pose) for pose in poses]]
     return plan
@@ -173,7 +173,7 @@ def hold_in_hand(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
     turns = rng.uniform(0.1, 0.5, 3) * np.stack(
         [sample_sway(made.time, 1.0, 3.0, rng) for _ in range(3)], axis=1
     )
-    poses = [Pose.at(at, *turn) for at, turn in zip(path, turns.tolist(), strict=True)]
+    poses = [Placement.at(at, *turn) for at, turn in zip(path, turns.tolist(), strict=True)]
     hold = rng.random() < 0.4
     camera_poses = (
         cameras.hold(made.view, made.frames, made.rate, rng)
@@ -204,9 +204,9 @@ def pass_before(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
     whole = other.solid + made.hand(other)
     plan = made.plan(
         cameras.stand(made.view, made.frames),
-        [made.thing.solid.placed(Pose.at(made.place, yaw=rng.uniform(-0.5, 0.5)))] * made.frames,
+        [made.thing.solid.placed(Placement.at(made.place, yaw=rng.uniform(-0.5, 0.5)))] * made.frames,
     )
-    plan.movers = [[whole.placed(Pose.at(toward + [x, 0, 0])) for x in across.tolist()]]
+    plan.movers = [[whole.placed(Placement.at(toward + [x, 0, 0])) for x in across.tolist()]]
     return plan
 
 
@@ -228,7 +228,7 @@ def return_elsewhere(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
         made.time, [out - 0.1, out + 0.1, back, back + 0.12 * last, last], [0, 0.08, 0.08, 0.04, 0]
     )
     path = made.place + np.column_stack([x, -lifted, z])
-    poses = [Pose.at(at) for at in path]
+    poses = [Placement.at(at) for at in path]
     # The hand comes from the side, and leaves when the target stands.
     away = np.interp(made.time, [out - 0.3, out - 0.1, back + 0.25 * last, back + 0.4 * last], [1, 0, 0, 1])
     hand = made.hand(made.thing)
@@ -236,7 +236,7 @@ def return_elsewhere(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
     side = np.sign(hand.balls.centers[0, 0])
     plan.movers = [
         [
-            hand.placed(Pose.at(pose.offset + [side * 2 * beyond * share, 0, 0]))
+            hand.placed(Placement.at(pose.offset + [side * 2 * beyond * share, 0, 0]))
             for pose, share in zip(poses, away.tolist(), strict=True)
         ]
     ]
@@ -260,7 +260,7 @@ def walk_on_floor(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
             *make_table(1.4, 0.7, rng),
             *scatter_things(3, np.zeros((0, 3)), np.array([0.7, 0.35]), lamp, rng),
         ]
-        desks += [each._replace(solid=each.solid.placed(Pose.at(at))) for each in set_table]
+        desks += [each._replace(solid=each.solid.placed(Placement.at(at))) for each in set_table]
     view = Viewpoint(np.array([0, -0.9, 3.2]), 3.2, 0.0, math.atan2(height - 0.9, 3.2))
     plan = RoomPlan(
         rate, lamp, cameras.stand(view, frames), [*make_shell(0.0, back, -1.0, rng), *desks], people[0], False

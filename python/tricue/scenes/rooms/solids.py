@@ -28,14 +28,14 @@ LID_THICKNESS = 0.002  # meters
 LIGHT_ON_FACES = np.array([1.0, 0.85, 0.75, 0.9, 0.6, 0.4])  # front, left, right, top, back, bottom
 
 
-class Pose(NamedTuple):
+class Placement(NamedTuple):
     """A rotation (3, 3) and a translation (3,), meters."""
 
     rotation: Array
     offset: Array
 
     @classmethod
-    def at(cls, offset: Array, yaw: float = 0.0, roll: float = 0.0, tilt: float = 0.0) -> "Pose":
+    def at(cls, offset: Array, yaw: float = 0.0, roll: float = 0.0, tilt: float = 0.0) -> "Placement":
         """Rotate by roll about z, tilt about x, then yaw about y, in radians; then move by ``offset``."""
         (cy, sy), (cr, sr), (ct, st) = ((math.cos(a), math.sin(a)) for a in (yaw, roll, tilt))
         about_y = np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]])
@@ -63,7 +63,7 @@ class Solid(NamedTuple):
         balls = OrientedEllipsoids(*(np.concatenate(arrays) for arrays in pairs))
         return Solid(self.faces + other.faces, balls, self.skins + other.skins)
 
-    def placed(self, pose: Pose) -> "Solid":
+    def placed(self, pose: Placement) -> "Solid":
         """The thing, transformed by a pose."""
         turn = pose.rotation
         faces = tuple(

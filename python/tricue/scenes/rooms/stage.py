@@ -9,7 +9,7 @@ from tricue.camera.rig import StereoRig
 from tricue.scenes.arrays import Array, Mask, Picture
 from tricue.scenes.rendering.stereo_camera import RayCamera, RayImage
 from tricue.scenes.rooms.plan import RoomPlan
-from tricue.scenes.rooms.solids import Pose, Solid
+from tricue.scenes.rooms.solids import Placement, Solid
 
 BACKGROUND = 90.0  # gray level beyond the room
 
@@ -40,8 +40,8 @@ class RoomStage:
     plan: RoomPlan
     rig: StereoRig
     rays: int
-    _pictures: dict[float, tuple[Pose, RayImage]] = field(default_factory=dict)
-    _views: list[tuple[Pose, RayImage, Mask]] = field(default_factory=list)
+    _pictures: dict[float, tuple[Placement, RayImage]] = field(default_factory=dict)
+    _views: list[tuple[Placement, RayImage, Mask]] = field(default_factory=list)
 
     def picture(self, index: int, right: bool = False) -> Picture:
         """The color image (H, W, 3) of a frame for the left or the right camera, before noise."""
@@ -77,7 +77,7 @@ class RoomStage:
             RoomView(canvas.depth.astype(np.float64), mask, shiny), alone.depth, target.placed(pose), self.rig
         )
 
-    def _still_view(self, pose: Pose) -> tuple[RayImage, Mask]:
+    def _still_view(self, pose: Placement) -> tuple[RayImage, Mask]:
         """A copy of the image of the static things, and its shiny pixels."""
         if not self._views or self._views[0][0] is not pose:
             canvas = _empty(self._probe)
@@ -94,7 +94,7 @@ class RoomStage:
     def _probe(self) -> RayCamera:
         return RayCamera(self.rig.intrinsics, 0.0, 1)
 
-    def _draw(self, camera: RayCamera, canvas: RayImage, solid: Solid, pose: Pose) -> None:
+    def _draw(self, camera: RayCamera, canvas: RayImage, solid: Solid, pose: Placement) -> None:
         lamp = self.plan.lamp
         solid.placed(pose).draw(camera, canvas, lamp._replace(direction=pose.rotation @ lamp.direction))
 

@@ -66,7 +66,7 @@ class PlaneVotes(NamedTuple):
     vote: Floats
 
 
-class Channels(NamedTuple):
+class FaceChannels(NamedTuple):
     """planes: of all channels. mean, spread: of gray and redness, in the window that starts at a pixel."""
 
     planes: list[Plane]
@@ -169,7 +169,7 @@ def _reduced(image: Image, smallest: int) -> Iterator[tuple[Image, float]]:
         side *= SCALE_STEP
 
 
-def channels_of(image: Image) -> Channels:
+def channels_of(image: Image) -> FaceChannels:
     """All channels of a BGR image."""
     blue, green, red = (np.asarray(each, np.float32) for each in cv2.split(image))
     gray = np.float32(0.114) * blue + np.float32(0.587) * green + np.float32(0.299) * red
@@ -188,7 +188,7 @@ def channels_of(image: Image) -> Channels:
         np.sqrt(np.maximum(cells(each * each, WINDOW) - middle * middle, 0)) + np.float32(noise)
         for each, middle, noise in zip((gray, redness), mean, (GRAY_NOISE, REDNESS_NOISE), strict=True)
     ]
-    return Channels([*gradients, gray, redness], mean, spread)
+    return FaceChannels([*gradients, gray, redness], mean, spread)
 
 
 def cells(plane: Plane, side: int) -> Plane:
@@ -198,7 +198,7 @@ def cells(plane: Plane, side: int) -> Plane:
     )
 
 
-def match(channels: Channels, template: Plane = TEMPLATE, bias: float = BIAS) -> Plane:
+def match(channels: FaceChannels, template: Plane = TEMPLATE, bias: float = BIAS) -> Plane:
     """How well each window matches the template; 0 where a face is as likely as not."""
     total: Plane = np.full_like(channels.planes[0], bias)
     for channel, weights in enumerate(template):
@@ -215,7 +215,7 @@ def match(channels: Channels, template: Plane = TEMPLATE, bias: float = BIAS) ->
 
 
 def votes(
-    channels: Channels, y: Pixels, x: Pixels, table: Sequence[Vote] = VOTES, bias: float = VOTE_BIAS
+    channels: FaceChannels, y: Pixels, x: Pixels, table: Sequence[Vote] = VOTES, bias: float = VOTE_BIAS
 ) -> Floats:
     """The sums of votes for the windows that start at these pixels."""
     total = np.full(len(y), bias)

@@ -26,7 +26,7 @@ DEVIATION, LOG_DEVIATION = 0.3, 0.15  # of the place, in head sizes, and of the 
 PRIOR = 0.1  # weight of their squared deviations relative to the edges
 
 
-class Outline(NamedTuple):
+class HeadOutline(NamedTuple):
     """evidence: how well the edges follow it, at most 1, minus a penalty for its distance from the given box;
     about 0 for edges in random directions.
     """
@@ -75,7 +75,7 @@ def _places(shape: tuple[int, int], aspect: float) -> _Places:
     )
 
 
-def find_outline(k: Kernels, image: Image, box: Box) -> Outline:
+def find_outline(k: Kernels, image: Image, box: Box) -> HeadOutline:
     """The best outline of the head in a box, pixels of an image, BGR or gray."""
     aspect = box.height / box.width
     largest = np.exp(LOG_SIZES[-1]) * WIDTH / 2
@@ -92,7 +92,7 @@ def find_outline(k: Kernels, image: Image, box: Box) -> Outline:
     factor = float(np.exp(LOG_SIZES[size])) / 2
     middle = x + float(places.x[place]) * scale, y + float(places.y[place]) * scale
     found = Box.from_ellipse(*middle, factor * box.width, factor * box.height)
-    return Outline(float(evidence[size, place]), found)
+    return HeadOutline(float(evidence[size, place]), found)
 
 
 def _edges(patch: Image) -> tuple[Singles, Singles]:

@@ -27,7 +27,7 @@ BODY_HIDDEN = 0.2  # share of a shoulder, or of the chest, that may be hidden or
 FULL_WEIGHT = 0.1  # weight of the shares' sum, to decide between places with equal smallest shares
 
 
-class Candidate(NamedTuple):
+class HeadCandidate(NamedTuple):
     """prominence: how much of a head, of a body and of free space around the head is seen; at most 1.2.
 
     box: that of the head's upright ellipse, pixels of the disparities.
@@ -65,7 +65,7 @@ MASK_SHAPE = MASKS["head"].shape
 HEAD_CENTER = (MASK_SHAPE[1] / 2, 1.4 * CELLS)  # x, y in the masks
 
 
-def heads_in_disparities(disparities: Map, baseline: float) -> list[Candidate]:
+def heads_in_disparities(disparities: Map, baseline: float) -> list[HeadCandidate]:
     """The best head in each layer of disparities (H, W), pixels, NaN where missing.
 
     baseline: meters, between the cameras.
@@ -83,7 +83,7 @@ def heads_in_disparities(disparities: Map, baseline: float) -> list[Candidate]:
         if best is not None:
             score, x, y = best
             box = Box.from_ellipse(x, y, head / 2, head / 2 * HEAD_HEIGHT / HEAD_WIDTH)
-            found.append(Candidate(score, box))
+            found.append(HeadCandidate(score, box))
         disparity *= LAYER_STEP
     return found
 

@@ -13,7 +13,7 @@ from tricue.camera.shared_frame import SharedFrame
 ALIGNMENT = 64  # bytes, of an image's first pixel
 
 
-class Layout(NamedTuple):
+class MemoryLayout(NamedTuple):
     """The places of a frame's images in the memory.
 
     images: the name, type, shape, and first byte of each. size: bytes in total. others: the frame's other
@@ -25,7 +25,7 @@ class Layout(NamedTuple):
     others: dict[str, Any]
 
     @classmethod
-    def of(cls, frame: SharedFrame) -> "Layout":
+    def of(cls, frame: SharedFrame) -> "MemoryLayout":
         """The layout with the images in sequence."""
         images, end = [], 0
         for name in frame.channels:
@@ -46,25 +46,25 @@ class FrameMemory:
         self.close = weakref.finalize(self, os.close, self.file)  # mappings stay valid
         self._map: mmap.mmap | None = None
 
-    def write(self, frame: SharedFrame) -> Layout:
+    def write(self, frame: SharedFrame) -> MemoryLayout:
         """Copy a frame into the memory; it replaces the previous one."""
-        layout = Layout.of(frame)
+        layout = MemoryLayout.of(frame)
         if os.fstat(self.file).st_size < layout.size:
             os.ftruncate(self.file, layout.size)
         for name, place in self._named(layout, mmap.ACCESS_WRITE):
             np.copyto(place, getattr(frame, name))
         return layout
 
-    def read(self, layout: Layout) -> SharedFrame:
+    def read(self, layout: MemoryLayout) -> SharedFrame:
         """The frame in the memory, valid until the next is written; its images are read-only."""
         return SharedFrame(**dict(self._named(layout, mmap.ACCESS_READ)), **layout.others)
 
-    def copy(self, layout: Layout) -> SharedFrame:
+    def copy(self, layout: MemoryLayout) -> SharedFrame:
         """The frame in the memory, with copies of its images."""
         images = {name: view.copy() for name, view in self._named(layout, mmap.ACCESS_READ)}
         return SharedFrame(**images, **layout.others)
 
-    def _named(self, layout: Layout, access: int) -> list[tuple[str, np.ndarray[Any, Any]]]:
+    def _named(self, layout: MemoryLayout, access: int) -> list[tuple[str, np.ndarray[Any, Any]]]:
         """The images' names, and arrays that view them."""
         if self._map is None or len(self._map) < layout.size:
             self._map = mmap.mmap(self.file, layout.size, access=access)

@@ -15,7 +15,7 @@ from tricue.camera.box import BoxLike, as_box
 from tricue.camera.shared_frame import SharedFrame
 from tricue.errors import WorkerEndedError
 from tricue.track.base.track import Track, Tracker
-from tricue.track.multi.frame_memory import FrameMemory, Layout
+from tricue.track.multi.frame_memory import FrameMemory, MemoryLayout
 from tricue.track.multi.messages import WAKE, from_plain, poller, receive, send, stay_awake, unpicklable
 from tricue.track.multi.target_group import TargetGroup
 
@@ -77,7 +77,7 @@ class RemoteTargets(TargetGroup):
         """Announce an update, so that the other process wakes up while this one writes the frame."""
         self._send(WAKE)
 
-    def start_update(self, number: int, layout: Layout) -> None:
+    def start_update(self, number: int, layout: MemoryLayout) -> None:
         """Start following all targets into the frame in memory; :meth:`finish_update` gives the tracks."""
         self._send("update", number, layout)
 

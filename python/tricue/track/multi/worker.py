@@ -10,7 +10,7 @@ from typing import Any
 from tricue.camera.box import BoxLike
 from tricue.camera.shared_frame import SharedFrame
 from tricue.track.base.track import Track, Tracker
-from tricue.track.multi.frame_memory import FrameMemory, Layout
+from tricue.track.multi.frame_memory import FrameMemory, MemoryLayout
 from tricue.track.multi.messages import (
     WAKE,
     PlainTracks,
@@ -34,18 +34,18 @@ class Worker:
         self.undo, self.copies = self._targets.undo, self._targets.copies
 
     def add(
-        self, target: int, tracker: Tracker, layout: Layout, box: BoxLike | None
+        self, target: int, tracker: Tracker, layout: MemoryLayout, box: BoxLike | None
     ) -> tuple[Track, list[str]]:
         """Start a tracker; return its first track and the warnings."""
         frame = self._frame(layout, keeps_images(tracker))
         return self._targets.add(target, tracker, frame, box), frame.messages
 
-    def update(self, number: int, layout: Layout) -> tuple[PlainTracks, list[str]]:
+    def update(self, number: int, layout: MemoryLayout) -> tuple[PlainTracks, list[str]]:
         """The tracks of all targets, and the warnings."""
         frame = self._frame(layout, self._targets.keep_images)
         return to_plain(self._targets.update(number, frame)), frame.messages
 
-    def _frame(self, layout: Layout, kept: bool) -> SharedFrame:
+    def _frame(self, layout: MemoryLayout, kept: bool) -> SharedFrame:
         """The frame in the memory, which the next one overwrites, so a copy if its images may be kept."""
         return self._memory.copy(layout) if kept else self._memory.read(layout)
 
