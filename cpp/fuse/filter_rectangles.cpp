@@ -33,7 +33,7 @@ States project(VectorRef camera, StatesRef states, double middle) {
 }
 
 /// Middles of rows x columns equal parts of [-1, 1] x [-1, 1].
-States grid_pattern(const Places& places) {
+States grid_pattern(const RectanglePattern& places) {
     States pattern(Index{places.rows} * places.columns, 2);
     const auto middle = [](int i, int n) { return (2 * i + 1) / static_cast<double>(n) - 1.0; };
     for (int row = 0; row < places.rows; ++row)

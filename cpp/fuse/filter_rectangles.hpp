@@ -28,7 +28,7 @@ struct Refinement {
 struct DepthLikelihood {
     ReferenceHistogram model;
     double middle;
-    Places places;
+    RectanglePattern places;
     double reach, occluder_margin;
     bool linear;
     double sharpness, contrast;

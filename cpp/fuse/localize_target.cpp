@@ -108,21 +108,22 @@ void require_arguments(const ImageView& patch, const PlaneView& other, const Tar
 
 }  // namespace
 
-LocalizedTarget localize_target(const ImageView& patch, FloatsRef taper, const TargetLook& look,
+LocalizedTarget localize_target(const ImageView& patch, FloatsRef taper, const TargetAppearance& appearance,
                                 const PlaneView& other, const TargetSearch& search) {
     require_arguments(patch, other, search);
-    const int bits = bits_of(look.roots);
+    const int bits = bits_of(appearance.roots);
     const FloatPlanes cells = hog_color_cells(patch, taper);
     const int rows = static_cast<int>(taper.rows()), cols = static_cast<int>(taper.cols()),
-              filters = look.filters.filters;
-    Floats responses = correlation_response(cells.view(), look.filters);
+              filters = appearance.filters.filters;
+    Floats responses = correlation_response(cells.view(), appearance.filters);
     const Vector peak = evidence_peak({responses.data(), filters, rows, cols},
-                                      find_contrast(patch, look.table, other, search),
+                                      find_contrast(patch, appearance.table, other, search),
                                       {search.filter_weight, search.contrast_weight});
     Vector found(peak.size() + 2);
     found.head(peak.size()) = peak;
     found[peak.size()] = peak_sharpness(responses.data(), taper.size(), peak[5]);
-    found[peak.size() + 1] = color_similarity(patch, look.roots, bits, 2 * peak[0], 2 * peak[1], search);
+    found[peak.size() + 1] =
+        color_similarity(patch, appearance.roots, bits, 2 * peak[0], 2 * peak[1], search);
     return {std::move(found), std::move(responses)};
 }
 

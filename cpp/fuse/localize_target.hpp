@@ -9,7 +9,7 @@
 namespace tricue {
 
 /// The appearance of a target.
-struct TargetLook {
+struct TargetAppearance {
     FilterStack filters;  ///< of its place: the first one localizes it, then others
     FloatsRef table;      ///< P(target | color) as color_posterior takes it, or empty
     VectorRef roots;      ///< square roots of the joint histogram with which colors are compared
@@ -51,7 +51,7 @@ struct LocalizedTarget {
 /// @param inner finite, above 0
 /// @throws std::invalid_argument on other shapes, or numbers out of range
 /// Source: Danelljan et al. 2014 (DSST); Bertinetto et al. 2016 (Staple); Bolme et al. 2010 (MOSSE).
-LocalizedTarget localize_target(const ImageView& patch, FloatsRef taper, const TargetLook& look,
+LocalizedTarget localize_target(const ImageView& patch, FloatsRef taper, const TargetAppearance& appearance,
                                 const PlaneView& other, const TargetSearch& search);
 
 }  // namespace tricue

@@ -54,19 +54,19 @@ States mixed(const EllipseNoise& noise, Eigen::Index N) {
 
 FilteredEllipses rank_filter(const ImageView& image, const WeightedEllipses& last, const EllipseNoise& noise,
                              const Dynamics& dynamics, const Bounds& bounds, const Detection& detection,
-                             const Windows& windows, const ColorLook& look, const LookWeights& weights,
-                             double flat) {
+                             const EllipsePattern& pattern, const ColorAppearance& appearance,
+                             const LikelihoodWeights& weights, double flat) {
     require_valid(last);
     const States before = chosen(last);
     States moved = propose(before, dynamics, mixed(noise, before.rows()), detection, bounds);
-    RankMeter meter(image, windows, look, weights);
-    Vector log_likelihood = meter.log_likelihood(moved);
+    RankLikelihood likelihood(image, pattern, appearance, weights);
+    Vector log_likelihood = likelihood.log_likelihood(moved);
     if (!last.offset) add_logarithms(last.weights, log_likelihood);
     Reweighted posterior = reweight(log_likelihood, moved, before, dynamics, detection);
     Summary summary = summarize(moved, posterior.weights);
     const Eigen::Map<const States> estimate(summary.mean.data(), 1, 4);
-    const double its_own = meter.log_likelihood(estimate)[0];
-    RankWindow window = meter.first_window(flat);
+    const double its_own = likelihood.log_likelihood(estimate)[0];
+    RankWindow window = likelihood.first_window(flat);
     return {std::move(moved),
             std::move(posterior.weights),
             summary.effective,

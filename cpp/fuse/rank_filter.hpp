@@ -48,7 +48,7 @@ struct FilteredEllipses {
 /// Source: Sabeti, Parvizi, Wu 2008, section III, equations (2), (30), (31).
 FilteredEllipses rank_filter(const ImageView& image, const WeightedEllipses& last, const EllipseNoise& noise,
                              const Dynamics& dynamics, const Bounds& bounds, const Detection& detection,
-                             const Windows& windows, const ColorLook& look, const LookWeights& weights,
-                             double flat);
+                             const EllipsePattern& pattern, const ColorAppearance& appearance,
+                             const LikelihoodWeights& weights, double flat);
 
 }  // namespace tricue

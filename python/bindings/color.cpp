@@ -52,12 +52,13 @@ Array<double> rank_likelihood_arrays(const Bytes& image, const Array<double>& el
                                      const Array<float>& table, double sharpness, double contrast_weight) {
     const auto view = color_image(image, "image");
     const auto each = states(ellipses, "ellipses");
-    const Windows windows{states(inside, "inside"), states(around, "around")};
-    const auto places = windows.inside.rows();
-    const ColorLook look{rank_maps(models, places), vector(shares, "shares"), nearest, color_cube(table)};
-    const LookWeights weights{sharpness, contrast_weight};
-    return give(
-        unlocked(each.rows() * places, [&] { return rank_likelihood(view, each, windows, look, weights); }));
+    const EllipsePattern pattern{states(inside, "inside"), states(around, "around")};
+    const auto places = pattern.inside.rows();
+    const ColorAppearance appearance{rank_maps(models, places), vector(shares, "shares"), nearest,
+                                     color_cube(table)};
+    const LikelihoodWeights weights{sharpness, contrast_weight};
+    return give(unlocked(each.rows() * places,
+                         [&] { return rank_likelihood(view, each, pattern, appearance, weights); }));
 }
 
 std::tuple<Array<float>, Array<double>> rank_window_arrays(const Bytes& image, const Array<double>& ellipse,
@@ -87,10 +88,10 @@ std::tuple<Array<float>, Array<float>, Array<float>> learn_contrast_arrays(
     double rare) {
     const auto view = color_image(image, "image");
     const auto where = vector(ellipse, "ellipse");
-    const Windows windows{states(inside, "inside"), states(around, "around")};
+    const EllipsePattern pattern{states(inside, "inside"), states(around, "around")};
     const auto known = color_cube(target, "target"), other = color_cube(surround, "surround");
     auto [own, round, rule] = unlocked(
-        known.size(), [&] { return learn_contrast(view, where, windows, known, other, rate, rare); });
+        known.size(), [&] { return learn_contrast(view, where, pattern, known, other, rate, rare); });
     const std::vector<py::ssize_t> cube(3, known.cols());
     return {give(std::move(own), cube), give(std::move(round), cube), give(std::move(rule), cube)};
 }

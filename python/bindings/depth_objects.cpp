@@ -68,7 +68,7 @@ Array<double> depth_contrast_arrays(const Array<float>& depth, const Array<doubl
     const auto lens = vector(camera, "camera");
     const auto each = states(states_, "states");
     const ReferenceHistogram target{vector(model, "model"), reach};
-    const Places places{grid.first, grid.second, ring.first, ring.second};
+    const RectanglePattern places{grid.first, grid.second, ring.first, ring.second};
     const auto work = work_of(grid.first, grid.second, each.rows());
     return give(
         unlocked(work, [&] { return depth_contrast(meters, lens, each, target, places, occluder_margin); }));

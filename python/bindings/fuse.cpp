@@ -90,12 +90,13 @@ rank_filter_arrays(const Array<std::uint8_t>& image, const Array<double>& partic
     const Vector moves[] = {numbers(drift), numbers(scale), numbers(lower), numbers(upper), numbers(mean)};
     const States factor = lower_triangle(root);
     const Detection detection{moves[4], factor, share};
-    const Windows windows{states(inside, "inside"), states(around, "around")};
-    const auto places = windows.inside.rows();
-    const ColorLook look{rank_maps(models, places), vector(shares, "shares"), nearest, color_cube(table)};
+    const EllipsePattern pattern{states(inside, "inside"), states(around, "around")};
+    const auto places = pattern.inside.rows();
+    const ColorAppearance appearance{rank_maps(models, places), vector(shares, "shares"), nearest,
+                                     color_cube(table)};
     auto result = unlocked(last.particles.rows() * places, [&] {
-        return rank_filter(view, last, draws, {moves[0], moves[1]}, {moves[2], moves[3]}, detection, windows,
-                           look, {sharpness, contrast_weight}, flat);
+        return rank_filter(view, last, draws, {moves[0], moves[1]}, {moves[2], moves[3]}, detection, pattern,
+                           appearance, {sharpness, contrast_weight}, flat);
     });
     return {give(std::move(result.particles)),
             give(std::move(result.weights)),

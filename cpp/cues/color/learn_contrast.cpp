@@ -38,11 +38,11 @@ constexpr double kUnseen = 0.0;  // P(target) of a color that neither target nor
 
 }  // namespace
 
-ColorContrast learn_contrast(const ImageView& image, VectorRef ellipse, const Windows& windows,
+ColorContrast learn_contrast(const ImageView& image, VectorRef ellipse, const EllipsePattern& pattern,
                              FloatsRef target, FloatsRef surround, double rate, double rare) {
     require_size(ellipse, 4, "ellipse");
     require_finite(ellipse, "ellipse");
-    EllipseSampler inside(image, windows.inside, "inside"), around(image, windows.around, "around");
+    EllipseSampler inside(image, pattern.inside, "inside"), around(image, pattern.around, "around");
     require_histograms(target, surround, rate, rare);
     return learn_histograms(seen_histogram(inside, ellipse.data(), target),
                             seen_histogram(around, ellipse.data(), surround), target, surround, rate, rare,

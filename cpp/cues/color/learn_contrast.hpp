@@ -28,7 +28,7 @@ struct ColorContrast {
 /// @param rare above 0: the share of a cell below which it says little about either side
 /// @throws std::invalid_argument on other or mismatched shapes, or a rate or rare out of range
 /// Source: ours; the histograms are those of Vezhnevets, Sazonov, Andreeva 2003, section 3.1.
-ColorContrast learn_contrast(const ImageView& image, VectorRef ellipse, const Windows& windows,
+ColorContrast learn_contrast(const ImageView& image, VectorRef ellipse, const EllipsePattern& pattern,
                              FloatsRef target, FloatsRef surround, double rate, double rare);
 
 }  // namespace tricue

@@ -51,18 +51,18 @@ private:
 };
 
 /// The mean of M distances, weighted by their shares, or the smallest.
-double combined(const double* distances, const ColorLook& look) {
-    const Eigen::Index M = look.shares.size();
-    if (look.nearest) return *std::min_element(distances, distances + M);
+double combined(const double* distances, const ColorAppearance& appearance) {
+    const Eigen::Index M = appearance.shares.size();
+    if (appearance.nearest) return *std::min_element(distances, distances + M);
     double mean = 0.0;
-    for (Eigen::Index m = 0; m < M; ++m) mean += look.shares[m] * distances[m];
+    for (Eigen::Index m = 0; m < M; ++m) mean += appearance.shares[m] * distances[m];
     return mean;
 }
 
-void require_valid(const ColorLook& look, const LookWeights& weights) {
-    if (look.models.rows() < 1) refuse("models", "at least one rank map", "none");
-    require_size(look.shares, look.models.rows(), "shares");
-    require_finite(look.shares, "shares");
+void require_valid(const ColorAppearance& appearance, const LikelihoodWeights& weights) {
+    if (appearance.models.rows() < 1) refuse("models", "at least one rank map", "none");
+    require_size(appearance.shares, appearance.models.rows(), "shares");
+    require_finite(appearance.shares, "shares");
     if (!std::isfinite(weights.sharpness)) refuse("sharpness", "a finite number", weights.sharpness);
     if (!std::isfinite(weights.contrast_weight))
         refuse("contrast_weight", "a finite number", weights.contrast_weight);
@@ -70,35 +70,35 @@ void require_valid(const ColorLook& look, const LookWeights& weights) {
 
 }  // namespace
 
-struct RankMeter::Parts {
+struct RankLikelihood::Parts {
     Reader inside, around;
     RankMaps maps;
-    const ColorLook& look;
-    LookWeights weights;
+    const ColorAppearance& appearance;
+    LikelihoodWeights weights;
     int bits;
     Vector distances;
     std::vector<std::uint8_t> planes;
 };
 
-RankMeter::RankMeter(const ImageView& image, const Windows& windows, const ColorLook& look,
-                     const LookWeights& weights) {
+RankLikelihood::RankLikelihood(const ImageView& image, const EllipsePattern& pattern,
+                               const ColorAppearance& appearance, const LikelihoodWeights& weights) {
     constexpr std::ptrdiff_t kBatch = EllipseSampler::kBatch;
-    Reader inside(image, windows.inside, "inside"), around(image, windows.around, "around");
-    require_valid(look, weights);
-    RankMaps maps(look.models, windows.inside.rows());
-    const int bits = bits_of_cube(look.table, "table");
+    Reader inside(image, pattern.inside, "inside"), around(image, pattern.around, "around");
+    require_valid(appearance, weights);
+    RankMaps maps(appearance.models, pattern.inside.rows());
+    const int bits = bits_of_cube(appearance.table, "table");
     Vector distances(kBatch * maps.size());
-    std::vector<std::uint8_t> planes(static_cast<std::size_t>(3 * windows.inside.rows() * kBatch));
-    parts_ = std::make_unique<Parts>(Parts{std::move(inside), std::move(around), std::move(maps), look,
+    std::vector<std::uint8_t> planes(static_cast<std::size_t>(3 * pattern.inside.rows() * kBatch));
+    parts_ = std::make_unique<Parts>(Parts{std::move(inside), std::move(around), std::move(maps), appearance,
                                            weights, bits, std::move(distances), std::move(planes)});
 }
 
-RankMeter::~RankMeter() = default;
+RankLikelihood::~RankLikelihood() = default;
 
-Vector RankMeter::log_likelihood(StatesRef ellipses) {
+Vector RankLikelihood::log_likelihood(StatesRef ellipses) {
     require_shape(ellipses, ellipses.rows(), 4, "ellipses");
     require_finite(ellipses, "ellipses");
-    auto& [inside, around, maps, look, weights, bits, distances, planes] = *parts_;
+    auto& [inside, around, maps, appearance, weights, bits, distances, planes] = *parts_;
     const Eigen::Index N = ellipses.rows(), M = maps.size();
     const std::ptrdiff_t n = inside.sampler().size();
     constexpr std::ptrdiff_t kBatch = EllipseSampler::kBatch;
@@ -111,8 +111,9 @@ Vector RankMeter::log_likelihood(StatesRef ellipses) {
         inside.sampler().split(words, count, planes.data());
         maps.compare({planes.data(), count, n}, distances.data());
         for (std::ptrdiff_t i = 0; i < count; ++i) {
-            const double distance = combined(distances.data() + M * i, look);
-            const double contrast = inside.mean(i, look.table.data()) - around.mean(i, look.table.data());
+            const double distance = combined(distances.data() + M * i, appearance);
+            const double contrast =
+                inside.mean(i, appearance.table.data()) - around.mean(i, appearance.table.data());
             log_likelihood[first + i] =
                 weights.contrast_weight * contrast - weights.sharpness * distance * distance;
         }
@@ -120,14 +121,15 @@ Vector RankMeter::log_likelihood(StatesRef ellipses) {
     return log_likelihood;
 }
 
-RankWindow RankMeter::first_window(double flat) const {
-    return compare_window(parts_->planes.data(), parts_->inside.sampler().size(), parts_->look.models, flat);
+RankWindow RankLikelihood::first_window(double flat) const {
+    return compare_window(parts_->planes.data(), parts_->inside.sampler().size(), parts_->appearance.models,
+                          flat);
 }
 
-Vector rank_likelihood(const ImageView& image, StatesRef ellipses, const Windows& windows,
-                       const ColorLook& look, const LookWeights& weights) {
+Vector rank_likelihood(const ImageView& image, StatesRef ellipses, const EllipsePattern& pattern,
+                       const ColorAppearance& appearance, const LikelihoodWeights& weights) {
     require_shape(ellipses, ellipses.rows(), 4, "ellipses");
-    return RankMeter(image, windows, look, weights).log_likelihood(ellipses);
+    return RankLikelihood(image, pattern, appearance, weights).log_likelihood(ellipses);
 }
 
 }  // namespace tricue

@@ -10,14 +10,14 @@
 namespace tricue {
 
 /// The places at which an ellipse and its surround are sampled.
-struct Windows {
+struct EllipsePattern {
     /// float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in sample_ellipses
     StatesRef inside;
     StatesRef around;  ///< float64 (m, 2): places (u, v) around it
 };
 
 /// What a target looks like: rank maps and their shares, and a table over colors.
-struct ColorLook {
+struct ColorAppearance {
     FloatsRef
         models;  ///< float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1; in C++ M rows of 3 n
     VectorRef shares;  ///< float64 (M,): weight of each map in the mean distance, finite
@@ -26,18 +26,18 @@ struct ColorLook {
 };
 
 /// How much a distance and a contrast count.
-struct LookWeights {
+struct LikelihoodWeights {
     double sharpness;        ///< nats, finite
     double contrast_weight;  ///< nats, finite
 };
 
 /// Measures as rank_likelihood, more than once in an image. The arguments of its constructor must outlive it.
-class RankMeter {
+class RankLikelihood {
 public:
     /// @throws std::invalid_argument as rank_likelihood
-    RankMeter(const ImageView& image, const Windows& windows, const ColorLook& look,
-              const LookWeights& weights);
-    ~RankMeter();
+    RankLikelihood(const ImageView& image, const EllipsePattern& pattern, const ColorAppearance& appearance,
+                   const LikelihoodWeights& weights);
+    ~RankLikelihood();
 
     Vector log_likelihood(StatesRef ellipses);
 
@@ -60,7 +60,7 @@ private:
 /// @returns float64 (N,)
 /// @throws std::invalid_argument as the kernels that it combines, on a pattern without places, or without maps
 /// Source: orders of corresponding pixels, Sabeti, Parvizi, Wu 2008, section III.B; the contrast is ours.
-Vector rank_likelihood(const ImageView& image, StatesRef ellipses, const Windows& windows,
-                       const ColorLook& look, const LookWeights& weights);
+Vector rank_likelihood(const ImageView& image, StatesRef ellipses, const EllipsePattern& pattern,
+                       const ColorAppearance& appearance, const LikelihoodWeights& weights);
 
 }  // namespace tricue

@@ -33,18 +33,18 @@ Offsets part_centers(int n) {
     return places;
 }
 
-std::size_t places_inside(const Places& places) {
+std::size_t places_inside(const RectanglePattern& places) {
     return static_cast<std::size_t>(places.rows) * static_cast<std::size_t>(places.columns);
 }
 
-std::size_t places_around(const Places& places) {
+std::size_t places_around(const RectanglePattern& places) {
     return 4 * static_cast<std::size_t>(places.along);
 }
 
 /// Depths of the places in the image, inside a rectangle and then around it; each padded with zeros as RelativeHistogram needs it.
 class DepthSamples {
 public:
-    explicit DepthSamples(const Places& places)
+    explicit DepthSamples(const RectanglePattern& places)
         : inside_(RelativeHistogram::padded(places_inside(places))),
           depths_(inside_ + RelativeHistogram::padded(places_around(places))) {}
 
@@ -58,11 +58,11 @@ private:
     std::vector<float> depths_;
 };
 
-struct Rectangle {
+struct ProjectedRectangle {
     double x, y, half_width, half_height, z;
 };
 
-Rectangle project(VectorRef camera, const double* state) {
+ProjectedRectangle project(VectorRef camera, const double* state) {
     const double z = state[2], per_x = camera[0] / z, per_y = camera[1] / z;
     return {state[0] * per_x + (camera[2] + 0.5), state[1] * per_y + (camera[3] + 0.5),
             0.5 * (state[3] * per_x), 0.5 * (state[4] * per_y), z};
@@ -135,12 +135,12 @@ private:
 /// Reads the depths of one rectangle after the other, inside and around it.
 class GridReader {
 public:
-    GridReader(const DepthView& depth, const Places& places)
+    GridReader(const DepthView& depth, const RectanglePattern& places)
         : depth_(depth),
           x_(places.columns, places.margin, places.along),
           y_(places.rows, places.margin, places.along) {}
 
-    void read(const Rectangle& rectangle, DepthSamples& samples) {
+    void read(const ProjectedRectangle& rectangle, DepthSamples& samples) {
         x_.find(rectangle.x, rectangle.half_width, depth_.cols);
         y_.find(rectangle.y, rectangle.half_height, depth_.rows);
         const Pixels columns = x_.inside(), across = x_.along(), down = y_.along();
@@ -165,7 +165,7 @@ void require_states(StatesRef states) {
         if (!(states(i, 2) > 0.0)) refuse("states", "Z above 0", states(i, 2));
 }
 
-void require_arguments(VectorRef camera, const ReferenceHistogram& model, const Places& places,
+void require_arguments(VectorRef camera, const ReferenceHistogram& model, const RectanglePattern& places,
                        double occluder_margin) {
     require_camera(camera);
     require_count(places.rows, 1, kMaxSamples, "rows");
@@ -189,7 +189,7 @@ struct RectangleContrast::Parts {
 };
 
 RectangleContrast::RectangleContrast(const DepthView& depth, VectorRef camera,
-                                     const ReferenceHistogram& model, const Places& places,
+                                     const ReferenceHistogram& model, const RectanglePattern& places,
                                      double occluder_margin) {
     require_arguments(camera, model, places, occluder_margin);
     const std::size_t inside = places_inside(places), around = places_around(places);
@@ -240,13 +240,14 @@ Vector RectangleContrast::shares() const {
 }
 
 States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states,
-                      const ReferenceHistogram& model, const Places& places, double occluder_margin) {
+                      const ReferenceHistogram& model, const RectanglePattern& places,
+                      double occluder_margin) {
     require_states(states);
     return RectangleContrast(depth, camera, model, places, occluder_margin).measure(states, true);
 }
 
-Vector depth_shares(const DepthView& depth, VectorRef camera, const double* state, const Places& places,
-                    double z, double reach, Eigen::Index levels) {
+Vector depth_shares(const DepthView& depth, VectorRef camera, const double* state,
+                    const RectanglePattern& places, double z, double reach, Eigen::Index levels) {
     DepthSamples samples(places);
     GridReader(depth, places).read(project(camera, state), samples);
     RelativeHistogram histogram(levels, reach, places_inside(places));

@@ -10,7 +10,7 @@
 namespace tricue {
 
 /// Where an upright rectangle is read: `grid` inside and `ring` around it.
-struct Places {
+struct RectanglePattern {
     int rows, columns;
     double margin;
     int along;
@@ -37,14 +37,15 @@ struct Places {
 /// @throws std::invalid_argument on other shapes or values
 /// Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to Z, the share in front and the ring are ours.
 States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states,
-                      const ReferenceHistogram& model, const Places& places, double occluder_margin);
+                      const ReferenceHistogram& model, const RectanglePattern& places,
+                      double occluder_margin);
 
 /// The same for several sets of rectangles, one after the other, with memory that is reused.
 class RectangleContrast {
 public:
     /// Camera and model must outlive it.
     RectangleContrast(const DepthView& depth, VectorRef camera, const ReferenceHistogram& model,
-                      const Places& places, double occluder_margin);
+                      const RectanglePattern& places, double occluder_margin);
     ~RectangleContrast();
 
     /// (N, 4), as by depth_contrast; the share that is nearer only if wanted, else 0.
@@ -62,7 +63,7 @@ private:
 ///
 /// @param state (5,), finite, Z above 0
 /// @returns (levels,) of sum 1; all 0 where nothing counts
-Vector depth_shares(const DepthView& depth, VectorRef camera, const double* state, const Places& places,
-                    double z, double reach, Eigen::Index levels);
+Vector depth_shares(const DepthView& depth, VectorRef camera, const double* state,
+                    const RectanglePattern& places, double z, double reach, Eigen::Index levels);
 
 }  // namespace tricue

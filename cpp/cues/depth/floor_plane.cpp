@@ -57,7 +57,7 @@ double dot(const Vector3d& a, const Vector3d& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-void require_level(const Level& level) {
+void require_level(const LevelRule& level) {
     require_size(level.up, 3, "up");
     require_finite(level.up, "up");
     const double length = std::sqrt(dot(level.up.matrix(), level.up.matrix()));
@@ -103,7 +103,7 @@ Vector3d point_at(const DepthView& depth, const Rays& rays, std::int64_t index) 
 }
 
 /// The plane through a point, oriented so that the camera is above it; nothing if it isn't level enough, or is seen edge-on.
-std::optional<Plane> level_plane(const Vector3d& normal, const Vector3d& point, const Level& level) {
+std::optional<Plane> level_plane(const Vector3d& normal, const Vector3d& point, const LevelRule& level) {
     Plane plane{normal, -dot(normal, point)};
     if (plane.d < 0.0) plane = {-plane.n, -plane.d};
     const bool visible = plane.d > kMinViewSine * std::sqrt(dot(point, point));
@@ -112,7 +112,7 @@ std::optional<Plane> level_plane(const Vector3d& normal, const Vector3d& point, 
 }
 
 std::optional<Plane> plane_through(const Vector3d& p, const Vector3d& q, const Vector3d& r,
-                                   const Level& level) {
+                                   const LevelRule& level) {
     const Vector3d a = q - p, b = r - p, normal = a.cross(b);
     const double square = dot(normal, normal);
     if (!(square > kMinSineSquared * dot(a, a) * dot(b, b))) return {};  // NaN too
@@ -156,7 +156,7 @@ void mark_within(const float* __restrict x, const float* __restrict y, const flo
 }
 
 /// Least squares in one pass. Sums are relative to the first point, so that subtracting the mean loses little precision.
-std::optional<Plane> fit_plane(const Points& points, const Slab& slab, const Level& level) {
+std::optional<Plane> fit_plane(const Points& points, const Slab& slab, const LevelRule& level) {
     std::vector<std::uint8_t> within(points.z.size());
     mark_within(points.x.data(), points.y.data(), points.z.data(), points.size(), slab, within.data());
     const auto first =
@@ -182,7 +182,7 @@ std::optional<Plane> fit_plane(const Points& points, const Slab& slab, const Lev
 }  // namespace
 
 Vector floor_plane(const DepthView& depth, VectorRef camera, TriplesRef triples, double tolerance,
-                   const Level& level) {
+                   const LevelRule& level) {
     const Rays lens = find_rays(camera, depth);
     require_positive(tolerance, "tolerance");
     require_level(level);

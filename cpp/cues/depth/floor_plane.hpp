@@ -12,8 +12,8 @@ namespace tricue {
 using Triples = Eigen::Array<std::int64_t, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using TriplesRef = Eigen::Ref<const Triples>;
 
-/// What counts as level.
-struct Level {
+/// Which planes count as level.
+struct LevelRule {
     VectorRef up;  ///< float64 (3,): unit vector, within 1e-6, camera frame; (0, -1, 0) for a level camera
     double min_cosine;  ///< a plane is level where n · up is at least this, in [-1, 1]
 };
@@ -42,6 +42,6 @@ struct Level {
 /// @throws std::invalid_argument on other shapes or values
 /// Source: ours; RANSAC after Fischler, Bolles 1981.
 Vector floor_plane(const DepthView& depth, VectorRef camera, TriplesRef triples, double tolerance,
-                   const Level& level);
+                   const LevelRule& level);
 
 }  // namespace tricue

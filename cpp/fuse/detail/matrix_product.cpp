@@ -7,7 +7,7 @@ namespace tricue {
 namespace {
 
 struct Product {
-    Rows left, right;
+    MatrixRows left, right;
     int cols;
     float* to;
     std::ptrdiff_t pitch;
@@ -18,7 +18,7 @@ struct Product {
 template <int kLanes, int kRows, int kRegisters>
 TRICUE_INLINE void multiply_block(const Product& product, int y, int x) {
     using Register = Pack<float, kLanes>;
-    const Rows left = product.left, right = product.right;
+    const MatrixRows left = product.left, right = product.right;
     const float *column = left.numbers + left.pitch * y, *numbers = right.numbers + x;
     Register sums[std::size_t{kRows}][std::size_t{kRegisters}] = {};
     for (int i = 0; i < right.count; ++i, ++column, numbers += right.pitch) {
@@ -67,7 +67,8 @@ TRICUE_MULTIWIDTH(multiply_all, multiply_by, (const Product& product), (product)
 
 }  // namespace
 
-void multiply(const Rows& left, const Rows& right, int cols, AlignedMatrix& product, int first_row) {
+void multiply(const MatrixRows& left, const MatrixRows& right, int cols, AlignedMatrix& product,
+              int first_row) {
     multiply_all({left, right, cols, product.row(first_row), product.pitch()});
 }
 

@@ -6,9 +6,10 @@
 namespace tricue {
 
 /// A non-owning view of some rows of a matrix, with any number of columns.
-struct Rows {
-    Rows(const AlignedMatrix& matrix) : Rows(matrix.row(0), matrix.pitch(), matrix.rows()) {}
-    Rows(const float* first, std::ptrdiff_t apart, int many) : numbers(first), pitch(apart), count(many) {}
+struct MatrixRows {
+    MatrixRows(const AlignedMatrix& matrix) : MatrixRows(matrix.row(0), matrix.pitch(), matrix.rows()) {}
+    MatrixRows(const float* first, std::ptrdiff_t apart, int many)
+        : numbers(first), pitch(apart), count(many) {}
 
     const float* numbers;
     std::ptrdiff_t pitch;  ///< numbers from one row to the next
@@ -20,6 +21,7 @@ struct Rows {
 ///
 /// For small matrices, because Eigen's products use only the registers that every machine has. Whole registers are read and
 /// written: rows of `right` must be aligned like those of an AlignedMatrix.
-void multiply(const Rows& left, const Rows& right, int cols, AlignedMatrix& product, int first_row = 0);
+void multiply(const MatrixRows& left, const MatrixRows& right, int cols, AlignedMatrix& product,
+              int first_row = 0);
 
 }  // namespace tricue
