@@ -1,5 +1,4 @@
 # SPDX-License-Identifier: MIT
-
 """``tricue info``: what is said of recordings whose contents are known."""
 
 import json
@@ -11,55 +10,12 @@ import cv2
 import numpy as np
 import pytest
 from tricue.cli import main
-from tricue.data.datasets import find_sequences
 from tricue.data.summary import MAX_SAMPLED_FRAMES
 from tricue.draw.video import OverlayWriter
 
+from tests.cli.info_recordings import color, depth, facts, lines, vot
+
 TOML = "[{channel}]\nfx = 50.0\nfy = 60.0\ncx = 31.5\ncy = 23.5\n"
-
-
-def color(folder: Path, count: int, digits: int = 8) -> Path:
-    """A folder of 64x48 images, numbered from 1."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for number in range(1, count + 1):
-        cv2.imwrite(str(folder / f"{number:0{digits}}.png"), np.full((48, 64, 3), 90, np.uint8))
-    return folder
-
-
-def depth(folder: Path, count: int, rotated: bool = False) -> Path:
-    """A folder of depth: 1000 to 1099 in equal parts, and a quarter of the pixels without."""
-    folder.mkdir(parents=True, exist_ok=True)
-    image = np.zeros((40, 100), np.uint16)
-    image[:30] = np.arange(1000, 1100)
-    for number in range(1, count + 1):
-        if rotated:
-            name, written = f"d-{number}000-{number}.png", image << 3 | image >> 13
-        else:
-            name, written = f"{number:08}.png", image
-        cv2.imwrite(str(folder / name), written)
-    return folder
-
-
-def vot(folder: Path, count: int = 4) -> Path:
-    """VOT RGB-D of ``count`` frames at 5 a second, with boxes for three, one of them absent."""
-    color(folder / "color", count)
-    depth(folder / "depth", count)
-    lines = "fps=5\nchannels.color=color/%08d.png\nchannels.depth=depth/%08d.png\n"
-    (folder / "sequence").write_text(lines)
-    (folder / "groundtruth.txt").write_text("1,2,10,20\nnan,nan,nan,nan\n1,2,12.5,24\n")
-    return folder
-
-
-def facts(capsys: pytest.CaptureFixture[str], *arguments: object) -> Any:
-    """What ``tricue info --json`` says."""
-    assert main(["info", *map(str, arguments), "--json"]) == 0
-    return json.loads(capsys.readouterr().out)
-
-
-def lines(capsys: pytest.CaptureFixture[str], *arguments: object) -> list[str]:
-    """What ``tricue info`` prints."""
-    assert main(["info", *map(str, arguments)]) == 0
-    return capsys.readouterr().out.splitlines()
 
 
 def test_a_sequence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -294,83 +250,6 @@ def test_a_calibration_of_no_use(tmp_path: Path, capsys: pytest.CaptureFixture[s
     assert "intrinsics.toml: expected the key" in capsys.readouterr().err
 
 
-def kitti(root: Path) -> Path:
-    """KITTI's tracking layout of three frames with two targets."""
-    for side in ("image_02", "image_03"):
-        color(root / side / "0000", 3, 6)
-    rows = [(1, 0, "Car"), (2, 0, "Car"), (2, 3, "Van"), (3, 3, "Van")]
-    (root / "label_02").mkdir()
-    (root / "label_02" / "0000.txt").write_text(
-        "".join(f"{frame} {track} {kind} 0 0 0 10 10 20 30 1 1 1 0 1 9 0\n" for frame, track, kind in rows)
-    )
-    return root
-
-
-def test_targets(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """It proves that a folder's targets are listed, and that one can be looked at."""
-    root = kitti(tmp_path / "kitti")
-    printed = lines(capsys, root)
-    assert "  truth        none" in printed
-    assert "  targets      2, by --target: Car 0, Van 3" in printed
-    found = facts(capsys, root, "--target", "Van 3")
-    assert (found["name"], found["frames"], found["truth"]["boxes"]) == ("kitti Van 3", 2, 2)
-    assert found["truth"]["positions"]["known"] == 2
-
-
-def test_a_folder_of_sequences(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """It proves that of a folder without images each sequence below has a line, in JSON an object."""
-    kitti(tmp_path / "b" / "kitti")
-    vot(tmp_path / "a" / "walk")
-    assert lines(capsys, tmp_path) == [
-        "a/walk: VOT RGB-D, 4 frames, color and depth, 2 boxes",
-        "b/kitti: KITTI tracking, 3 frames, color and right, 2 targets",
-    ]
-    found = facts(capsys, tmp_path)["sequences"]
-    assert [each["place"] for each in found] == ["a/walk", "b/kitti"]
-    assert found[0]["boxes"] == 2
-
-
-@pytest.mark.parametrize(
-    "option", [("--fps", "15"), ("--target", "Car 0"), ("--calibration", "c.yml"), ("--unit", "1")]
-)
-def test_a_folder_of_sequences_refuses_options_of_one(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], option: tuple[str, str]
-) -> None:
-    """It proves that an option about one recording is an error of one line instead of being ignored."""
-    vot(tmp_path / "a")
-    assert main(["info", str(tmp_path), *option]) == 2
-    captured = capsys.readouterr()
-    assert captured.out == ""
-    assert captured.err.startswith(f"tricue info: {option[0]}: expected with one recording, {tmp_path} is a ")
-
-
-def test_the_unit_of_a_folder_of_sequences(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """It proves that --depth-scale is for the sequences that need it, and leaves the others alone."""
-    (color(tmp_path / "a", 2) / "boxes.csv").write_text("1,2,3,4\n")
-    (depth(tmp_path / "b", 2) / "boxes.csv").write_text("1,2,3,4\n")
-    both = tmp_path / "c"
-    for channel, make in (("color", color), ("depth", depth)):
-        make(both / channel, 2)
-    (both / "boxes.csv").write_text("1,2,3,4\n")
-    assert main(["info", str(tmp_path / "b")]) == 2
-    found = facts(capsys, tmp_path, "--depth-scale", 0.001)["sequences"]
-    assert found.pop()["channels"] == ["color", "depth"]
-    assert [each["channels"] for each in found] == [["color"], ["depth"]]
-
-
-def test_a_malformed_sequence_among_others(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """It proves that the others have their lines all the same, and the exit code is that of an error."""
-    (vot(tmp_path / "a") / "groundtruth.txt").write_text("1,2,3\n")
-    vot(tmp_path / "b")
-    assert main(["info", str(tmp_path)]) == 2
-    captured = capsys.readouterr()
-    first, second = captured.out.splitlines()
-    assert first.startswith("a: can't be opened: ")
-    assert "groundtruth.txt, line 1: expected four numbers" in first
-    assert second.startswith("b: VOT RGB-D")
-    assert captured.err == f"tricue info: {tmp_path}: 1 of 2 sequences can't be opened\n"
-
-
 @pytest.mark.parametrize(
     ("make", "message"),
     [
@@ -417,28 +296,3 @@ def test_a_camera_has_no_frames_to_count(
     monkeypatch.setattr(cv2, "VideoCapture", Live)
     assert main(["info", "0"]) == 2
     assert "camera 0: expected a recording" in capsys.readouterr().err
-
-
-def test_real_data(data: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """It proves that every real sequence is told of in one line, and by itself: of those in color alone,
-    which are many and alike, a few.
-    """
-    listed = facts(capsys, data)["sequences"]
-    assert len(listed) == len(list(find_sequences(data))) >= 11
-    in_color = [each for each in listed if each["channels"] == ["color"]]
-    for each in [each for each in listed if each not in in_color[2:]]:
-        found = facts(capsys, data / each["place"])
-        assert found["format"] == each["format"]
-        assert found["truth"] is not None or len(found["targets"]) == 4
-        if found["depth"]:
-            assert 0 < found["depth"]["invalid"] < 0.9
-            assert 0.1 < found["depth"]["near_m"] < found["depth"]["far_m"] < 10
-
-
-def test_a_target_is_tracked_by_its_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """It proves that ``tricue track`` starts on the target that ``tricue info`` lists."""
-    words = ["track", str(kitti(tmp_path / "kitti")), "--assume-fov", "60,45"]
-    assert main(words) == 2
-    assert "give --box" in capsys.readouterr().err
-    assert main([*words, "--target", "Van 3"]) == 0
-    assert capsys.readouterr().out.startswith("kitti Van 3: 2 frames")

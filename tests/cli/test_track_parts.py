@@ -15,7 +15,7 @@ from tricue.cli.program import main
 from tricue.data.open_source import open_source
 from tricue.draw.video import OverlayWriter
 
-from tests.cli.test_info import kitti
+from tests.cli.info_recordings import kitti
 from tests.cli.test_track_several import images, rows
 from tests.data.depth_folders import color_folder, depth_folder
 
