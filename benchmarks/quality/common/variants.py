@@ -8,7 +8,7 @@ from typing import Any
 
 from tricue.camera.frame import Frame
 from tricue.camera.rig import Intrinsics, StereoRig
-from tricue.cli.settings import read_settings
+from tricue.cli.evaluate import settings_by_tracker
 from tricue.evaluation import baselines
 from tricue.evaluation.frame_views import FrameView
 from tricue.evaluation.safe_tracker import SafeTracker
@@ -86,7 +86,7 @@ def parse_variants(words: Sequence[str], settings: Sequence[str] = ()) -> list[V
     """
     words = _installed(words)
     names = [word.partition(":")[0] for word in words]
-    values = parse_settings(settings)
+    values = settings_by_tracker(settings)
     if unused := [name for name in values if name not in names]:
         raise ValueError(f"--set: expected one of {', '.join(names)}, got {unused[0]!r}")
     specs = tracker_specs(names, values)
@@ -102,17 +102,6 @@ def _installed(words: Sequence[str]) -> list[str]:
     if not found:
         raise ValueError(f"--trackers: expected some that the installed cv2 has, got {', '.join(words)}")
     return found
-
-
-def parse_settings(settings: Sequence[str]) -> dict[str, dict[str, Any]]:
-    """Parameters by tracker from "name.parameter=value"; ValueError for anything else."""
-    lines: dict[str, list[str]] = {}
-    for setting in settings:
-        name, dot, rest = setting.partition(".")
-        if not dot or "=" in name:
-            raise ValueError(f"--set: expected tracker.name=value, got {setting!r}")
-        lines.setdefault(name, []).append(rest)
-    return {name: read_settings(name, None, each) for name, each in lines.items()}
 
 
 def with_settings(variant: Variant, label: str, values: Mapping[str, Any]) -> Variant:
