@@ -30,7 +30,7 @@ class ExpectedPeak(NamedTuple):
 
 
 class TargetModel(NamedTuple):
-    """Two densities, their range, and the target's peak, for each of the K used observations of u, v, d.
+    """What the kernel ``target_model`` estimates, for each of the K used observations of u, v, d.
 
     densities: (K, bins) of the target, with sum 1. alternatives: (K, bins) of its surround. ranges: of the
     histograms. peaks: the representative velocity or disparity. disparity_scale: of the cues.
