@@ -68,7 +68,7 @@ void require_arguments(const BlockVotes& blocks, const BlockCounts& seen) {
 
 /// The block's observations in this frame.
 struct Observed {
-    bool inside, found, same_depth, has_mean, hidden, similar;
+    bool inside, found, same_depth, has_mean, hidden, similar_mean;
 
     Observed(const BlockCounts& seen, Eigen::Index i, const VoteRules& rules) : inside(seen.pixels[i] > 0) {
         const auto pixels = static_cast<double>(seen.pixels[i]);
@@ -79,7 +79,7 @@ struct Observed {
         same_depth = has_share(seen.similar[i]);
         has_mean = inside && static_cast<double>(seen.measured[i]) >= kMinMeasuredShare * pixels;
         hidden = has_mean && seen.mean[i] > rules.occluder && !found;
-        similar = has_mean && std::abs(seen.mean[i] - rules.target) <= rules.tolerance;
+        similar_mean = has_mean && std::abs(seen.mean[i] - rules.target) <= rules.tolerance;
     }
 };
 
@@ -103,7 +103,7 @@ BlockVotes block_votes(BlockVotes blocks, const BlockCounts& seen, const VoteRul
         else
             votes = std::max(votes - now.inside, std::int64_t{0});
         const bool away = !now.found && !now.same_depth && !now.hidden && now.has_mean;
-        if (away && (target || (occluded && !now.similar)))
+        if (away && (target || (occluded && !now.similar_mean)))
             ++against;
         else if (target && (now.found || now.same_depth))
             against = 0;
@@ -112,7 +112,7 @@ BlockVotes block_votes(BlockVotes blocks, const BlockCounts& seen, const VoteRul
         if (before == kOther && votes >= rules.to_add) state = kTarget;
         if (target && now.hidden) state = kOccluded;
         if (occluded && against >= rules.to_release) state = kOther;
-        if (occluded && now.similar) state = kTarget;
+        if (occluded && now.similar_mean) state = kTarget;
         if (target && (against >= rules.to_remove || !kept)) state = kOther;
 
         const bool left = state == kOther && before != kOther;

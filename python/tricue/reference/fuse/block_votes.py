@@ -52,7 +52,7 @@ def block_votes(
     found = (targets >= min_share * pixels) & inside
     same_depth = (similar >= min_share * pixels) & inside
     hidden = (mean > occluder) & has_mean & ~found
-    near = (np.abs(mean - target_disparity) <= tolerance) & has_mean
+    similar_mean = (np.abs(mean - target_disparity) <= tolerance) & has_mean
     target, occluded = states == TARGET, states == OCCLUDED
 
     without_pixels = np.where(found, 0, without_pixels + (same_depth & ~hidden))
@@ -60,7 +60,7 @@ def block_votes(
     votes = np.where(found | (same_depth & core), votes + 1, np.maximum(votes - inside, 0))
     away = ~found & ~same_depth & ~hidden & has_mean
     against = np.where(
-        away & (target | (occluded & ~near)),
+        away & (target | (occluded & ~similar_mean)),
         against + 1,
         np.where(target & (found | same_depth), 0, against),
     )
@@ -68,7 +68,7 @@ def block_votes(
     after[(states == OTHER) & (votes >= to_add)] = TARGET
     after[target & hidden] = OCCLUDED
     after[occluded & (against >= to_release)] = OTHER
-    after[occluded & near] = TARGET
+    after[occluded & similar_mean] = TARGET
     after[target & ((against >= to_remove) | (without_pixels >= max_without_pixels))] = OTHER
     votes = np.where((after == OTHER) & (target | occluded), 0, np.minimum(votes, to_add))
     against = np.where(after == states, against, 0)
