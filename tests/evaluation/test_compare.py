@@ -142,6 +142,12 @@ def test_nothing_in_common_is_told(tmp_path, capsys):
     assert error.count("\n") == 1
 
 
+def test_an_unknown_number_is_told(folders):
+    """The error names the argument, and what is known."""
+    with pytest.raises(ValueError, match=r"^number: expected one of auc, .*, got 'zzz'"):
+        compare_folders(*folders, "zzz")
+
+
 def test_a_number_that_an_older_evaluation_lacks_is_told(folders, capsys):
     """It is in no row of both, and that is no crash."""
     assert main(["compare", *map(str, folders), "--number", "true_positive"]) == 2

@@ -102,7 +102,7 @@ def test_attributes_count_sequences_not_a_trackers_results(folders, tmp_path):
 
 def test_an_unknown_format_is_told():
     """The error names those that there are."""
-    with pytest.raises(ValueError, match="--figures: expected some of pdf, svg, png, got 'eps'"):
+    with pytest.raises(ValueError, match=r"^formats: expected some of pdf, svg, png, got 'eps'"):
         figures.check_formats(["pdf", "eps"])
 
 

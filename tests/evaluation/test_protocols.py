@@ -40,7 +40,7 @@ def test_orders():
 )
 def test_unknown_protocols_are_told(name):
     """The error names those that there are, and what came."""
-    with pytest.raises(ValueError, match=r"--protocols: expected some of one-pass, restarts, .* got "):
+    with pytest.raises(ValueError, match=r"^protocols: expected some of one-pass, restarts, .* got "):
         orders(name)
 
 

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from tricue.cli.arguments import any_tracker_names, count, seconds, words
+from tricue.cli.arguments import any_tracker_names, count, naming_options, seconds, words
 from tricue.cli.progress import Progress
 from tricue.cli.settings import read_settings, third_party_settings
 from tricue.evaluation import baselines, tables
@@ -167,7 +167,8 @@ def run(options: argparse.Namespace) -> int:
     svg.require()  # fail now, not after hours
     if options.raw is not None:
         check_folder(options.raw)
-    check_formats(options.figures)
+    with naming_options(formats="--figures"):
+        check_formats(options.figures)
     folder: Path = options.output
     if folder.exists() and options.dataset.exists() and folder.samefile(options.dataset):
         raise ValueError(f"--output: expected another folder than that of the sequences, got {folder}")
@@ -182,7 +183,7 @@ def run(options: argparse.Namespace) -> int:
         time_limit=options.time_limit,
         protocols=protocols,
     )
-    with Progress() as progress:
+    with Progress() as progress, naming_options(protocols="--protocols"):
 
         def show(update: ProgressUpdate) -> None:
             progress.total = update.total

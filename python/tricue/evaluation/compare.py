@@ -76,7 +76,7 @@ def compare_folders(old: Path, new: Path, number: str = "auc") -> Comparison:
     ValueError or OSError for a folder without an evaluation, and if they have no run in common.
     """
     if number not in BETTER:
-        raise ValueError(f"--number: expected one of {', '.join(BETTER)}, got {number!r}")
+        raise ValueError(f"number: expected one of {', '.join(BETTER)}, got {number!r}")
     before, after = _read(old), _read(new)
     recordings = {each["sequence"]: each["recording"] for each in after.get("sequences", ())}
     values_before, values_after = _values(before, number), _values(after, number)

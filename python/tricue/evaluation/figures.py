@@ -48,7 +48,7 @@ def check_formats(formats: Sequence[str]) -> None:
     """ValueError for a format that can't be written."""
     for each in formats:
         if each not in FORMATS:
-            raise ValueError(f"--figures: expected some of {', '.join(FORMATS)}, got {each!r}")
+            raise ValueError(f"formats: expected some of {', '.join(FORMATS)}, got {each!r}")
 
 
 def write_figures(evaluation: Evaluation, folder: Path, formats: Sequence[str]) -> list[Path]:

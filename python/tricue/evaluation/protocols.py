@@ -100,7 +100,7 @@ def orders(protocol: str) -> tuple[Order, ...]:
     if word == NOISY and number.isdecimal() and 0 < int(number) <= MAX_DRAWS:
         return tuple(Order(noise=draw) for draw in range(1, int(number) + 1))
     known = f"{ONE_PASS}, {RESTARTS}, {STARTS}, {BACKWARD}, {EVERY}-3, {NOISY}-5"
-    raise ValueError(f"--protocols: expected some of {known}, got {protocol!r}")
+    raise ValueError(f"protocols: expected some of {known}, got {protocol!r}")
 
 
 def jittered(box: Box, sequence: str, draw: int) -> Box:
