@@ -69,7 +69,7 @@ def test_opencv_files_hold_a_camera(tmp_path: Path, suffix: str) -> None:
 
 def test_the_rectified_camera_comes_first(tmp_path: Path) -> None:
     """It proves that of a stereo file the rectified P1 is taken, and any other matrix by its name."""
-    path = opencv_file(tmp_path / "c.yml", M1=2 * LEFT[:, :3], P1=LEFT)
+    path = opencv_file(tmp_path / "c.yml", M1=LEFT[:, :3] * [2, 2, 1], P1=LEFT)
     assert Intrinsics.from_opencv(path, size=SIZE).fx == 500
     assert Intrinsics.from_opencv(path, key="M1", size=SIZE).fx == 1000
 
@@ -215,7 +215,7 @@ def text(content: str, read: Callable[..., Any], **options: Any) -> Callable[[Pa
         (text("width = 3", Intrinsics.from_toml), "expected one camera, with the key fx, found none$"),
         (text("", Intrinsics.from_toml), "expected one camera, with the key fx, found none$"),
         (text("fx = 3", Intrinsics.from_toml, size=SIZE), "expected the key fy"),
-        (text("fx = 3\nfy = 3\ncx=1\ncy=1", StereoRig.from_toml, size=SIZE), "expected the key baseline"),
+        (text("fx = 3\nfy = 3\ncx=320\ncy=240", StereoRig.from_toml, size=SIZE), "expected the key baseline"),
         (text("fx = 3\nfy = 3\ncx=1\ncy=1", StereoRig.from_toml), r"pass size=\(width, height\)"),
         (text("fx = -3\nfy = 3\ncx=1\ncy=1", Intrinsics.from_toml, size=SIZE), "fx: expected pixels above 0"),
     ],
@@ -314,9 +314,8 @@ def test_distortion_is_told(tmp_path: Path, values: dict[str, Any], key: str | N
 def test_a_list_of_coefficients_is_told(tmp_path: Path) -> None:
     """It proves that coefficients that C++ wrote as a std::vector count as those in a matrix."""
     path = tmp_path / "c.json"
-    matrix = (
-        '{"type_id": "opencv-matrix", "rows": 3, "cols": 3, "dt": "d", "data": [5, 0, 3, 0, 5, 2, 0, 0, 1]}'
-    )
+    numbers = [5, 0, 320, 0, 5, 240, 0, 0, 1]
+    matrix = f'{{"type_id": "opencv-matrix", "rows": 3, "cols": 3, "dt": "d", "data": {numbers}}}'
     path.write_text(f'{{"camera_matrix": {matrix}, "distCoeffs": [-0.3, 0.1, 0, 0]}}')
     with pytest.warns(UserWarning, match=r"c\.json: its lens' distortion isn't taken out"):
         Intrinsics.from_opencv(path, size=SIZE)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from tricue import Intrinsics, Pose
 from tricue.camera.read_calibration import read_intrinsics, read_registration, read_rig
+from tricue.camera.rectification import Rectification
 
 SIZE = (640, 480)
 CAMERA = Intrinsics(500.0, 510.0, 320.0, 240.0, *SIZE)
@@ -170,11 +171,11 @@ def test_two_cameras_are_a_registration(tmp_path: Path) -> None:
     """
     depth, color = "[depth]\nscale = 0.001\n", "[color]\n"
     path = toml(tmp_path / "c.toml", depth, 567.9)
-    assert read_registration(path, (320, 240), SIZE) is None
+    assert read_registration(path, (720, 540), SIZE) is None
     path.write_text(path.read_text() + toml(tmp_path / "d.toml", color).read_text())
-    found = read_registration(path, (320, 240), SIZE)
+    found = read_registration(path, (720, 540), SIZE)
     assert found is not None
-    assert found.depth == Intrinsics(567.9, 510.0, 320.0, 240.0, 320, 240)
+    assert found.depth == Intrinsics(567.9, 510.0, 320.0, 240.0, 720, 540)
     assert found.color == CAMERA
     path.write_text(path.read_text().replace("567.9", "500.0"))
     assert read_registration(path, SIZE, SIZE) is None
@@ -186,7 +187,7 @@ def test_a_registration_keeps_the_depth_cameras_pose(tmp_path: Path) -> None:
     pose = f"translation = [0, 0, 1.6]\nrotation = {np.eye(3).tolist()}\n"
     path = toml(tmp_path / "c.toml", f"[depth]\n{pose}", 567.9)
     path.write_text(path.read_text() + toml(tmp_path / "d.toml", "[color]\n").read_text())
-    found = read_registration(path, (320, 240), SIZE)
+    found = read_registration(path, (720, 540), SIZE)
     assert found is not None
     assert found.color.pose == Pose(np.eye(3), (0, 0, 1.6))
 
@@ -198,3 +199,35 @@ def test_a_registration_of_another_size_is_refused(tmp_path: Path) -> None:
     path.write_text("".join(tables) + "width = 1280\nheight = 960\n")
     with pytest.raises(ValueError, match="expected a calibration for the color images of 640x480"):
         read_registration(path, SIZE, SIZE)
+
+
+def test_a_file_without_a_size_must_suit_the_images(tmp_path: Path) -> None:
+    """It proves that a principal point outside the images is an error in every format that may lack their
+    size, that one which suggests images of another size gives a note, and that the size in the file decides.
+    """
+    files = [opencv(tmp_path / "c.yml"), toml(tmp_path / "c.toml"), kitti(tmp_path / "calib.txt")]
+    for path in files:
+        outside = r"principal point \(320, 240\) is outside the images of 320x240 pixels"
+        with pytest.raises(ValueError, match=f"{path}: its {outside}"):
+            read_intrinsics(path, (320, 240), "depth")
+        with pytest.warns(
+            UserWarning, match=f"{path}: .* suggests images of about 640x480 pixels, not 1280x960"
+        ):
+            read_intrinsics(path, (1280, 960), "depth")
+        assert read_intrinsics(path, (640, 360), "depth").height == 360  # cropped
+    sized = toml(tmp_path / "corner.toml", "width = 320\nheight = 240\n")
+    assert read_intrinsics(sized, (320, 240), "depth").width == 320
+
+
+def test_rectification_checks_the_raw_cameras(tmp_path: Path) -> None:
+    """It proves that raw cameras without an image size are checked as well."""
+    storage = cv2.FileStorage(str(tmp_path / "raw.yml"), cv2.FILE_STORAGE_WRITE)
+    for number in (1, 2):
+        storage.write(f"M{number}", CAMERA.matrix)
+        storage.write(f"D{number}", np.zeros(5))
+    storage.write("R", np.eye(3))
+    storage.write("T", np.array([-0.12, 0.0, 0.0]))
+    storage.release()
+    Rectification.from_opencv(tmp_path / "raw.yml", size=SIZE)
+    with pytest.raises(ValueError, match=r"raw.yml: its principal point \(320, 240\) is outside"):
+        Rectification.from_opencv(tmp_path / "raw.yml", size=(320, 240))

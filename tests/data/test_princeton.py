@@ -46,7 +46,7 @@ def test_princeton_folders_alone(tmp_path: Path) -> None:
 
 def frames_mat(folder: Path) -> None:
     """Princeton's frames.mat, with the camera matrix that counts from 1."""
-    matrix = [[575.0, 0, 321], [0, 576.0, 241], [0, 0, 1]]
+    matrix = [[575.0, 0, 21], [0, 576.0, 16], [0, 0, 1]]
     io = pytest.importorskip("scipy.io")
     io.savemat(folder / "frames.mat", {"frames": {"length": 3.0, "K": matrix, "imageTimestamp": [0, 33_000]}})
 
@@ -58,7 +58,7 @@ def test_princeton_camera(tmp_path: Path) -> None:
     source = open_source(folder)
     assert source.calibration == folder / "frames.mat"
     camera = read_intrinsics(source.calibration, source.size, "depth")
-    assert camera == Intrinsics(575.0, 576.0, 320.0, 240.0, 40, 30)
+    assert camera == Intrinsics(575.0, 576.0, 20.0, 15.0, 40, 30)
     (folder / "intrinsics.toml").touch()
     assert open_source(folder).calibration == folder / "intrinsics.toml"
 

@@ -11,9 +11,9 @@ from tricue.data.live import LiveStream
 from tricue.data.open_source import Source, open_source
 from tricue.data.summary import summarize_calibration
 
-KITTI = "P2: 700 0 600 45 0 700 170 0.2 0 0 1 0.003\nP3: 700 0 600 -333 0 700 170 2 0 0 1 0.003\n"
+KITTI = "P2: 700 0 31 45 0 700 23 0.2 0 0 1 0.003\nP3: 700 0 31 -333 0 700 23 2 0 0 1 0.003\n"
 
-GRAY_KITTI = "\nP0: 700 0 600 0 0 700 170 0 0 0 1 0\nP1: 700 0 600 -350 0 700 170 0 0 0 1 0\n"
+GRAY_KITTI = "\nP0: 700 0 31 0 0 700 23 0 0 0 1 0\nP1: 700 0 31 -350 0 700 23 0 0 0 1 0\n"
 
 
 def images(folder: Path, first: int, count: int = 3, width: int = 64) -> Path:

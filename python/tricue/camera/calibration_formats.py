@@ -35,6 +35,13 @@ MAX_SKEWED = 0.5
 """Pixels by which a camera matrix's skew may move a point of the image before a note says so."""
 
 
+MIN_SCALE = 4 / 3
+"""How much larger or smaller than the images those that a principal point suggests must be for a note.
+
+A real lens' principal point, up to a tenth of the image off its middle, gives 1.2; 1080 rows for 720, 1.5.
+"""
+
+
 class ImageSizeError(ValueError):
     """A calibration is for another image size than expected.
 
@@ -81,7 +88,7 @@ def read_opencv_camera(
         name, matrix = next(((name, found) for name, found in matrices if found is not None), ("", None))
         if matrix is None:
             raise ValueError(f"{path}: expected a camera matrix named {' or '.join(keys)}, found none")
-        camera = _camera_of_matrix(matrix, image_size(file.size(), size, path), path)
+        camera = _camera_of_matrix(matrix, file.size(), size, path)
         if matrix.shape == (3, 3) and _is_distorted(file, name):
             warnings.warn(f"{path}: its lens' distortion isn't taken out", stacklevel=3)
         return camera
@@ -105,8 +112,7 @@ def read_opencv_rig(path: PathLike, *, unit: float = 1.0, size: Size | None = No
                 f"{path}: expected P1 and P2 of a rectified rig, as cv2.stereoRectify gives them, or ROS's "
                 "camera_info of the right camera"
             )
-        own = image_size(file.size(), size, path)
-        return rig_of_projections(left, right, positive(unit, "unit", "meters"), own, path)
+        return rig_of_projections(left, right, positive(unit, "unit", "meters"), path, file.size(), size)
 
 
 def read_kitti_camera(path: PathLike, *, camera: int = 2, size: Size | None = None) -> PinholeParameters:
@@ -116,7 +122,7 @@ def read_kitti_camera(path: PathLike, *, camera: int = 2, size: Size | None = No
     """
     values = _kitti_values(path)
     projection = _kitti_projection(values, camera, path)
-    return _camera_of_matrix(projection, image_size(_kitti_size(values, camera), size, path), path)
+    return _camera_of_matrix(projection, _kitti_size(values, camera), size, path)
 
 
 def read_kitti_rig(
@@ -125,7 +131,7 @@ def read_kitti_rig(
     """Two rectified cameras in a KITTI calibration, left first: (2, 3) are color, (0, 1) gray."""
     values = _kitti_values(path)
     left, right = (_kitti_projection(values, camera, path) for camera in cameras)
-    return rig_of_projections(left, right, 1.0, image_size(_kitti_size(values, cameras[0]), size, path), path)
+    return rig_of_projections(left, right, 1.0, path, _kitti_size(values, cameras[0]), size)
 
 
 def read_kitti_offset(path: PathLike, *, camera: int = 2) -> Matrix:
@@ -134,7 +140,7 @@ def read_kitti_offset(path: PathLike, *, camera: int = 2) -> Matrix:
     KITTI's labels are in the frame of camera 0. The camera's projection matrix is K [I | offset].
     """
     matrix = _kitti_projection(_kitti_values(path), camera, path)
-    k = _camera_of_matrix(matrix, (1, 1), path)  # checks the matrix; the size doesn't matter
+    k = _camera_of_matrix(matrix, (1, 1), None, path)  # checks the matrix; the size doesn't matter
     x, y, z = map(float, matrix[:, 3])
     return np.array([(x - k.cx * z) / k.fx, (y - k.cy * z) / k.fy, z])
 
@@ -155,7 +161,7 @@ def read_princeton_camera(path: PathLike, *, size: Size | None = None) -> Pinhol
             raise ValueError(f"{path}: expected MATLAB's file of a struct frames with the matrix K") from None
     if matrix.shape == (3, 3):
         matrix[:2, 2] -= 1
-    return _camera_of_matrix(matrix, image_size(None, size, path), path)
+    return _camera_of_matrix(matrix, None, size, path)
 
 
 def read_toml_camera(
@@ -206,14 +212,20 @@ def other_size(own: Size, given: Size, path: PathLike, images: str = "images") -
 
 
 def rig_of_projections(
-    left: Matrix, right: Matrix, unit: float, size: Size | None, path: PathLike
+    left: Matrix,
+    right: Matrix,
+    unit: float,
+    path: PathLike,
+    own: Size | None,
+    given: Size | None = None,
 ) -> RigParameters:
     """The rig of two rectified cameras, from their projection matrices (3, 4).
 
-    unit: meters per unit of the matrices' last column. path: the file that errors name. ValueError unless
-    both cameras have the same camera matrix and are side by side, left first.
+    unit: meters per unit of the matrices' last column. path: the file that errors name. own, given: the
+    image's size in the file, and the images' size. ValueError unless both cameras have the same camera matrix
+    and are side by side, left first.
     """
-    camera = _camera_of_matrix(left, size, path)
+    camera = _camera_of_matrix(left, own, given, path)
     if left.shape != (3, 4) or right.shape != (3, 4):
         raise ValueError(f"{path}: expected projection matrices (3, 4), got {left.shape} and {right.shape}")
     if not np.allclose(left[:, :3], right[:, :3], rtol=0, atol=1e-3):
@@ -241,7 +253,31 @@ def skew_note(matrix: Matrix, height: int) -> str:
     return f"its skew of {skew:.3g} px, up to {farthest:.2g} px, isn't taken out" * (farthest > MAX_SKEWED)
 
 
-def _camera_of_matrix(matrix: Matrix, size: Size | None, path: PathLike) -> PinholeParameters:
+def check_principal_point(cx: float, cy: float, size: Size, path: PathLike) -> None:
+    """ValueError if a principal point is outside the image, and a warning (UserWarning) if it suggests images
+    of another size: for files that don't hold the size that they are for.
+    """
+    width, height = size
+    point = f"{path}: its principal point ({cx:.6g}, {cy:.6g})"
+    if not (0 <= cx < width and 0 <= cy < height):
+        raise ValueError(
+            f"{point} is outside the images of {width}x{height} pixels; is it for images of another size? "
+            "If not, add these images' size to it"
+        )
+    scales = 2 * cx / width, 2 * cy / height
+    if min(scales) > MIN_SCALE or max(scales) < 1 / MIN_SCALE:
+        warnings.warn(
+            f"{point} suggests images of about {2 * cx:.0f}x{2 * cy:.0f} pixels, not {width}x{height}; "
+            "if it is for these, positions are wrong",
+            stacklevel=5,
+        )
+
+
+def _camera_of_matrix(
+    matrix: Matrix, own: Size | None, given: Size | None, path: PathLike
+) -> PinholeParameters:
+    """The camera with that matrix; own, given: the image's size in the file, and the images' size."""
+    size = image_size(own, given, path)
     if matrix.shape not in ((3, 3), (3, 4)):
         raise ValueError(f"{path}: expected a camera matrix (3, 3) or (3, 4), got {matrix.shape}")
     if size is None:
@@ -251,6 +287,8 @@ def _camera_of_matrix(matrix: Matrix, size: Size | None, path: PathLike) -> Pinh
         raise ValueError(f"{path}: expected a camera matrix fx 0 cx, 0 fy cy, 0 0 1, got another one{hint}")
     fx, fy, cx, cy = map(float, (matrix[0, 0], matrix[1, 1], matrix[0, 2], matrix[1, 2]))
     camera = _name_file(path, lambda: PinholeParameters(*pinhole(fx, fy, cx, cy, *size)))
+    if own is None:
+        check_principal_point(cx, cy, size, path)
     if note := skew_note(matrix, camera.height):
         warnings.warn(f"{path}: {note}", stacklevel=4)
     return camera
@@ -339,6 +377,8 @@ def _toml_camera(values: Mapping[str, Any], size: Size | None, path: PathLike) -
         path, lambda: PinholeParameters(*pinhole(fx, fy, cx, cy, width, height), _toml_pose(values))
     )
     image_size((camera.width, camera.height), size, path)
+    if "width" not in values and "height" not in values:
+        check_principal_point(camera.cx, camera.cy, (camera.width, camera.height), path)
     return camera
 
 

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from tricue.camera.calibration_formats import (
     NUMBERED_DISTORTION_KEYS,
+    check_principal_point,
     checked_size,
     image_size,
     rig_of_projections,
@@ -97,7 +98,11 @@ class Rectification:
                 [stack.enter_context(OpenCVFile(path)) for path in paths], " and ".join(map(str, paths))
             )
             rectified = files.rectified()
-            made._prepare(files.raw(posed=rectified is None), files.size(size), unit, rectified, files.names)
+            raw, own = files.raw(posed=rectified is None), files.size(size)
+            made._prepare(raw, own, unit, rectified, files.names)
+            if not any(file.size() for file in files.files):
+                for camera in raw.cameras:
+                    check_principal_point(camera[0, 2], camera[1, 2], own, files.names)
         return made
 
     def __call__(self, left: NDArray[Any], right: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
@@ -130,7 +135,7 @@ class Rectification:
     ) -> None:
         size, raw = checked_size(size), _checked(raw, names, is_posed=rectified is None)
         rotations, projections = rectified or _rectify(raw, size)
-        camera, baseline = rig_of_projections(*projections, positive(unit, "unit", "meters"), size, names)
+        camera, baseline = rig_of_projections(*projections, positive(unit, "unit", "meters"), names, size)
         self.rig = StereoRig(Intrinsics(*camera), baseline)
         for note in filter(None, (skew_note(each, size[1]) for each in raw.cameras)):
             warnings.warn(f"{names}: {note}", stacklevel=3)
