@@ -12,7 +12,7 @@ import threading
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from tricue.cli.arguments import seed
+from tricue.cli.arguments import seed, tracker_name
 from tricue.cli.program import USAGE, Parser, silence_opencv
 from tricue.cli.settings import read_settings
 from tricue.errors import one_line
@@ -57,7 +57,8 @@ def _parser(environment: Mapping[str, str]) -> Parser:
 
     formatter = argparse.RawDescriptionHelpFormatter
     parser = Parser(prog=PROGRAM, description=__doc__, epilog=_NOTES, formatter_class=formatter)
-    parser.add_argument("--tracker", default=of("TRACKER", names()[0]), help="default %(default)s")
+    default = of("TRACKER", names()[0])
+    parser.add_argument("--tracker", type=tracker_name, default=default, help="default %(default)s")
     parser.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the tracker"
     )

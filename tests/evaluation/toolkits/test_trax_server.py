@@ -375,7 +375,7 @@ def test_a_missing_extra_is_named() -> None:
     ("options", "message"),
     [
         (["--tracker", "stereo-head"], "stereo-head: needs the right image of a stereo pair"),
-        (["--tracker", "magic"], "name: expected one of 'color-particle'"),
+        (["--tracker", "magic"], "argument --tracker: expected one of 'color-particle'"),
         (["--set", "particles"], "--set: expected name=value"),
         (["--set", "particles=0"], "particles: expected at least"),
         (["--set", "particle=5"], "particle: unknown parameter"),

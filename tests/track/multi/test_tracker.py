@@ -129,7 +129,7 @@ def test_without_targets_there_are_no_tracks(things):
 @pytest.mark.parametrize(
     ("keywords", "error"),
     [
-        ({"tracker": "fussed"}, "name: expected one of 'color-particle'"),
+        ({"tracker": "fussed"}, "^tracker: expected one of 'color-particle'"),
         ({"workers": 0}, "workers: expected"),
         ({"workers": 1.5}, "workers: expected a whole number"),
         ({"learn_evry": 1}, "learn_evry: unknown parameter of FusedParams; did you mean learn_every"),
@@ -142,6 +142,12 @@ def test_wrong_arguments_are_told_at_once(keywords, error):
     """Before any target is added."""
     with pytest.raises((TypeError, ValueError), match=error):
         MultiTracker(**keywords)
+
+
+def test_an_unknown_kind_of_one_target(things):
+    """The error has the argument's name, as that of the constructor."""
+    with pytest.raises(ValueError, match=r"^tracker: expected one of 'color-particle'"):
+        MultiTracker().add(things.frames[0], things.boxes[0], "fussed")
 
 
 def test_rig_and_intrinsics_are_one_camera():

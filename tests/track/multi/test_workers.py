@@ -3,6 +3,7 @@
 
 import gc
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -59,13 +60,17 @@ def test_more_workers_than_targets_change_no_track(started, things, alone):
 
 
 def test_closing_ends_them(started, things):
-    """``with`` and close end the workers; a target can be added afterwards."""
+    """``with`` and close end the workers; an update is an error then, until a target is added."""
     with started(FUSED, workers=2) as several:
         process = process_of(several)
         assert is_running(process)
     assert ends(process)
-    assert (several.ids, several.update(things.frames[1])) == ((), {})
+    for each in several, pickle.loads(pickle.dumps(several)):
+        assert each.ids == ()
+        with pytest.raises(RuntimeError, match="update: the MultiTracker is closed; add a target first"):
+            each.update(things.frames[1])
     assert several.add(things.frames[1], things.boxes[0]) == 5
+    assert list(several.update(things.frames[2])) == [5]
     several.close()
     several.close()
 

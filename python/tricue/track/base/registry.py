@@ -85,13 +85,16 @@ def create(name: str, **params: Any) -> Tracker:
     return tracker
 
 
-def location(name: str) -> str:
-    """The ``module:Class`` or ``file.py:Class`` of a name; ValueError for an unknown name."""
+def location(name: str, argument: str = "name") -> str:
+    """The ``module:Class`` or ``file.py:Class`` of a name.
+
+    ValueError for an unknown name; ``argument`` is what the error calls it.
+    """
     installed = _installed_entry_points()
     where = _BUILT_IN.get(name) or (installed[name].value if name in installed else name)
     if not isinstance(where, str) or ":" not in where:
         raise ValueError(
-            f"name: expected one of {', '.join(map(repr, names()))} or module:Class, got {name!r}"
+            f"{argument}: expected one of {', '.join(map(repr, names()))} or module:Class, got {name!r}"
         )
     return where
 

@@ -16,7 +16,7 @@ from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.camera.shared_frame import SharedFrame
 from tricue.errors import WorkerEndedError
 from tricue.track.base import validation
-from tricue.track.base.registry import create, traits
+from tricue.track.base.registry import create, location, traits
 from tricue.track.base.track import Status, Track, Tracker
 from tricue.track.multi.target_group import FollowedTargets
 from tricue.track.multi.targets import Targets
@@ -76,7 +76,7 @@ class MultiTracker:
         self._told: frozenset[str] = frozenset()  # the warnings already shown
         self._targets = _targets(self.workers)
         self._lock = threading.RLock()  # a handler may call ``close`` in the middle of a call
-        self._calling = False
+        self._calling = self._closed = False
 
     @property
     def ids(self) -> tuple[int, ...]:
@@ -109,7 +109,7 @@ class MultiTracker:
             except BaseException:  # also if warnings are errors
                 self._targets.remove(target)
                 raise
-            self._last_id, self._tracks[target] = target, track
+            self._last_id, self._tracks[target], self._closed = target, track, False
             return target
 
     def remove(self, id: int) -> None:  # noqa: A002
@@ -131,10 +131,12 @@ class MultiTracker:
         third party's tracker keeps what it has done. If a worker process was killed, or was ended because
         Ctrl-C came in the middle of its answer or found it hanging, a WorkerEndedError says which targets
         went with it; the others go on with the next frame. If another error came first, the next call raises
-        this one.
+        this one. RuntimeError after :meth:`close`, until a target is added.
         """
         shared = SharedFrame.of(as_frame(frame))
         with self._one_call():
+            if self._closed:
+                raise RuntimeError("update: the MultiTracker is closed; add a target first")
             self._updates += 1
             self._find_losses()
             try:
@@ -155,7 +157,7 @@ class MultiTracker:
         """Stop following all targets, and end the workers."""
         with self._lock:
             self._targets.close()
-            self._tracks = {}
+            self._tracks, self._closed = {}, True
 
     def __enter__(self) -> "MultiTracker":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
         return self
@@ -180,6 +182,7 @@ class MultiTracker:
 
     def _create(self, kind: str, parameters: dict[str, Any]) -> Tracker:
         """A tracker with the camera that it takes, if any."""
+        location(kind, argument="tracker")  # raises for an unknown name
         takes = traits(kind).camera
         camera: dict[str, StereoRig | Intrinsics | None] = {}
         if self.rig is not None and "rig" in takes:
