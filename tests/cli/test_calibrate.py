@@ -172,13 +172,23 @@ def test_a_distance_in_another_unit_is_told(still, tmp_path, capsys):
     folder, out = write_pair(still, tmp_path / "pair"), tmp_path / "head.toml"
     place = [str(folder), "--box", ",".join(map(str, still.boxes[0])), "--output", str(out)]
     calibration = ["--calibration", str(folder / "rig.toml")]
-    for distance in ("nan", "inf", "0"):
-        line = failing(["stereo-noise", *place, *calibration, "--distance", distance], capsys)
-        assert "--distance: expected meters above 0" in line
+    for distance in ("nan", "inf", "0", "-1", "1.2m"):
+        with pytest.raises(SystemExit):
+            main(["calibrate", "stereo-noise", *place, *calibration, f"--distance={distance}"])
+        assert f"--distance: expected meters above 0, got '{distance}'" in capsys.readouterr().err
     line = failing(["stereo-noise", *place, *calibration, "--distance", "120"], capsys)
     assert "--distance: expected about 1.1" in line
-    assert line.endswith("m, as the pairs measure, got 120")
+    assert "m, as the pairs measure, got 120; is the calibration in meters (--unit)" in line
     assert not out.exists()
+
+
+@pytest.mark.filterwarnings("ignore:the stereo pair's calibration isn't known")
+def test_a_distance_needs_a_calibration(still, tmp_path, capsys):
+    """The error says so, and doesn't blame the number."""
+    folder, out = write_pair(still, tmp_path / "pair"), tmp_path / "head.toml"
+    place = [str(folder), "--box", ",".join(map(str, still.boxes[0])), "--output", str(out)]
+    line = failing(["stereo-noise", *place, "--distance", "1.2"], capsys)
+    assert line.endswith("--distance: expected with the stereo pair's calibration, --calibration FILE")
 
 
 @pytest.mark.parametrize(

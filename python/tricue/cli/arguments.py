@@ -111,12 +111,21 @@ def frame_number(text: str) -> int:
 
 def seconds(text: str) -> float:
     """A number of seconds above 0."""
+    return _above_0(text, "seconds")
+
+
+def meters(text: str) -> float:
+    """A number of meters above 0."""
+    return _above_0(text, "meters")
+
+
+def _above_0(text: str, unit: str) -> float:
     try:
         found = float(text)
     except ValueError:
         found = math.nan
     if not 0 < found < math.inf:
-        raise argparse.ArgumentTypeError(f"expected seconds above 0, got {text!r}")
+        raise argparse.ArgumentTypeError(f"expected {unit} above 0, got {text!r}")
     return found
 
 

@@ -2,7 +2,6 @@
 """``tricue calibrate WHAT``: parameters of the trackers, measured on the user's own images."""
 
 import argparse
-import math
 import os
 import shutil
 import tempfile
@@ -13,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from tricue.camera import toml
-from tricue.cli.arguments import box, share
+from tricue.cli.arguments import box, meters, share
 from tricue.cli.calibrations import find_calibration
 from tricue.cli.output_files import check_not_read
 from tricue.data.color_samples import read_color_samples
@@ -72,7 +71,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     noise = kinds.add_parser("stereo-noise", help="of stereo-head, from stereo pairs of a head at rest")
     noise.add_argument("input", metavar="INPUT", help="as for tricue track")
     noise.add_argument("--box", type=box, metavar="X,Y,W,H", help="the head; default the first true box")
-    noise.add_argument("--distance", type=float, metavar="M", help="to the head along the camera's axis")
+    noise.add_argument("--distance", type=meters, metavar="M", help="to the head along the camera's axis")
     noise.add_argument("--right", metavar="PLACE", help="the right camera's images; INPUT is the left one's")
     noise.add_argument("--calibration", type=Path, metavar="FILE", help="of the stereo pair")
     noise.add_argument(
@@ -157,8 +156,8 @@ def _stereo_noise(options: argparse.Namespace, params: Any) -> dict[str, Any]:
     head = options.box or source.first_box
     if head is None:
         raise ValueError(f"{source.name}: expected a box; give --box x,y,width,height")
-    if options.distance is not None and not (found.rig and 0 < options.distance < math.inf):
-        raise ValueError("--distance: expected meters above 0, and the calibration of the stereo pair")
+    if options.distance is not None and found.rig is None:
+        raise ValueError("--distance: expected with the stereo pair's calibration, --calibration FILE")
     try:
         static = measure_static_head(found.prepare(source), head, found.rig, params)
     except ValueError as error:
@@ -196,7 +195,10 @@ def _check_distance(given: float, measured: float) -> None:
     another head or camera. The difference would count as noise.
     """
     if not 1 / MAX_DISTANCE_RATIO < given / measured < MAX_DISTANCE_RATIO:
-        raise ValueError(f"--distance: expected about {measured:.2f} m, as the pairs measure, got {given:g}")
+        raise ValueError(
+            f"--distance: expected about {measured:.2f} m, as the pairs measure, got {given:g}; "
+            "is the calibration in meters (--unit), and of these cameras?"
+        )
 
 
 def _rounded(value: Any) -> Any:
