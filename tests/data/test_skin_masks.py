@@ -102,3 +102,26 @@ def test_recorded_masks_are_read(data):
     pairs = [pair.read() for pair in find_masked_images(data / "skin")]
     assert len(pairs) == 86
     assert sum(not mask.any() for _, mask in pairs) == 2
+
+
+@pytest.mark.parametrize("depth", [np.uint8, np.uint16])
+@pytest.mark.parametrize("color", ["white", "black", "white on hidden black", "white with hidden white"])
+def test_a_shape_may_be_in_the_opacity(folder, color, depth):
+    """As drawing programs save what is drawn on a transparent layer, whose hidden color is any."""
+    mask = np.zeros((4, 6, 4), depth)
+    mask[:, :3, 3] = np.iinfo(depth).max
+    white = {"white": np.s_[:], "black": np.s_[:0], "white on hidden black": np.s_[:3]}
+    mask[:, white.get(color, np.s_[1:]), :3] = np.iinfo(depth).max
+    cv2.imwrite(str(folder / "mask" / "2.png"), mask)
+    marked = find_masked_images(folder)[0].read()[1]
+    expected = np.zeros((4, 6), np.bool_)
+    expected[:, 1 if color == "white with hidden white" else 0 : 3] = True
+    np.testing.assert_array_equal(marked, expected)
+
+
+def test_an_opaque_mask_is_read_by_its_color(folder):
+    """An alpha channel that is 255 throughout marks nothing by itself."""
+    mask = np.full((4, 6, 4), 255, np.uint8)
+    mask[:, 3:, :3] = 0
+    cv2.imwrite(str(folder / "mask" / "2.png"), mask)
+    assert find_masked_images(folder)[0].read()[1].sum() == 12

@@ -23,7 +23,9 @@ class MaskedImage(NamedTuple):
     mask: Path
 
     def read(self) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
-        """The image, BGR (H, W, 3), and its mask (H, W), True where it is white.
+        """The image, BGR (H, W, 3), and its mask (H, W).
+
+        The mask is True where it is white and opaque, or, if it has only one color, where it is opaque.
 
         ValueError or OSError names a file that can't be read, a gray image, a mask whose size isn't its
         image's, or a mask that is gray but nowhere white, such as one of 0 and 1, in which all marks would be
@@ -32,7 +34,7 @@ class MaskedImage(NamedTuple):
         image: NDArray[np.uint8] = read_image(self.image, cv2.IMREAD_ANYCOLOR).astype(np.uint8, copy=False)
         if image.ndim != 3:
             raise ValueError(f"{self.image}: expected a color image, got a gray one")
-        mask = read_image(self.mask, cv2.IMREAD_GRAYSCALE)
+        mask = _read_levels(self.mask)
         if mask.shape != image.shape[:2]:
             (height, width), (rows, columns) = image.shape[:2], mask.shape
             raise ValueError(
@@ -46,6 +48,20 @@ class MaskedImage(NamedTuple):
                 f"elsewhere, got levels up to {brightest}"
             )
         return image, np.asarray(mask > MARKED_ABOVE)
+
+
+def _read_levels(path: Path) -> NDArray[np.uint8]:
+    """A mask's gray levels (H, W); 0 where it is transparent, because the color there means nothing."""
+    whole = read_image(path, cv2.IMREAD_UNCHANGED)
+    if whole.ndim != 3 or whole.shape[2] != 4:
+        return read_image(path, cv2.IMREAD_GRAYSCALE).astype(np.uint8, copy=False)
+    if whole.dtype == np.uint16:
+        whole = whole >> 8  # as cv2 does for a gray image
+    pixels = whole.astype(np.uint8, copy=False)
+    levels, opacity = cv2.cvtColor(pixels, cv2.COLOR_BGRA2GRAY), pixels[:, :, 3]
+    if levels.min() == levels.max() and opacity.min() < opacity.max():  # the shape is in the opacity
+        return opacity
+    return np.minimum(levels, opacity)
 
 
 def is_mask_folder(folder: Path) -> bool:
