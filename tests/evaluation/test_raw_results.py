@@ -6,6 +6,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 import tricue
@@ -199,3 +200,24 @@ def test_what_the_evaluation_did_not_run_is_left_out(finished, tmp_path):
     raw = raw_results.write_raw(done, tmp_path, tmp_path / "raw", tables.settings(done)).parent
     assert [path.name for path in (raw / "got10k").iterdir()] == ["still-box"]
     assert list(json.loads((raw / "manifest.json").read_text())["trackers"]) == ["still-box"]
+
+
+def test_a_sequence_of_otb_ends_with_its_true_boxes(tmp_path):
+    """Football1 has 81 images and 74 true boxes: the GOT-10k toolkit takes OTB's form only with 74 lines. The
+    other forms have all frames.
+    """
+    images = tmp_path / "OTB" / "Football1" / "img"
+    images.mkdir(parents=True)
+    for index in range(1, 82):
+        cv2.imwrite(str(images / f"{index:04d}.jpg"), np.full((24, 32, 3), index, np.uint8))
+    (images.parent / "groundtruth_rect.txt").write_text("9,9,8,8\n" * 74)
+    place = tmp_path / "evaluation"
+    options = evaluation.Options(trackers=("still-box",), restarts=False)
+    done = evaluation.evaluate(tmp_path / "OTB", place, options)
+    raw = raw_results.write_raw(done, place, tmp_path / "raw", tables.settings(done)).parent
+    boxes = read(raw / "otb" / "still-box" / "Football1.txt")
+    assert len(boxes) == len(read(raw / "otb" / "still-box" / "times" / "Football1_time.txt")) == 74
+    assert len(read(raw / "got10k" / "still-box" / "Football1" / "Football1_001.txt")) == 81
+    toolkit = pytest.importorskip("got10k.datasets", reason="the toolkit that reads it: tricue[got10k]")
+    _, truth = toolkit.OTB(str(tmp_path / "OTB"), version=2015, download=False)["Football1"]
+    np.testing.assert_array_equal(boxes, truth)

@@ -30,13 +30,15 @@ from tricue.evaluation.tasks import code_digest
 
 MANIFEST, FORMAT = "manifest.json", 2
 OTB, GOT10K, VOT = "otb", "got10k", "vot"  # the folders of the three forms
+OTB_FORMAT = "OTB"  # a source's
 EXPERIMENT = "longterm"  # VOT's name for one pass with confidences
 VOT_UNKNOWN, VOT_START = "0", "1"
 CONVENTIONS = {
     "boxes": "x,y,width,height in pixels; (0, 0) is the top-left corner of the image, in OTB's form (1, 1);"
     " nan where there is no box",
     "times": "seconds of each update, without decoding; 0 in frames without one, such as the first",
-    OTB: "TRACKER/SEQUENCE.txt, TRACKER/times/SEQUENCE_time.txt, from the first seed",
+    OTB: "TRACKER/SEQUENCE.txt, TRACKER/times/SEQUENCE_time.txt, from the first seed; a sequence of OTB ends"
+    " with its true boxes",
     GOT10K: "TRACKER/SEQUENCE/SEQUENCE_00N.txt from seed N - 1, SEQUENCE_time.txt with a column a seed",
     VOT: f"TRACKER/{EXPERIMENT}/SEQUENCE/SEQUENCE_00N.txt, _confidence.value, _time.value, from seed N - 1;"
     f" {VOT_START} is the frame of the start, {VOT_UNKNOWN} one without a box",
@@ -87,11 +89,13 @@ def write_raw(
     stored = [each for each in evaluation.one_pass if store.path(each.task).is_file()]
     trackers = file_names({each.task.tracker.name: each.task.tracker.name for each in stored})
     sequences = file_names(short_names([each.entry for each in evaluation.opened]))
+    labeled = {each.entry.name: _otb_rows(each) for each in evaluation.opened}
     frames: dict[str, int] = {}
     for (tracker, sequence), results in _grouped(stored).items():
         repetitions = [_repetition(store, number, each) for number, each in enumerate(results, 1)]
         frames[sequence] = len(repetitions[0].run.boxes)
-        _write_otb(unfinished / OTB / trackers[tracker], sequences[sequence], repetitions[0])
+        otb = unfinished / OTB / trackers[tracker]
+        _write_otb(otb, sequences[sequence], repetitions[0], labeled[sequence])
         _write_got10k(unfinished / GOT10K / trackers[tracker], sequences[sequence], repetitions)
         _write_vot(unfinished / VOT / trackers[tracker], sequences[sequence], repetitions)
     manifest = {
@@ -173,9 +177,17 @@ def _describe(opened: OpenedSequence, frames: int) -> dict[str, Any]:
     }
 
 
-def _write_otb(folder: Path, sequence: str, repetition: _Repetition) -> None:
-    _write_lines(folder / f"{sequence}.txt", repetition.boxes(first_pixel=1))
-    _write_lines(folder / "times" / f"{sequence}_time.txt", [f"{value:.8f}" for value in repetition.times])
+def _otb_rows(opened: OpenedSequence) -> int | None:
+    """The number of frames in OTB's form: a sequence of OTB has as many as true boxes, as the GOT-10k toolkit
+    requires; None for all.
+    """
+    return len(opened.boxes) if opened.source.format == OTB_FORMAT else None
+
+
+def _write_otb(folder: Path, sequence: str, repetition: _Repetition, rows: int | None) -> None:
+    _write_lines(folder / f"{sequence}.txt", repetition.boxes(first_pixel=1)[:rows])
+    times = [f"{value:.8f}" for value in repetition.times[:rows]]
+    _write_lines(folder / "times" / f"{sequence}_time.txt", times)
 
 
 def _write_got10k(folder: Path, sequence: str, repetitions: Sequence[_Repetition]) -> None:
