@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from tricue.cli import main
 from tricue.cli.vot_workspace import commands
+from tricue.evaluation.toolkits.vot_sequences import _write_lines
 
 pytest.importorskip("trax")
 
@@ -63,6 +64,27 @@ def test_trackers_are_named_once(data: Path, tmp_path: Path, capsys: pytest.Capt
     assert (tmp_path / "ws" / "trackers.ini").read_text().count("[color-particle]") == 1
     assert main([*command, "--sequences", str(data)]) == 0
     assert f"left out {data / 'walk'}: the workspace has a sequence walk" in capsys.readouterr().out
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
+def test_a_full_disk_is_told_with_the_file(
+    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that the error of a full disk says which file of the workspace it is about."""
+    path = tmp_path / "ws" / "trackers.ini"
+    words = ["vot-workspace", str(tmp_path / "ws"), "--trackers", "color-particle", "--sequences", str(data)]
+    assert main(words) == 0
+    path.unlink()
+    path.symlink_to("/dev/full")
+    assert main(words) == 2
+    assert capsys.readouterr().err == f"tricue vot-workspace: {path}: No space left on device\n"
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
+def test_a_full_disk_is_told_with_the_file_of_a_sequence() -> None:
+    """It proves the same of the files of a sequence, whose errors become notes."""
+    with pytest.raises(OSError, match="No space left on device: '/dev/full'"):
+        _write_lines(Path("/dev/full"), ["1,2,3,4"])
 
 
 def test_all_trackers_are_in_the_commands() -> None:

@@ -2,6 +2,7 @@
 """Two evaluations against each other, as a file of numbers and as a user runs it."""
 
 import json
+from pathlib import Path
 
 import pytest
 from tricue.cli import main
@@ -104,6 +105,13 @@ def test_the_page_holds_the_same(folders, tmp_path, capsys):
     assert "nothing can be told" in text
     assert "only in the old one: tracker gone" in text
     assert str(path) in capsys.readouterr().out
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
+def test_a_full_disk_is_told_with_the_page(folders, capsys):
+    """Python names a file only when it opens it."""
+    assert main(["compare", *map(str, folders), "--report", "/dev/full"]) == 2
+    assert capsys.readouterr().err == "tricue compare: /dev/full: No space left on device\n"
 
 
 @pytest.mark.parametrize(

@@ -119,7 +119,8 @@ def write_raw(
     }
     unfinished.mkdir(parents=True, exist_ok=True)
     text = json.dumps(manifest, indent=1, default=str)
-    (unfinished / MANIFEST).write_text(f"{text}\n", encoding="utf-8")
+    with naming(folder / MANIFEST):
+        (unfinished / MANIFEST).write_text(f"{text}\n", encoding="utf-8")
     if folder.exists():
         shutil.rmtree(folder)
     unfinished.replace(folder)

@@ -3,6 +3,7 @@
 
 import dataclasses
 import json
+import os
 from pathlib import Path
 
 import cv2
@@ -204,6 +205,17 @@ def test_attributes_that_cannot_be_stored_are_an_error(tmp_path):
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / FOLDER).write_text("no folder")
     with pytest.raises(FileExistsError):
+        measure_all([opened], tmp_path / "out")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
+def test_a_full_disk_is_told_with_the_file(tmp_path):
+    """With the name of the attributes' file, not of the one that is to become it."""
+    opened = otb(tmp_path / "made", [[61, 51, 24, 24]] * 4)
+    path = tmp_path / "out" / FOLDER / "made.json"
+    path.parent.mkdir(parents=True)
+    path.with_suffix(f".{os.getpid()}.part").symlink_to("/dev/full")
+    with pytest.raises(OSError, match=f"No space left on device: '{path}'"):
         measure_all([opened], tmp_path / "out")
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.arrays import Floats
+from tricue.draw.writable import naming
 from tricue.evaluation.attributes.definitions import ATTRIBUTES, BY_KEY
 from tricue.evaluation.attributes.depth_values import depth_values
 from tricue.evaluation.attributes.image_values import image_values
@@ -116,8 +117,9 @@ def _store(path: Path, fingerprint: str, name: str, found: SequenceAttributes) -
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_suffix(f".{os.getpid()}.part")
     text = json.dumps({"fingerprint": fingerprint, "sequence": name, "values": values})
-    part.write_text(f"{text}\n", encoding="utf-8")
-    part.replace(path)
+    with naming(path):
+        part.write_text(f"{text}\n", encoding="utf-8")
+        part.replace(path)
 
 
 def _escaped(found: re.Match[str]) -> str:

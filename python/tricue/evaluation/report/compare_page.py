@@ -3,6 +3,7 @@
 
 from pathlib import Path
 
+from tricue.draw.writable import naming
 from tricue.evaluation.compare import Change, Comparison
 from tricue.evaluation.report.columns import COLUMNS
 from tricue.evaluation.report.comparisons import interval
@@ -36,11 +37,9 @@ def write_compare_page(found: Comparison, old: Path, new: Path, path: Path) -> P
     )
     main = tag("main", header, _overview(found), [_sequences(each) for each in found.changes])
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(
-        "<!DOCTYPE html>\n" + tag("html", head, tag("body", main), lang="en") + "\n",
-        encoding="utf-8",
-        newline="\n",
-    )
+    page = "<!DOCTYPE html>\n" + tag("html", head, tag("body", main), lang="en") + "\n"
+    with naming(path):
+        path.write_text(page, encoding="utf-8", newline="\n")
     return path
 
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from tricue.data.depth_images import METERS_PER_MILLIMETER, DepthReader
 from tricue.data.open_source import Source
 from tricue.data.streams import Images, Stream, read_color
+from tricue.draw.writable import naming
 from tricue.evaluation.dataset import Entry, OpenedSequence
 from tricue.evaluation.toolkits.millimeters import to_millimeters
 
@@ -146,4 +147,5 @@ def _link(path: Path, link: Path) -> None:
 
 
 def _write_lines(path: Path, lines: Iterable[object]) -> None:
-    path.write_text("".join(f"{line}\n" for line in lines), encoding="utf-8")
+    with naming(path):
+        path.write_text("".join(f"{line}\n" for line in lines), encoding="utf-8")

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tricue.data.open_source import Source, open_source
+from tricue.draw.writable import naming
 from tricue.errors import one_line
 from tricue.evaluation.toolkits.trax_server import select_channels
 from tricue.evaluation.toolkits.vot_sequences import vot_channels, write_sequence
@@ -94,9 +95,7 @@ def write_workspace(
             continue
         report.added.append(name)
         report.sequences.append(name)
-        (folder / SEQUENCES / LIST).write_text(
-            "".join(f"{each}\n" for each in report.sequences), encoding="utf-8"
-        )
+        _write(folder / SEQUENCES / LIST, "".join(f"{each}\n" for each in report.sequences))
     _require_sequences(report)
     return report
 
@@ -154,7 +153,7 @@ def _add_trackers(path: Path, sections: dict[str, str], report: WorkspaceReport)
             report.notes.append(f"kept {name} in {path} as it is")
         else:
             text = f"{text}\n{section}" if text else section
-    path.write_text(text, encoding="utf-8")
+    _write(path, text)
 
 
 def _listed_sequences(folder: Path) -> list[str]:
@@ -213,4 +212,9 @@ def _rate_hints(source: Source, trackers: Iterable[str]) -> Iterator[str]:
 
 def _write_new(path: Path, text: str) -> None:
     if not path.exists():
+        _write(path, text)
+
+
+def _write(path: Path, text: str) -> None:
+    with naming(path):
         path.write_text(text, encoding="utf-8")
