@@ -2,6 +2,7 @@
 """Two evaluations against each other, as a file of numbers and as a user runs it."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -105,6 +106,18 @@ def test_the_page_holds_the_same(folders, tmp_path, capsys):
     assert "nothing can be told" in text
     assert "only in the old one: tracker gone" in text
     assert str(path) in capsys.readouterr().out
+
+
+def test_a_difference_that_rounds_to_0_has_no_sign(tmp_path, capsys):
+    """-0.000 would look like a loss, in the table and on the page; a real difference keeps its sign."""
+    old = write(tmp_path / "old", a=OLD, b=OLD)
+    new = write(tmp_path / "new", a=[each - 0.0001 for each in OLD], b=[each + 0.01 for each in OLD])
+    page = tmp_path / "compare.html"
+    assert main(["compare", str(old), str(new), "--report", str(page)]) == 0
+    for text in capsys.readouterr().out, page.read_text():
+        assert "[0.000, 0.000]" in text
+        assert "+0.010" in text
+        assert not re.search(r"[+-]0\.000", text)
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")

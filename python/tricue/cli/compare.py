@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tricue.cli.arguments import number
 from tricue.evaluation.compare import Comparison, compare_folders
-from tricue.evaluation.differences import BETTER
+from tricue.evaluation.differences import BETTER, signed
 from tricue.evaluation.report.compare_page import write_compare_page
 
 EXAMPLES = """\
@@ -76,8 +76,8 @@ def table(found: Comparison) -> str:
                 str(len(each.by_sequence)),
                 f"{each.old:.3f}",
                 f"{each.new:.3f}",
-                f"{mean:+.3f}",
-                f"[{low:+.3f}, {high:+.3f}]" if each.difference.known else "-",
+                signed(mean, 3),
+                f"[{signed(low, 3)}, {signed(high, 3)}]" if each.difference.known else "-",
                 each.verdict,
             ]
         )

@@ -37,6 +37,12 @@ def comparison(
     return compare(values, evaluation.recordings)
 
 
+def signed(difference: float, digits: int) -> str:
+    """A difference with its sign; none if it is 0 as rounded, since "-0.00" would look like a loss."""
+    text = f"{difference:+.{digits}f}"
+    return text if text.strip("+-0.") else text[1:]
+
+
 def protocols_of(evaluation: Evaluation, group: str) -> Sequence[str]:
     """The protocols with any run on the group."""
     return [

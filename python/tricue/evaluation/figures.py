@@ -13,7 +13,7 @@ from tricue.draw.writable import naming
 from tricue.evaluation import tables
 from tricue.evaluation.attributes.definitions import BY_KEY
 from tricue.evaluation.attributes.results import sequences_with, tracker_lines
-from tricue.evaluation.differences import comparison
+from tricue.evaluation.differences import comparison, signed
 from tricue.evaluation.evaluate import Evaluation
 from tricue.evaluation.report.plot_styles import LineStyle, line_styles
 from tricue.evaluation.report.plots import Group, Plot, by_number, dash_pattern, plots_of
@@ -160,7 +160,7 @@ def _matrix(found: TrackerComparison) -> Callable[[Any], None]:
                 across = [column, column + 1, column + 1, column]
                 axes.fill(across, [row, row, row + 1, row + 1], _shade(pair))
                 if pair is not None and len(names) <= MAX_NAMED_CELLS:
-                    text = f"{pair.difference.mean:+.2f}"
+                    text = signed(pair.difference.mean, 2)
                     ink = "white" if pair.different else "#222222"
                     axes.text(column + 0.5, row + 0.5, text, ha="center", va="center", color=ink)
         middles = [index + 0.5 for index in range(len(names))]

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tricue.evaluation import tables
+from tricue.evaluation import figures, tables
 from tricue.evaluation.baselines import available
 from tricue.evaluation.differences import BETTER
-from tricue.evaluation.report import curves, labels, timeline
+from tricue.evaluation.report import comparisons, curves, labels, timeline
 from tricue.evaluation.report.columns import COLUMNS, best, with_numbers
 from tricue.evaluation.report.markup import Html, joined, number, tag
 from tricue.evaluation.report.plot_styles import line_styles
@@ -279,3 +279,16 @@ def test_a_group_knows_its_trackers(evaluation):
     lines = tables.summary(evaluation)
     assert Group.of(evaluation, "color", lines).ours == ["color-particle"]
     assert list(Group.of(evaluation, "depth", lines).results) == ["depth-particle", "meanShift", "still-box"]
+
+
+def test_differences_that_round_to_0_have_no_sign():
+    """Neither in the matrix of the report nor in the figure for a paper: "-0.00" would look like a loss."""
+    found = compare({"a": {f"{n}": 0.5 for n in range(8)}, "b": {f"{n}": 0.5001 for n in range(8)}}, {})
+    for first, second in ("ab", "ba"):
+        cell = comparisons._pair_cell(found, first, second)
+        assert ">0.000<" in cell
+        assert ">[0.00, 0.00]<" in cell
+    figure = pytest.importorskip("matplotlib.figure", reason="figures: pip install tricue[evaluate]")
+    axes = figure.Figure().add_subplot()
+    figures._matrix(found)(axes)
+    assert [each.get_text() for each in axes.texts] == ["0.00", "0.00"]

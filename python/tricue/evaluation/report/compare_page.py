@@ -4,9 +4,10 @@
 from pathlib import Path
 
 from tricue.draw.writable import naming
+from tricue.evaluation.bootstrap import Interval
 from tricue.evaluation.compare import Change, Comparison
+from tricue.evaluation.differences import signed
 from tricue.evaluation.report.columns import COLUMNS
-from tricue.evaluation.report.comparisons import interval
 from tricue.evaluation.report.markup import Html, joined, number, scrolled, tag
 
 POLICY = "default-src 'none'; style-src 'unsafe-inline'"
@@ -53,8 +54,8 @@ def _overview(found: Comparison) -> Html:
             [tag("td", number(value)) for value in (each.old, each.new)],
             tag(
                 "td",
-                f"{each.difference.mean:+.3f}",
-                interval(each.difference.low, each.difference.high, 3),
+                signed(each.difference.mean, 3),
+                _ends(each.difference),
                 class_=_SHADES.get(each.verdict),
             ),
             tag("td", each.verdict),
@@ -70,6 +71,14 @@ def _overview(found: Comparison) -> Html:
     return joined(tag("h2", "Trackers"), scrolled(table, "trackers"), tag("p", note, class_="note"))
 
 
+def _ends(difference: Interval) -> Html | None:
+    """The ends of the interval in small print; None if unknown."""
+    if not difference.known:
+        return None
+    ends = f"[{signed(difference.low, 3)}, {signed(difference.high, 3)}]"
+    return tag("small", ends, class_="interval")
+
+
 def _sequences(change: Change) -> Html:
     lines = change.worst_first()
     rows = [
@@ -77,7 +86,7 @@ def _sequences(change: Change) -> Html:
             "tr",
             tag("th", name, scope="row"),
             [tag("td", number(value)) for value in (old, new)],
-            tag("td", f"{new - old:+.3f}"),
+            tag("td", signed(new - old, 3)),
         )
         for name, old, new in lines[:MAX_LISTED]
     ]

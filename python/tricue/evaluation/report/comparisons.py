@@ -7,7 +7,7 @@ from typing import Any
 
 from tricue.evaluation.attributes.definitions import BY_KEY
 from tricue.evaluation.attributes.results import sequences_with, tracker_lines
-from tricue.evaluation.differences import comparison, protocols_of
+from tricue.evaluation.differences import comparison, protocols_of, signed
 from tricue.evaluation.evaluate import Evaluation
 from tricue.evaluation.markdown import telling
 from tricue.evaluation.report.markup import Html, joined, number, scrolled, tag
@@ -16,11 +16,11 @@ from tricue.evaluation.report.plots import by_number
 from tricue.evaluation.significance import Pair, TrackerComparison
 
 
-def interval(low: float, high: float, digits: int = 2) -> Html | None:
+def interval(low: float, high: float) -> Html | None:
     """The ends of an interval in small print; None if unknown."""
     if math.isnan(low):
         return None
-    return tag("small", f"[{low:.{digits}f}, {high:.{digits}f}]", class_="interval")
+    return tag("small", f"[{low:.2f}, {high:.2f}]", class_="interval")
 
 
 def told(found: TrackerComparison) -> Html:
@@ -157,8 +157,8 @@ def _pair_cell(found: TrackerComparison, first: str, second: str) -> Html:
         f" p {pair.p:.2g}, for all pairs {pair.adjusted:.2g}"
     )
     _, low, high = pair.difference
-    ends = tag("small", f"[{low:+.2f}, {high:+.2f}]", class_="interval")
-    return tag("td", f"{pair.difference.mean:+.3f}", ends, class_=_kind(pair), title=title)
+    ends = tag("small", f"[{signed(low, 2)}, {signed(high, 2)}]", class_="interval")
+    return tag("td", signed(pair.difference.mean, 3), ends, class_=_kind(pair), title=title)
 
 
 def _kind(pair: Pair) -> str | None:
