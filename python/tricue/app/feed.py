@@ -130,7 +130,13 @@ def state(serving: Serving) -> dict[str, Any]:
         "run": None if run is None else {"step": run.step, "targets": list(run.followed)},
         "ended": None
         if last is None
-        else {"run": ended, "frame": last.reached, "step": last.step, "targets": list(last.followed)},
+        else {
+            "run": ended,
+            "frame": last.reached,
+            "step": last.step,
+            "targets": list(last.followed),
+            "stopped": last.stopped,
+        },
         "version": session.version,
         "video": None
         if job is None

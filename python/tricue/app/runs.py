@@ -22,12 +22,15 @@ Report = Callable[[Exception, str], None]
 
 @dataclass
 class TrackingRun:
-    """A tracking run; ``found`` grows frame by frame while it runs. step: 1, or -1 backward."""
+    """A tracking run; ``found`` grows frame by frame while it runs. step: 1, or -1 backward. stopped: the
+    targets that it has followed up to a drawn box, and that box's frame.
+    """
 
     start: int
     step: Direction
     followed: tuple[int, ...]
     found: list[tuple[int, int, Track]] = field(default_factory=list)  # target, frame, track
+    stopped: dict[int, int] = field(default_factory=dict)
     latest: tuple[int, Frame] | None = None
     stop: threading.Event = field(default_factory=threading.Event)
     began: float = field(default_factory=time.perf_counter)
@@ -129,6 +132,8 @@ class Follower:
         run.seconds += time.perf_counter() - before
         run.updates += 1
         run.found.append((target.id, number, track))
+        if number + run.step in target.drawn:
+            run.stopped[target.id] = number + run.step
         self._paused[target.id] = Paused(tracker, number, run.step, track, target.tracker)
 
     def _new(self, target: ProjectTarget) -> Tracker:

@@ -83,6 +83,21 @@ def test_run_leads_to_the_drawn_box_that_ends_it(server: Server, open_tab: Calla
     tab.page.locator(".toast", has_text="Tracking stopped at the box drawn in frame 0").wait_for()
 
 
+def test_target_that_stops_at_its_box_while_another_goes_on_is_told(
+    server: Server, open_tab: Callable[..., Tab]
+) -> None:
+    """The run of both ends at the video's end, where nothing else would say why one has no box."""
+    for _ in range(2):
+        server.do("add", frame=0, box=[*START], tracker="color-particle")
+    server.do("draw", target=1, frame=20, box=[START.x + 20, START.y - 4, 46, 46])
+    tab = open_tab(server.url)
+    tab.page.select_option("#who", "all")
+    tab.track()
+    tab.shows(FRAMES - 1)
+    tab.page.locator(".toast", has_text="Target 1 stopped at the box drawn in frame 20").wait_for()
+    assert tab.page.locator(".toast").count() == 1
+
+
 def test_press_in_the_picture_during_a_run_says_to_pause(
     server: Server, open_tab: Callable[..., Tab]
 ) -> None:

@@ -148,7 +148,7 @@ def test_images_of_another_size_end_a_recording(studio: Studio, monkeypatch: pyt
     studio.shows(2)
     assert studio.session.recorder is None
     changed = f"a camera: its images are {2 * width}x{2 * height} px now"
-    assert studio.session.errors == [f"{changed}, the recording has ended; draw the boxes anew"]
+    assert studio.session.errors == [f"{changed}, so the recording has ended; draw the boxes anew"]
     table, told, video = studio.session.recorded
     assert len(table.read_text().splitlines()) == 1 + 3
     assert len(json.loads(told.read_text())["tracks"]) == 3

@@ -221,7 +221,7 @@ class LiveSession:
         self._backlog.clear()
         for followed in self._followed.values():
             followed.stopped, followed.track = True, replace(followed.track, status=Status.LOST)
-        ended = ", the recording has ended" * (self.recorder is not None)
+        ended = ", so the recording has ended" * (self.recorder is not None)
         self.stop_recording()
         self.errors.append(f"{self.name}: its images are {width}x{height} px now{ended}; draw the boxes anew")
 

@@ -211,18 +211,29 @@ function hearRun({ frame, speed, tracks }) {
   say(`tracking ${frame}`);
 }
 
-function runEnded({ frame, step, targets }) {
+function runEnded({ frame, step, targets, stopped }) {
   get("speed").textContent = "";
-  const next = frame + step;
-  if (wanted === null && targets.some((id) => model.target(id)?.drawn.includes(next))) {
-    note(`Tracking stopped at the box drawn in frame ${next}`);
-    wanted = next; // from where tracking can go on
-  }
+  noteStops(targets, stopped);
+  if (Object.values(stopped).includes(frame + step)) wanted ??= frame + step; // from where tracking can go on
   const lost = targets.filter((id) => model.status(id, frame) === LOST).map((id) => model.target(id)?.name);
   announce(`Tracking ended at frame ${frame}${lost.length ? `; lost: ${lost.join(", ")}` : ""}`);
   model.go(wanted ?? frame);
   wanted = null;
   load();
+}
+
+/** Say which of the followed targets stopped at a drawn box; others may have gone on. */
+function noteStops(followed, stopped) {
+  const names = new Map(); // by frame
+  for (const [id, at] of Object.entries(stopped)) {
+    const target = model.target(Number(id));
+    if (target) names.set(at, [...(names.get(at) ?? []), target.name]);
+  }
+  const list = new Intl.ListFormat("en");
+  for (const [at, those] of names) {
+    const who = those.length === followed.length ? "Tracking" : list.format(those);
+    note(`${who} stopped at the box drawn in frame ${at}`);
+  }
 }
 
 function announce(text) {

@@ -176,7 +176,10 @@ model.addEventListener("state", update);
 model.addEventListener("choice", () => {
   updateTargets();
   const target = model.target();
-  if (target) get("said").textContent = `${target.name} chosen, ${STATUS_NAMES[model.status(target.id, stage.shown)]}`;
+  if (!target) return;
+  // A new target has no status before its first tracks come.
+  const words = [`${target.name} chosen`, STATUS_NAMES[model.status(target.id, stage.shown)]];
+  get("said").textContent = words.filter(Boolean).join(", ");
 });
 
 const CLICKS = {
