@@ -10,11 +10,15 @@ from typing import Any, TypeVar
 
 T = TypeVar("T")
 
+MAX_LAST_FRAME = 3.0
+"""Seconds that the current frame may take after a signal: many times what a slow tracker needs."""
+
 ENDING = tuple(
     getattr(signal, name)
     for name in ("SIGINT", "SIGTERM", "SIGHUP")
     if hasattr(signal, name)  # not on Windows
 )
+ALARM = (signal.SIGALRM,) if hasattr(signal, "SIGALRM") else ()
 
 
 @contextmanager
@@ -33,7 +37,7 @@ class CaughtSignal:
 
     def __init__(self) -> None:
         self._number = 0
-        self._awaiting = False
+        self._awaiting = self._working = False
 
     def __call__(self) -> int:
         return self._number
@@ -42,6 +46,13 @@ class CaughtSignal:
         """The handler: a second signal interrupts, and so does one that comes while an item is awaited."""
         second, self._number = self._number != 0, self._number or number
         if second or self._awaiting:
+            raise KeyboardInterrupt
+        if self._working:
+            _set_alarm(MAX_LAST_FRAME)
+
+    def expire(self, _number: int, _frame: FrameType | None) -> None:
+        """The alarm's handler."""
+        if self._working:
             raise KeyboardInterrupt
 
     def until_caught(self, items: Iterable[T]) -> Iterator[T]:
@@ -59,12 +70,39 @@ class CaughtSignal:
                 self._awaiting = False
             yield item
 
+    def unless_stuck(self, items: Iterable[T]) -> Iterator[T]:
+        """The items. After a signal the one in work may be finished, but not wait forever, as for a process
+        that hangs; then, and after a second signal, there are no more.
+        """
+        iterator = iter(items)
+        while True:
+            try:
+                self._working = True
+                item = next(iterator)
+            except StopIteration:
+                return
+            except KeyboardInterrupt:
+                if not self._number:
+                    raise
+                return
+            finally:
+                self._working = False
+                if self._number:
+                    _set_alarm(0)
+            yield item
+
+
+def _set_alarm(seconds: float) -> None:
+    """Send SIGALRM after this time, or never for 0; nothing on Windows, which has none."""
+    if hasattr(signal, "setitimer") and threading.current_thread() is threading.main_thread():
+        signal.setitimer(signal.ITIMER_REAL, seconds)
+
 
 @contextmanager
 def catch_signals() -> Iterator[CaughtSignal]:
     """Catch signals, so that the current frame can be finished. A second signal interrupts."""
     caught = CaughtSignal()
-    with _handled(ENDING, caught.catch):
+    with _handled(ENDING, caught.catch), _handled(ALARM, caught.expire):
         yield caught
 
 

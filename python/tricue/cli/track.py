@@ -67,7 +67,7 @@ def _track(
         progress = files.enter_context(Progress(run.stated_frames))
         frames = stop.until_caught(islice(run.source, run.first, run.end))
         targets = None if run.targets is None else files.enter_context(run.targets)
-        for step in _steps(run, targets, frames, clock):
+        for step in stop.unless_stuck(_steps(run, targets, frames, clock)):
             if not record.tracks:  # only now, so that a run that never starts keeps an earlier one's files
                 outputs.extend(map(files.enter_context, _outputs(options, run, clock)))
             for output in outputs:
