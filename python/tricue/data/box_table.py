@@ -7,7 +7,8 @@ height, or the frame number followed by these.
 
 import csv
 import math
-from collections.abc import Mapping
+from array import array
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
@@ -15,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.data.files import is_video
-from tricue.data.truth import MAX_FRAME_NUMBER, MAX_VALUE, Truth, check_sizes, read_lines, truth_from_rows
+from tricue.data.truth import MAX_FRAME_NUMBER, MAX_VALUE, Truth, check_sizes, lines_of, truth_from_rows
 
 BOX_TABLE = "boxes.csv"
 _BOX_COLUMNS = ("x", "y", "width", "height")
@@ -59,13 +60,15 @@ def read_box_table(path: Path) -> Truth:
     are unknown. Empty cells, NaN, or a width or height of 0 mean that the target is absent. Other columns
     are ignored. ValueError names the file and the line.
     """
-    rows = _rows(path)
-    frames = _frames(rows)
-    length = max(frames, default=-1) + 1
-    given = truth_from_rows([row.box() for row in rows])
-    boxes, absent = np.full((length, 4), np.nan), np.zeros(length, np.bool_)
-    boxes[frames], absent[frames] = given.boxes, given.absent
-    return Truth(boxes, absent, _positions(rows, frames, length))
+    frames, numbers, places = _Frames(), array("d"), array("d")  # millions of lists would take gigabytes
+    for row in _rows(path):
+        frames.add(row)
+        numbers.extend(row.box())
+        places.extend(map(row.number, _POSITION_COLUMNS))
+    given = truth_from_rows(numbers)
+    boxes, absent = np.full((frames.length, 4), np.nan), np.zeros(frames.length, np.bool_)
+    boxes[frames.numbers], absent[frames.numbers] = given.boxes, given.absent
+    return Truth(boxes, absent, _positions(places, frames))
 
 
 def find_box_table(folder: Path, video: Path | None = None) -> Path | None:
@@ -101,23 +104,22 @@ def _lists_videos(path: Path) -> bool:
         return False
 
 
-def _rows(path: Path) -> list[_Row]:
-    lines = read_lines(path)
-    first = _cells(lines[0]) if lines else []
-    names = _names(first)
-    start = 0 if names is None else 1
-    columns = names or _HEADERLESS_COLUMNS.get(len(first), ())
-    if lines and (not set(_BOX_COLUMNS) <= set(columns) or len(set(columns)) < len(columns)):
-        raise ValueError(
-            f"{path}, line 1: expected columns x, y, width, height, each once, got {lines[0].strip()!r:.60}"
-        )
-    rows = []
-    for number, line in enumerate(lines[start:], start + 1):
+def _rows(path: Path) -> Iterator[_Row]:
+    columns: tuple[str, ...] = ()
+    for number, line in enumerate(lines_of(path), 1):
         cells, place = _cells(line), f"{path}, line {number}"
+        if number == 1:
+            names = _names(cells)
+            columns = names or _HEADERLESS_COLUMNS.get(len(cells), ())
+            if not set(_BOX_COLUMNS) <= set(columns) or len(set(columns)) < len(columns):
+                raise ValueError(
+                    f"{place}: expected columns x, y, width, height, each once, got {line.strip()!r:.60}"
+                )
+            if names:
+                continue
         if len(cells) != len(columns):
             raise ValueError(f"{place}: expected {len(columns)} values, got {line.strip()!r:.60}")
-        rows.append(_Row(dict(zip(columns, cells, strict=True)), place))
-    return rows
+        yield _Row(dict(zip(columns, cells, strict=True)), place)
 
 
 def _first_cells(path: Path) -> list[str]:
@@ -151,28 +153,47 @@ def _is_number(text: str) -> bool:
     return True
 
 
-def _frames(rows: list[_Row]) -> list[int]:
-    """The frame number of each row."""
-    if not rows or "frame" not in rows[0].cells:
-        return list(range(len(rows)))
-    frames: dict[int, str] = {}
-    for row in rows:
-        number = row.number("frame")
-        if not (0 <= number < MAX_FRAME_NUMBER and number.is_integer()):
-            raise ValueError(
-                f"{row.place}: expected a frame's whole number from 0, got {row.cells['frame']!r:.60}"
-            )
-        if int(number) in frames:
-            raise ValueError(f"{row.place}: expected each frame once, got {int(number)} again")
-        frames[int(number)] = row.place
-    return list(frames)
+class _Frames:
+    """The frame number of each row: from its column ``frame``, or, without one, its index."""
+
+    def __init__(self) -> None:
+        self._numbers = array("q")
+        self._seen = bytearray()  # by frame
+
+    @property
+    def numbers(self) -> NDArray[np.int64]:
+        """The numbers in the order of the rows."""
+        return np.array(self._numbers, np.int64)
+
+    @property
+    def length(self) -> int:
+        """The number of frames up to the last with a row."""
+        return len(self._seen)
+
+    def add(self, row: _Row) -> None:
+        """Add a row's number. ValueError for one that is no frame's, or that another row has."""
+        frame = _frame_of(row) if "frame" in row.cells else len(self._numbers)
+        self._seen.extend(bytes(max(0, frame + 1 - len(self._seen))))
+        if self._seen[frame]:
+            raise ValueError(f"{row.place}: expected each frame once, got {frame} again")
+        self._seen[frame] = True
+        self._numbers.append(frame)
 
 
-def _positions(rows: list[_Row], frames: list[int], length: int) -> NDArray[np.float64] | None:
+def _frame_of(row: _Row) -> int:
+    number = row.number("frame")
+    if not (0 <= number < MAX_FRAME_NUMBER and number.is_integer()):
+        raise ValueError(
+            f"{row.place}: expected a frame's whole number from 0, got {row.cells['frame']!r:.60}"
+        )
+    return int(number)
+
+
+def _positions(places: "array[float]", frames: _Frames) -> NDArray[np.float64] | None:
     """The positions (length, 3) in meters; None if no row has one."""
-    given = np.array([[row.number(name) for name in _POSITION_COLUMNS] for row in rows]).reshape(-1, 3)
+    given = np.array(places, np.float64).reshape(-1, 3)
     if np.isnan(given).all():
         return None
-    positions = np.full((length, 3), np.nan)
-    positions[frames] = given
+    positions = np.full((frames.length, 3), np.nan)
+    positions[frames.numbers] = given
     return positions

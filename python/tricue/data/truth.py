@@ -6,8 +6,10 @@ count from 0. Princeton has <sequence>.txt, which is public for few sequences, a
 alone. Folders without these files may have a table, boxes.csv; see :mod:`tricue.data.box_table`.
 """
 
+import math
 import re
-from collections.abc import Sequence
+from array import array
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple, TypeVar
 
@@ -111,19 +113,31 @@ def read_truth_file(path: Path, count: int | None = None) -> Truth:
     boxes. count: how many numbers of a line to read; by default all. ValueError names a line with anything
     else.
     """
-    numbered = enumerate(read_lines(path), 1)
-    truth = truth_from_rows([_true_box(line, f"{path}, line {number}", count) for number, line in numbered])
+    numbers = array("d")  # millions of tuples would take gigabytes
+    for number, line in enumerate(lines_of(path), 1):
+        numbers.extend(_true_box(line, f"{path}, line {number}", count))
+    truth = truth_from_rows(numbers)
     if path.name == OTB_TRUTH or _OTB_TARGET_TRUTH.fullmatch(path.name):
         return truth._replace(boxes=truth.boxes - [1, 1, 0, 0])
     return truth
 
 
 def read_lines(path: Path) -> list[str]:
-    """The lines of a text file, without empty ones at the end; bytes that aren't UTF-8 are replaced."""
-    lines = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
-    while lines and not lines[-1].strip():
-        lines.pop()
-    return lines
+    """The lines of a text file, see :func:`lines_of`."""
+    return list(lines_of(path))
+
+
+def lines_of(path: Path) -> Iterator[str]:
+    """The lines of a text file one by one, without empty ones at the end; bytes that aren't UTF-8 are
+    replaced.
+    """
+    empty = list[str]()
+    with path.open(encoding="utf-8-sig", errors="replace") as file:
+        for line in file:
+            empty.append(line.removesuffix("\n"))
+            if line.strip():
+                yield from empty
+                empty.clear()
 
 
 def _truth_path(folder: Path, target: str | None) -> Path | None:
@@ -151,9 +165,9 @@ def read_box(line: str, place: str, count: int | None = None) -> tuple[float, ..
         numbers = tuple(map(float, words))
     except ValueError:
         numbers = ()
-    if not np.isinf(numbers).any():
-        if np.isnan(numbers).any():
-            return (np.nan,) * 4
+    if not any(map(math.isinf, numbers)):
+        if any(map(math.isnan, numbers)):
+            return (math.nan,) * 4
         if len(numbers) == 4:
             return numbers
         if len(numbers) >= 6 and len(numbers) % 2 == 0:
@@ -171,7 +185,7 @@ def check_sizes(box: Box, place: str, line: str) -> Box:
     """The box x, y, width, height of a line; unless it has NaN, ValueError for a negative width or height and
     for numbers beyond a million pixels.
     """
-    if np.isnan(box).any():
+    if any(map(math.isnan, box)):
         return box
     if min(box[2:]) < 0:
         raise ValueError(f"{place}: expected a width and height of 0 or more, got {line.strip()!r:.60}")
