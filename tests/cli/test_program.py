@@ -268,3 +268,13 @@ def test_the_help_of_the_command_lists_its_options(capsys: pytest.CaptureFixture
     assert end.value.code == 2
     told = capsys.readouterr().err
     assert told == "tricue evaluate: unrecognized arguments: --only walk; see tricue evaluate --help\n"
+
+
+def test_the_names_of_all_images_are_told_in_short(capsys: pytest.CaptureFixture[str]) -> None:
+    """A shell makes hundreds of img/*.jpg; the error says to give the folder."""
+    with pytest.raises(SystemExit) as end:
+        main(["track", *(f"img/{index}.jpg" for index in range(400)), "--box", "1,2,30,40"])
+    assert end.value.code == 2
+    told = capsys.readouterr().err
+    some = "img/1.jpg img/2.jpg img/3.jpg and 396 more; give the folder of several images"
+    assert told == f"tricue track: unrecognized arguments: {some}; see tricue track --help\n"

@@ -264,7 +264,9 @@ def vot_without_color(folder: Path) -> Path:
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda folder: folder / "nowhere", "nowhere: there is no such file or folder"),
+        (lambda folder: folder / "nowhere", "nowhere: there is no such file or folder$"),
+        (lambda folder: folder / "*.jpg", r"\.jpg: there is no .*; give the folder of the images, .+\w$"),
+        (lambda folder: folder / "%05d.jpg", r"d\.jpg: there is no .*; give the folder of the images, "),
         (
             lambda folder: folder,
             "expected a folder of images or a sequence, found neither images nor a video",

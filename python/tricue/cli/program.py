@@ -23,6 +23,7 @@ from tricue.errors import one_line
 
 USAGE = 2
 INTERRUPTED, CLOSED_PIPE = 130, 141
+MAX_LISTED = 3  # of the arguments that aren't known
 
 # The help text of each command, implemented in the module of the same name.
 COMMANDS = {
@@ -46,7 +47,7 @@ class Parser(argparse.ArgumentParser):
         """Report unknown options here, so that the error names the command, whose help lists its options."""
         options, unknown = super().parse_known_args(args, namespace)
         if unknown:
-            self.error(f"unrecognized arguments: {' '.join(unknown)}")
+            self.error(f"unrecognized arguments: {_listed(unknown)}")
         self._refuse_empty(args or ())
         return options, unknown
 
@@ -62,6 +63,17 @@ class Parser(argparse.ArgumentParser):
         if found := re.fullmatch(r"argument (--[a-z-]+): expected one argument", message):
             message += f"; one that begins with a minus needs {found[1]}="
         self.exit(USAGE, f"{self.prog}: {message}; see {self.prog} --help\n")
+
+
+def _listed(words: Sequence[str]) -> str:
+    """The first of them. A shell turns img/*.jpg into the names of all images, for which a hint says what to
+    give instead.
+    """
+    from tricue.data.files import is_image  # only errors need it
+
+    more = f" and {len(words) - MAX_LISTED} more" if len(words) > MAX_LISTED else ""
+    hint = "; give the folder of several images" if all(is_image(Path(word)) for word in words) else ""
+    return f"{' '.join(words[:MAX_LISTED])}{more}{hint}"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -2,6 +2,7 @@
 """Opens any input for tracking: a video, a folder of images, a sequence, a recording, a camera."""
 
 import os
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -254,4 +255,7 @@ def _existing(path: Path) -> Path:
         file = Path(url2pathname(urlsplit(str(path)).path))
         hint = f"; give {file}" if file.exists() else ""
         raise FileNotFoundError(f"{path}: expected a path, got a URL{hint}")
-    raise FileNotFoundError(f"{path}: there is no such file or folder")
+    hint = ""
+    if re.search(r"[*?]|%\d*d", path.name) and path.parent.is_dir():  # as shells and ffmpeg take them
+        hint = f"; give the folder of the images, {path.parent}"
+    raise FileNotFoundError(f"{path}: there is no such file or folder{hint}")
