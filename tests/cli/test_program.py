@@ -278,3 +278,16 @@ def test_the_names_of_all_images_are_told_in_short(capsys: pytest.CaptureFixture
     told = capsys.readouterr().err
     some = "img/1.jpg img/2.jpg img/3.jpg and 396 more; give the folder of several images"
     assert told == f"tricue track: unrecognized arguments: {some}; see tricue track --help\n"
+
+
+def test_an_interrupt_while_a_command_is_imported_is_a_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Ctrl-C at once after the command's start gives no traceback."""
+
+    def interrupt(_name: str) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("tricue.cli.program.importlib.import_module", interrupt)
+    assert main(["track", "video.mp4"]) == 130
+    assert capsys.readouterr().err == "tricue: interrupted\n"

@@ -84,7 +84,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     words = list(sys.argv[1:] if arguments is None else arguments)
-    options = parser(words[0] if words else "").parse_args(words)
+    try:
+        options = parser(words[0] if words else "").parse_args(words)
+    except KeyboardInterrupt:  # importing the command takes a while
+        print("tricue: interrupted", file=sys.stderr)
+        return INTERRUPTED
     try:
         with _one_line_warnings(options.command), clean_exits():
             code: int = options.run(options)
