@@ -91,6 +91,14 @@ def test_kitti_tracking(tmp_path: Path, place: str) -> None:
     assert source.calibration == tmp_path / "calib" / "0005.txt"
 
 
+def test_kitti_tracking_has_its_rate(tmp_path: Path) -> None:
+    """It proves that the rate of KITTI's cameras is known, though no file has it, and can be overridden."""
+    source = open_source(kitti(tmp_path))
+    assert (source.fps, source.knows_times) == (10.0, True)
+    assert [frame.timestamp for frame in source] == pytest.approx([0.0, 0.1, 0.2])
+    assert open_source(kitti(tmp_path / "other"), fps=25).fps == 25
+
+
 def test_kitti_with_several_sequences(tmp_path: Path) -> None:
     """It proves that of several sequences one has to be named, and can be."""
     kitti(tmp_path, "0001")

@@ -20,7 +20,6 @@ from tricue.data.open_source import Source, open_source
 from tricue.data.truth import read_truth_file
 
 RIGHT, CALIBRATION = "groundtruth_right.txt", "calibration.yml"
-KITTI_RATE = 10.0  # frames/s of KITTI's cameras (Geiger et al. 2013), not stored in its folders
 MIN_KITTI_FRAMES = 10
 MIN_KITTI_SIDE = 20.0  # pixels of a labeled target in its first frame
 Array = NDArray[np.float64]
@@ -48,7 +47,7 @@ def load(folder: Path, unit: float = 1.0) -> Iterator[StereoSequence]:
     ValueError if right images, boxes or calibration are missing or don't match.
     """
     labels = _labels(folder)
-    source = open_source(folder, fps=None if labels is None else KITTI_RATE)
+    source = open_source(folder)
     if "right" not in source.channels:
         raise ValueError(f"{folder}: expected a stereo pair, got {', '.join(source.channels)}")
     if labels is None:

@@ -18,8 +18,8 @@ def add_source_options(command: argparse.ArgumentParser) -> Any:
         "--fps",
         type=float,
         metavar="N",
-        help="frames/s of images without times (default 30); videos, cameras, VOT, TUM and "
-        "Princeton have their own",
+        help="frames/s of images without times (default 30, or 10 for KITTI tracking); videos, cameras, VOT, "
+        "TUM and Princeton have their own",
     )
     command.add_argument(
         "--right", metavar="PLACE", help="the right camera's video, folder or number; INPUT is the left one's"

@@ -27,6 +27,8 @@ TEXT_SUFFIXES = {".ans", ".art", ".asc", ".diz", ".ice", ".nfo", ".txt", ".vt"} 
 BOOT_SECONDS = 30.0  # until the first image of a camera that boots an operating system of its own
 CALIBRATION_FILE = "intrinsics.toml"  # searched in a sequence's folder and in the folder above
 PRINCETON_CALIBRATION_FILE = "frames.mat"  # searched in the sequence's folder
+FORMAT_RATES = {"KITTI tracking": 10.0}
+"""Frame rates (frames/s) of formats whose files don't contain them (Geiger et al. 2013)."""
 
 
 def open_source(
@@ -55,7 +57,8 @@ def open_source(
         they are paired by order.
     depth_scale: meters per unit of depth. It is required unless the format defines it, as VOT, TUM, Princeton
         and recordings do, and overrides the format's.
-    fps: frames per second of images without times, 30 by default; ValueError for images with times.
+    fps: frames per second of images without times, by default 10 for KITTI's tracking sequences and 30 for
+        others; ValueError for images with times.
     right: the right camera's video, folder, number or URL; ``place`` is the left camera's. They are paired by
         order.
     target: one of :func:`tricue.data.layouts.list_targets`, for a folder with several. A KITTI sequence is
@@ -78,6 +81,8 @@ def open_source(
             source = _with_depth(source, shown, Path(depth), depth_scale)
         if depth_scale is not None and "depth" not in source.channels:
             raise ValueError(f"{shown}: expected depth images where --depth-scale is given, found only color")
+        if fps is None and not source.clock.timed:
+            fps = FORMAT_RATES.get(source.format)
         return source if fps is None else replace(source, rate=fps)
     except BaseException:
         source.close()  # a camera, whose thread would read on

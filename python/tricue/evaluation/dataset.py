@@ -7,7 +7,7 @@ An :class:`Entry` is small: it can be sent to another process or machine, which 
 import hashlib
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
 
@@ -27,8 +27,6 @@ from tricue.data.recordings.recording import is_recording
 from tricue.data.streams import Images, Video
 from tricue.data.summary import count_frames
 
-FORMAT_RATES = {"KITTI tracking": 10.0}
-"""Frame rates (frames/s) of formats whose files don't contain them (Geiger et al. 2013)."""
 STEREO_CALIBRATION = "calibration.yml"
 """File name of OpenCV's calibration of a stereo pair, searched beside its images."""
 CLIPPED_FORMATS = ("VOT", "VOT RGB-D", "KITTI tracking")
@@ -82,8 +80,6 @@ class Entry:
             fps=reading.fps,
             target=self.target,
         )
-        if reading.fps is None and source.format in FORMAT_RATES and not source.clock.timed:
-            source = replace(source, rate=FORMAT_RATES[source.format])
         return OpenedSequence(self, source)
 
 
