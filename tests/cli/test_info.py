@@ -112,7 +112,7 @@ def test_a_video_is_counted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
     ]
     (tmp_path / "clip.csv").write_text("3,1,2,3,4\n6,1,2,3,4\n")
     found = lines(capsys, path)
-    assert found[3] == "  truth        1 boxes, 0 absent, 4 unknown"
+    assert found[3] == "  truth        1 box, 0 absent, 4 unknown"
     assert found[5] == "               2 rows more than there are frames"
     assert found[-1] == f"  note         true boxes found: {tmp_path / 'clip.csv'}"
 

@@ -167,7 +167,8 @@ def _truth_lines(truth: Summary | None) -> Iterator[str]:
     if truth is None:
         yield _line("truth", "none")
         return
-    yield _line("truth", f"{truth['boxes']} boxes, {truth['absent']} absent, {truth['unknown']} unknown")
+    boxes = _count(truth["boxes"], "box")
+    yield _line("truth", f"{boxes}, {truth['absent']} absent, {truth['unknown']} unknown")
     if truth["boxes"]:
         width, height = (f"{low:.4g} to {high:.4g} px" for low, high in (truth["width"], truth["height"]))
         yield _line("", f"{width} wide, {height} high")
@@ -175,7 +176,7 @@ def _truth_lines(truth: Summary | None) -> Iterator[str]:
         meters = f"{positions['near_m']:.2f} m to {positions['far_m']:.2f} m"
         yield _line("", f"{positions['known']} positions, {positions['depth_known']} depths, {meters}")
     if truth["behind_the_end"]:
-        yield _line("", f"{truth['behind_the_end']} rows more than there are frames")
+        yield _line("", f"{_count(truth['behind_the_end'], 'row')} more than there are frames")
 
 
 def _calibration_lines(camera: Summary | None) -> Iterator[str]:
@@ -249,11 +250,17 @@ def _open_with_scale(place: Path, scale: float | None) -> Source:
 def _summary_line(facts: Summary) -> str:
     if "error" in facts:
         return f"{facts['place']}: can't be opened: {facts['error']}"
-    frames = "frames not counted" if facts["frames"] is None else f"{facts['frames']} frames"
-    truth = [f"{facts['boxes']} boxes"] if facts["boxes"] is not None else []
+    frames = "frames not counted" if facts["frames"] is None else _count(facts["frames"], "frame")
+    truth = [_count(facts["boxes"], "box")] if facts["boxes"] is not None else []
     targets = [f"{len(facts['targets'])} targets"] if facts["targets"] else []
     what = ", ".join([facts["format"], frames, " and ".join(facts["channels"]), *truth, *targets])
     return f"{facts['place']}: {what}"
+
+
+def _count(number: int, thing: str) -> str:
+    """Such as "1 box", "2 boxes"."""
+    ending = "" if number == 1 else "es" if thing.endswith("x") else "s"
+    return f"{number} {thing}{ending}"
 
 
 def _print(facts: Any, lines: Iterator[str], as_json: bool) -> None:
