@@ -149,12 +149,13 @@ def test_frame_is_the_frame(client: TestClient, serving: Serving) -> None:
 def test_draw_track_correct_undo_export(client: TestClient) -> None:
     """From a box to a corrected CSV."""
     assert do(client, "add", frame=0, box=BOX, tracker="fused") == {"id": 1}
-    assert do(client, "track", frame=0) == {}
+    assert do(client, "track", frame=0) == {"left_out": []}
     state = until_ended(client)
     assert (state["ended"]["frame"], state["ended"]["step"], state["undo"]) == (FRAMES - 1, 1, True)
     assert do(client, "draw", target=1, frame=45, box=[65, 40, 40, 40]) == {}
-    assert do(client, "track", frame=45, step=-1, targets=[1]) == {}
-    assert until_ended(client)["ended"]["frame"] == 1
+    assert do(client, "track", frame=45, step=-1, targets=[1]) == {"left_out": []}
+    ended = until_ended(client)["ended"]
+    assert (ended["frame"], ended["stopped"]) == (1, {"1": 0})
     lines = client.get("export/csv").text.splitlines()
     assert len(lines) == 1 + FRAMES
     assert lines[46].startswith("45,1,1.5,tracked,1.0,65.0,40.0")

@@ -34,12 +34,12 @@ def _rename(session: Session, target: Any, name: Any) -> None:
     session.edit(lambda project: edits.rename_target(project, target, name))
 
 
-def _track(session: Session, frame: Any, step: Any = 1, targets: Any = None) -> None:
+def _track(session: Session, frame: Any, step: Any = 1, targets: Any = None) -> dict[str, Any]:
     if step not in (1, -1):
         raise ValueError(f"step: expected 1 or -1, got {step!r:.40}")
     if targets is not None and not isinstance(targets, list):
         raise ValueError(f"targets: expected a list of ids, got {targets!r:.40}")
-    session.track(frame, step, targets)
+    return {"left_out": session.track(frame, step, targets)}
 
 
 def _keep(session: Session, keep: Any) -> None:

@@ -165,11 +165,11 @@ class Session:
 
     # Runs.
 
-    def track(self, frame: int, step: Direction, targets: Sequence[int] | None = None) -> None:
+    def track(self, frame: int, step: Direction, targets: Sequence[int] | None = None) -> list[int]:
         """Follow targets, by default all, from a frame on, until their next drawn box or the end.
 
-        A target starts on its box in this frame, or resumes with the tracker that paused here. ValueError if
-        none has a box, or if there is nothing to do.
+        A target starts on its box in this frame, or resumes with the tracker that paused here. The ids of
+        those that can't do either are returned. ValueError if none can, or if there is nothing to do.
         """
         self.check_frame(frame)
         with self._commands:
@@ -200,6 +200,7 @@ class Session:
             self._thread = threading.Thread(target=self._follow, args=(run, able, before), daemon=True)
             self._thread.start()
             self._saver.changed(save=False)
+            return [each.id for each in chosen if each not in able]
 
     def pause(self) -> None:
         """Stop the run, if there is one; what it found is kept."""

@@ -98,6 +98,20 @@ def test_target_that_stops_at_its_box_while_another_goes_on_is_told(
     assert tab.page.locator(".toast").count() == 1
 
 
+def test_target_without_a_box_is_told_when_all_are_tracked(
+    server: Server, open_tab: Callable[..., Tab]
+) -> None:
+    """It stays where it is, and nothing else would say why."""
+    server.do("add", frame=0, box=[*START], tracker="color-particle")
+    server.do("add", frame=20, box=[START.x + 20, *START[1:]], tracker="color-particle")
+    tab = open_tab(server.url)
+    tab.page.select_option("#who", "all")
+    tab.track()
+    tab.shows(FRAMES - 1)
+    tab.page.locator(".toast", has_text="Not followed, without a box in frame 0: Target 2").wait_for()
+    assert tab.page.locator(".toast").count() == 1
+
+
 def test_press_in_the_picture_during_a_run_says_to_pause(
     server: Server, open_tab: Callable[..., Tab]
 ) -> None:

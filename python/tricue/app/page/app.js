@@ -67,11 +67,14 @@ async function draw(frame, box, target) {
   load();
 }
 
-function track(step) {
-  if (model.state.selecting) return null;
+async function track(step) {
+  if (model.state.selecting) return;
   stopPlaying();
   const all = get("who").value === "all" || !model.target();
-  return act("track", { frame: model.frame, step, ...(all ? {} : { targets: [model.chosen] }) });
+  const { frame } = model;
+  const answer = await act("track", { frame, step, ...(all ? {} : { targets: [model.chosen] }) });
+  const names = (answer?.left_out ?? []).map((id) => model.target(id)?.name).filter(Boolean);
+  if (names.length) note(`Not followed, without a box in frame ${frame}: ${names.join(", ")}`);
 }
 
 // Frames
