@@ -4,6 +4,7 @@
 import os
 import signal
 import time
+import warnings
 from pathlib import Path
 
 import pytest
@@ -89,6 +90,22 @@ def test_processes_give_what_is_finished_as_it_comes(tmp_path):
         found = list(schedule.run_tasks(tasks, perform, jobs))
         assert sorted(each.task_index for each in found) == list(range(5))
         assert all("no such file or folder" in each.error for each in found)
+
+
+def test_warnings_of_other_processes_are_given_here_once(tmp_path, capfd):
+    """Printed there, each of them would repeat a warning, with lines of source code."""
+
+    def warn(task: Task) -> Record:
+        warnings.warn("no depth in all sequences", UserWarning, stacklevel=1)
+        warnings.warn(f"no depth in {task.entry.name}", UserWarning, stacklevel=1)
+        raise ValueError("done")
+
+    tasks = [Task(TrackerSpec("still-box"), Entry(str(each), tmp_path)) for each in range(4)]
+    with pytest.warns(UserWarning, match="no depth in") as caught:
+        assert len(list(schedule.run_tasks(tasks, warn, jobs=2))) == 4
+    expected = ["no depth in all sequences", *(f"no depth in {each}" for each in range(4))]
+    assert sorted(str(each.message) for each in caught) == sorted(expected)
+    assert "no depth" not in "".join(capfd.readouterr())
 
 
 def test_there_are_no_more_processes_than_tasks(tmp_path):

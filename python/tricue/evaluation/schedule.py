@@ -2,6 +2,7 @@
 """Where tasks run: in this process, in several on this machine (joblib), or on a Dask cluster."""
 
 import time
+import warnings
 from collections.abc import Callable, Generator, Iterable, Sequence
 from concurrent.futures import FIRST_COMPLETED, wait
 from concurrent.futures.process import BrokenProcessPool
@@ -52,6 +53,15 @@ def perform_task(index: int, task: Task, perform: Perform) -> Finished:
         return Finished(index, None, one_line(error))
 
 
+def perform_in_process(index: int, task: Task, perform: Perform) -> tuple[Finished, set[str]]:
+    """Perform a task in another process, and return its warnings, too: printed there, each process would
+    repeat them, with lines of source code.
+    """
+    with warnings.catch_warnings(record=True) as caught:
+        found = perform_task(index, task, perform)
+    return found, {str(each.message) for each in caught}
+
+
 def missing_extra(option: str, extra: str) -> ImportError:
     """The error for an option of which the extra is missing."""
     return ImportError(f"{option} needs the extra {extra}: {install_extra(extra)}")
@@ -90,18 +100,23 @@ def _run_in_pool(
     """Submit in order, as many as there are processes, so that the first unfinished ones are running."""
     left = iter(indices)
     running: set[Any] = set()
+    told: set[str] = set()
     pool = executor(jobs)
     try:
         while True:
             with interrupts_later():
                 running |= {
-                    pool.submit(perform_task, index, tasks[index], perform)
+                    pool.submit(perform_in_process, index, tasks[index], perform)
                     for index in islice(left, jobs - len(running))
                 }
             if not running:
                 return
             done, running = wait(running, return_when=FIRST_COMPLETED)
-            yield from (future.result() for future in done)
+            for finished, messages in (future.result() for future in done):
+                for message in sorted(messages - told):
+                    warnings.warn(message, UserWarning, stacklevel=2)
+                told |= messages
+                yield finished
     finally:
         # Running tasks aren't needed. Call it once: a second call, as by ``with``, would undo kill_workers.
         try:
