@@ -11,6 +11,7 @@ import time
 import weakref
 from pathlib import Path
 
+import pytest
 from tests.track.multi.kinds import FUSED
 from tests.track.multi.processes import PATIENCE, ends, is_running, process_of
 
