@@ -12,7 +12,16 @@ from tricue.camera.box import Box
 from tricue.data.open_source import open_source
 from tricue.errors import TargetNotFoundError
 from tricue.scenes import room_scene
-from tricue.track.head_detection.face_detection import find_face
+from tricue.track.head_detection.face_detection import (
+    BIAS,
+    COARSE,
+    TEMPLATE,
+    WINDOW,
+    cells,
+    channels_of,
+    find_face,
+    match,
+)
 
 
 def portrait(side: int = 240) -> tuple[np.ndarray, Box]:
@@ -98,6 +107,22 @@ def test_a_face_of_another_color_is_none() -> None:
     image, _ = portrait()
     assert find_face(image) is not None
     assert find_face(np.ascontiguousarray(image[..., ::-1])) is None
+
+
+@pytest.mark.parametrize("size", [(28, 28), (29, 43), (46, 31)])
+def test_the_match_is_the_weighted_sum_of_a_windows_cells(size: tuple[int, int]) -> None:
+    """In every window of images whose sides are whole cells or not, also in the last one."""
+    channels = channels_of(np.random.default_rng(0).integers(0, 256, (*size, 3), np.uint8))
+    matches = match(channels)
+    rows, columns = (each - WINDOW + 1 for each in size)
+    assert matches.shape == (rows, columns)
+    y, x = (each[..., np.newaxis, np.newaxis] for each in np.indices((rows, columns)))
+    row, column = COARSE * np.indices((WINDOW // COARSE,) * 2)
+    expected = np.full((rows, columns), BIAS)
+    for channel, weights in enumerate(TEMPLATE):
+        means = cells(channels.planes[channel], COARSE)[y + row, x + column]
+        expected += (channels.relative(channel, means, y, x) * weights).sum(axis=(2, 3))
+    np.testing.assert_allclose(matches, expected, atol=1e-3)
 
 
 def test_strides_do_not_matter(data: Path) -> None:

@@ -200,18 +200,31 @@ def cells(plane: Plane, side: int) -> Plane:
 
 def match(channels: FaceChannels, template: Plane = TEMPLATE, bias: float = BIAS) -> Plane:
     """How well each window matches the template; 0 where a face is as likely as not."""
-    total: Plane = np.full_like(channels.planes[0], bias)
+    rows, columns = (size - WINDOW + 1 for size in channels.planes[0].shape)
+    total: Plane = np.full((rows, columns), bias, np.float32)
     for channel, weights in enumerate(template):
-        kernel = np.zeros((WINDOW - COARSE + 1,) * 2, np.float32)
-        kernel[::COARSE, ::COARSE] = weights
-        means = cells(channels.planes[channel], COARSE)
-        part = cv2.filter2D(means, -1, kernel, anchor=(0, 0), borderType=cv2.BORDER_REPLICATE)
+        part = _weighted(cells(channels.planes[channel], COARSE), weights)[:rows, :columns]
         if channel >= GRAY:
-            mean, spread = channels.mean[channel - GRAY], channels.spread[channel - GRAY]
-            part = (part - mean * weights.sum()) / spread
+            mean, spread = (each[channel - GRAY] for each in (channels.mean, channels.spread))
+            part = (part - mean[:rows, :columns] * weights.sum()) / spread[:rows, :columns]
         total += part
-    rows, columns = (size - WINDOW + 1 for size in total.shape)
-    return total[:rows, :columns]
+    return total
+
+
+def _weighted(means: Plane, weights: Plane) -> Plane:
+    """The weighted sums of the coarse cells of the windows that start at each pixel.
+
+    Every COARSE-th row and column is an image of its own, in which a window's cells are neighbors. All these
+    images are filtered at once, one below the other; what is mixed at their ends are no whole windows.
+    """
+    height, width = means.shape
+    rows, columns = -(-height // COARSE), -(-width // COARSE)
+    padded = np.zeros((COARSE * rows, COARSE * columns), np.float32)
+    padded[:height, :width] = means
+    apart = padded.reshape(rows, COARSE, columns, COARSE).transpose(1, 3, 0, 2).reshape(-1, columns)
+    sums = cv2.filter2D(apart, -1, weights, anchor=(0, 0), borderType=cv2.BORDER_REPLICATE)
+    together = sums.reshape(COARSE, COARSE, rows, columns).transpose(2, 0, 3, 1)
+    return np.asarray(together.reshape(padded.shape), np.float32)
 
 
 def votes(
@@ -220,8 +233,10 @@ def votes(
     """The sums of votes for the windows that start at these pixels."""
     total = np.full(len(y), bias)
     y, x = y[:, np.newaxis], x[:, np.newaxis]
+    width = channels.planes[0].shape[1]
     for (side, channel), of_plane in _by_plane(tuple(table)).items():
-        values = cells(channels.planes[channel], side)[y + of_plane.row, x + of_plane.column]
+        pixels = (y * width + x) + (of_plane.row * width + of_plane.column)
+        values = cells(channels.planes[channel], side).take(pixels)
         total += (channels.relative(channel, values, y, x) > of_plane.threshold) @ of_plane.vote
     return total
 
