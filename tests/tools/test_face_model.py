@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 from tricue.track.head_detection.face_detection import channels_of
 
-from tools.face_model import learn
+from tools.face_model import camera, learn
 from tools.face_model.__main__ import FILE, installed, rendered, shares, table
+from tools.face_model.buildings import building
 
 
 def test_a_small_model_is_the_same_again_and_knows_faces(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -18,6 +19,25 @@ def test_a_small_model_is_the_same_again_and_knows_faces(monkeypatch: pytest.Mon
     found, false = shares(models[0], *rendered(1, 40, 10))
     assert found > 0.4
     assert false < 0.2
+
+
+def test_a_moved_camera_takes_no_light_and_shifts_nothing() -> None:
+    """Paths of all directions and lengths have a sum of 1 and their mean in the middle."""
+    rng = np.random.default_rng(0)
+    for _ in range(100):
+        path = camera._path(rng)
+        assert path.min() >= 0
+        assert path.sum() == pytest.approx(1)
+        middle = (np.indices(path.shape) * path).sum(axis=(1, 2))
+        np.testing.assert_allclose(middle, (len(path) - 1) / 2)
+
+
+def test_buildings_are_the_same_again_and_have_edges() -> None:
+    """Walls, towers and wheels are drawn on all images, with albedos above 0."""
+    both = [[building(np.random.default_rng(seed), 60) for seed in range(20)] for _ in range(2)]
+    np.testing.assert_array_equal(*both)
+    assert np.min(both) > 0
+    assert all(np.ptp(image, axis=(0, 1)).min() > 0.01 for image in both[0])
 
 
 def test_features_of_a_mirrored_face_are_the_mirrored_features() -> None:

@@ -16,9 +16,9 @@ import cv2
 import numpy as np
 from tricue.arrays import Image, Plane
 from tricue.track.head_detection import learned_face
-from tricue.track.head_detection.face_detection import MATCH_BONUS, channels_of, skin
+from tricue.track.head_detection.face_detection import channels_of, skin
 
-from tools.face_model.learn import Model, learn
+from tools.face_model.learn import MATCH_BONUS, Model, learn
 from tools.face_model.portraits import MARGIN, portrait
 from tools.face_model.scenes import scene
 from tools.face_model.table import table

@@ -7,6 +7,7 @@ from tricue.arrays import Floats, Image
 
 from tools.face_model.painting import Random
 
+REACH = 3  # pixels to either side, of the largest swing
 BRIGHT = 85  # percentile of the light by which a camera exposes
 
 
@@ -25,14 +26,26 @@ def photograph(rng: Random, light: Floats) -> Image:
 
 
 def _blurred(rng: Random, image: Floats) -> Floats:
-    """Out of focus by less than a pixel; sometimes the camera or the target also moves."""
-    focus = rng.uniform(0, 0.8)
+    """Out of focus, mostly by less than a pixel; sometimes the camera or the target also moves."""
+    focus = rng.uniform(0, 0.8) if rng.uniform() < 0.85 else rng.uniform(0.8, 1.5)
     if focus > 0.25:
         image = np.asarray(cv2.GaussianBlur(image, (0, 0), focus), np.float64)
-    if rng.uniform() < 0.15:
-        direction = rng.uniform(0, np.pi)
-        tip = 2 * np.array([np.cos(direction), np.sin(direction)])
-        path = np.zeros((5, 5))
-        cv2.line(path, np.rint(2 - tip).astype(int).tolist(), np.rint(2 + tip).astype(int).tolist(), 1.0)
-        image = np.asarray(cv2.filter2D(image, -1, path / path.sum()), np.float64)
+    if rng.uniform() < 0.3:
+        image = np.asarray(cv2.filter2D(image, -1, _path(rng)), np.float64)
+    if rng.uniform() < 0.3:  # cameras sharpen edges
+        smooth = cv2.GaussianBlur(image, (0, 0), rng.uniform(0.5, 1.2))
+        image = image + rng.uniform(0, 1.2) * (image - smooth)
     return image
+
+
+def _path(rng: Random) -> Floats:
+    """How long a point stays on each pixel during the exposure, in a part of a swing to and fro."""
+    direction, phase = rng.uniform(0, np.pi), rng.uniform(0, 2 * np.pi)
+    way = rng.uniform(0.5, REACH) * np.sin(phase + np.linspace(0, rng.uniform(0.5, 1.5) * np.pi, 50))
+    points = REACH + 1 + (way - way.mean())[:, np.newaxis] * [np.sin(direction), np.cos(direction)]
+    path = np.zeros((2 * REACH + 3,) * 2)
+    first = np.floor(points).astype(int)
+    for corner in ((0, 0), (0, 1), (1, 0), (1, 1)):
+        share = np.abs(1 - np.array(corner) - (points - first)).prod(axis=1)
+        np.add.at(path, tuple((first + corner).T), share)
+    return np.asarray(path / path.sum())

@@ -18,7 +18,6 @@ from tricue.arrays import Floats, Image, Plane
 from tricue.track.head_detection.face_detection import (
     COARSE,
     FINE,
-    MATCH_BONUS,
     MIRRORED,
     WINDOW,
     FaceChannels,
@@ -43,6 +42,7 @@ SCALES = 1.0, 0.7, 0.45  # of a scene, in which windows are mined
 MINED = 5  # windows of a scene at one scale, at most
 MIN_MINED_MATCH, MIN_MINED_SCORE = -2.5, -0.5
 MIN_DISTANCE = 3  # pixels between mined windows
+MATCH_BONUS = 2.0  # of the template's score when windows are mined by the lower one of it and the votes' sum
 EXAMINED = 150  # windows that match best, of which the votes choose
 
 NEWTON_STEPS, RIDGE, WEIGHT = 8, 15.0, 16000  # of the logistic regression; weight of all windows

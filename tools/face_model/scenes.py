@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Pictures without faces: leaves of all sizes, 1/f noise, strokes, shaded bodies, made things, and people."""
+"""Pictures without faces.
+
+Leaves of all sizes, 1/f noise, strokes, shaded bodies, made things, buildings, and people.
+"""
 
 from collections.abc import Callable
 
@@ -8,6 +11,7 @@ import numpy as np
 from tricue.arrays import Floats, Image
 
 from tools.face_model.bodies import Ellipsoid, Person, Sun
+from tools.face_model.buildings import building
 from tools.face_model.camera import photograph
 from tools.face_model.painting import (
     Random,
@@ -25,8 +29,8 @@ LETTERS = list("abcdefgHKXOo8BEm=+-:;")
 
 def scene(rng: Random) -> Image:
     """A BGR image without a face."""
-    grounds = (_forest, _clouds, _strokes, _bodies, _things)
-    image = grounds[rng.choice(5, p=[0.40, 0.10, 0.15, 0.15, 0.20])](rng)
+    grounds = (_forest, _clouds, _strokes, _bodies, _things, _buildings)
+    image = grounds[rng.choice(6, p=[0.33, 0.08, 0.12, 0.14, 0.16, 0.17])](rng)
     if rng.uniform() < 0.6:
         for _ in range(rng.integers(1, 7)):
             Person(rng, image, rng.uniform(0, SIDE, 2), rng.uniform(8, 80)).draw()
@@ -129,6 +133,10 @@ def _things(rng: Random) -> Floats:
     for _ in range(rng.integers(2, 12)):
         _thing(rng, image, rng.uniform(0, SIDE, 2), rng.uniform(6, 35) * rng.uniform(0.6, 1, 2))
     return np.asarray(image * np.exp(0.2 * noise(rng, image.shape[:2], SIDE / 4))[..., np.newaxis])
+
+
+def _buildings(rng: Random) -> Floats:
+    return building(rng, SIDE)
 
 
 def _thing(rng: Random, image: Floats, at: Floats, radii: Floats) -> None:

@@ -82,6 +82,16 @@ def test_a_face_of_any_size(side: int) -> None:
     assert found.iou(true) > 0.5
 
 
+@pytest.mark.parametrize("side", [150, 200, 240, 300])
+def test_a_shaken_face(side: int) -> None:
+    """In gray, a face is found that moves down by a sixth of its width during the exposure."""
+    image, true = portrait(side)
+    way = round(true.width / 6)
+    found = find_face(cv2.cvtColor(cv2.blur(image, (1, way)), cv2.COLOR_BGR2GRAY))
+    assert found is not None
+    assert found.iou(true) > 0.5
+
+
 def test_the_largest_face_is_taken() -> None:
     """Of two faces the larger one is found, on whichever side it is."""
     true = portrait(240)[1]

@@ -7,9 +7,9 @@ relative to their mean and spread in the window. They are averaged over square c
 cells match a template (a linear discriminant), and there is a majority of weighted votes, each about which of
 two mirrored cells exceed a threshold. Template and votes were learned from rendered faces
 (`learned_face`). A window that the template exaggerates by one strong feature fails at the votes, and a
-window of unlikely details at the template. What resembles a face by chance does so at one size, a face at
-several, so its score is the mean of those at the best three sizes. In a color image, a face must also have
-the color of skin.
+window of unlikely details at the template, so a window's score is mostly the lower one of both. What
+resembles a face by chance does so at one size, a face at several, so its score is the mean of those at the
+best three sizes. In a color image, a face must also have the color of skin.
 
 Sources: Hariharan, Malik and Ramanan 2012 (linear discriminants of gradients); Friedman, Hastie and
 Tibshirani 2000 (boosting); Viola and Jones 2001 (windows of all sizes).
@@ -37,8 +37,9 @@ HEAD_WIDTH, HEAD_HEIGHT = 0.72, 0.86  # of the window, as in hand-drawn boxes of
 NEIGHBORHOOD = 13  # pixels, in which gradients are compared
 GRADIENT_NOISE, GRAY_NOISE, REDNESS_NOISE = 3.0, 6.0, 0.01  # added to what a channel is divided by
 MAX_CANDIDATES = 300  # windows of one size that the votes are about, to bound the time
-MATCH_BONUS = 2.0  # the template's score plus this is on a par with the votes' sum
-MIN_SCORE, MIN_SCORE_GRAY = 0.51, 1.15  # of a face, by benchmarks.quality.face_detection --left-out
+MATCH_BONUS = 1.5  # the template's score plus this is on a par with the votes' sum
+HIGHER_SHARE = 0.125  # of the higher one of both in a window's score
+MIN_SCORE, MIN_SCORE_GRAY = 0.66, 0.78  # of a face, by benchmarks.quality.face_detection --left-out
 MIN_HIT = -3.0  # least score of a window
 SIZES = 3  # of a face, whose best windows' mean is its score
 PLACE, LOG_SIZE = 0.18, 0.3  # a face's hits differ by less, in window sides and in log side
@@ -133,7 +134,7 @@ def is_gray(image: Image) -> bool:
 def _hits(image: Image, smallest: int, gray: bool) -> Floats:
     """(N, 4) score, center x, y and side, pixels, of windows that match.
 
-    score: the lower one of the votes' sum and the match with the template, plus MATCH_BONUS.
+    score: mostly the lower one of the votes' sum and of the match with the template plus MATCH_BONUS.
     """
     hits = [np.empty((0, 4))]
     for reduced, scale in _reduced(image, smallest):
@@ -145,7 +146,8 @@ def _hits(image: Image, smallest: int, gray: bool) -> Floats:
         if len(y) > MAX_CANDIDATES:
             best = np.argsort(-matches[y, x], kind="stable")[:MAX_CANDIDATES]
             y, x = y[best], x[best]
-        score = np.minimum(matches[y, x] + MATCH_BONUS, votes(channels, y, x))
+        both = np.stack([matches[y, x] + MATCH_BONUS, votes(channels, y, x)])
+        score = (1 - HIGHER_SHARE) * both.min(axis=0) + HIGHER_SHARE * both.max(axis=0)
         middle = WINDOW / 2 - PAD
         side = np.full(len(y), WINDOW * scale)
         found = np.stack([score, (x + middle) * scale, (y + middle) * scale, side], axis=1)
