@@ -12,6 +12,7 @@ import weakref
 from pathlib import Path
 
 import pytest
+
 from tests.track.multi.kinds import FUSED
 from tests.track.multi.processes import PATIENCE, ends, is_running, process_of
 
