@@ -197,7 +197,12 @@ BAD = [
         TypeError,
         r"color: expected uint8 values from 0 to 255, got float64 \(24, 32, 3\); \(255 \* image\).astype",
     ),
-    ({"color": PICTURE.astype(np.uint16)}, TypeError, "color: expected uint8 .*, got uint16"),
+    (
+        {"color": PICTURE.astype(np.uint16)},
+        TypeError,
+        r"color: .*, got uint16 \(24, 32, 3\); \(image >> 8\).* converts values from 0 to 65535$",
+    ),
+    ({"color": PICTURE.astype(np.uint32)}, TypeError, r"color: .*, got uint32 \(24, 32, 3\)$"),
     ({"color": PICTURE > 3}, TypeError, "color: expected uint8 .*, got bool"),
     ({"color": PICTURE.astype(object)}, TypeError, "color: expected uint8 .*, got object"),
     (

@@ -261,6 +261,13 @@ def vot_without_color(folder: Path) -> Path:
     return folder
 
 
+def folder_of_sequences(folder: Path) -> Path:
+    """A folder of sequences, and of notes."""
+    (folder / "notes").mkdir()
+    images(folder / "one" / "img", ["1.png"])
+    return folder
+
+
 @pytest.mark.parametrize(
     ("make", "message"),
     [
@@ -269,7 +276,11 @@ def vot_without_color(folder: Path) -> Path:
         (lambda folder: folder / "%05d.jpg", r"d\.jpg: there is no .*; give the folder of the images, "),
         (
             lambda folder: folder,
-            "expected a folder of images or a sequence, found neither images nor a video",
+            "expected a folder of images or a sequence, found neither images nor a video$",
+        ),
+        (
+            folder_of_sequences,
+            r"found neither images nor a video; name a folder in it, such as .*one$",
         ),
         (lambda folder: images(folder, ["1.png"]) / "1.png", "1.png: .* one picture; give its folder"),
         (text_file, "v.mp4: expected a video, this file can't be opened as one"),

@@ -130,13 +130,21 @@ def _conversion(value: Any) -> str:
     return "; image.get() makes an array of it" if kind.__name__ == "UMat" else ""
 
 
+def _levels(image: NDArray[Any]) -> str:
+    """How to make gray levels of an image's values."""
+    if image.dtype.kind == "f":
+        return "; (255 * image).astype(np.uint8) converts values from 0 to 1"
+    if image.dtype == np.uint16:
+        return "; (image >> 8).astype(np.uint8) converts values from 0 to 65535"
+    return ""
+
+
 def _image(value: Any, name: str) -> NDArray[np.uint8]:
     if not isinstance(value, np.ndarray):
         got = f"{type(value).__name__}{_conversion(value)}"
         raise TypeError(f"{name}: expected a NumPy array, uint8, got {got}")
     if value.dtype != _UINT8:
-        scaled = value.dtype.kind == "f" and value.ndim == 3
-        hint = "; (255 * image).astype(np.uint8) converts values from 0 to 1" if scaled else ""
+        hint = _levels(value) if value.ndim == 3 else ""
         raise TypeError(f"{name}: expected uint8 values from 0 to 255, got {_described(value)}{hint}")
     image: NDArray[np.uint8] = value[:, :, 0] if value.ndim == 3 and value.shape[2] == 1 else value
     if image.ndim not in (2, 3) or (image.ndim == 3 and image.shape[2] != 3):

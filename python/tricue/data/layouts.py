@@ -10,7 +10,7 @@ from tricue.camera.read_calibration import KITTI_COLOR_CAMERAS
 from tricue.data import kitti, otb, princeton, tum, viewer_images, vot
 from tricue.data.box_table import find_box_table, read_box_table
 from tricue.data.depth_images import DepthReader, is_depth, require_scale
-from tricue.data.files import image_paths, video_paths
+from tricue.data.files import image_paths, natural_order, video_paths
 from tricue.data.streams import Images, Stream, Video, timed_images
 from tricue.data.truth import (
     Truth,
@@ -180,5 +180,18 @@ def _video(folder: Path, optional: bool) -> Video | None:
         return Video(found[0])
     if optional and not found:
         return None
-    got = f"{len(found)} videos; name one of them" if found else "neither images nor a video"
+    if found:
+        got = f"{len(found)} videos; name one of them"
+    else:
+        below = _sequence_below(folder)
+        got = "neither images nor a video" + (f"; name a folder in it, such as {below}" if below else "")
     raise ValueError(f"{folder}: expected a folder of images or a sequence, found {got}")
+
+
+def _sequence_below(folder: Path) -> Path | None:
+    """The first folder in a folder that can be read."""
+    for path in natural_order(each for each in folder.iterdir() if each.is_dir()):
+        with suppress(ValueError, OSError):
+            _detect_layout(path, None, None)
+            return path
+    return None
