@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "base/check.hpp"
@@ -67,22 +68,31 @@ private:
     std::vector<std::uint16_t> sums_;
 };
 
+/// The image as one long row if its rows follow each other: they needn't be added one by one if all pixels are.
+ImageView joined_rows(const ImageView& image) {
+    const std::int64_t pixels = std::int64_t{image.rows} * image.cols;
+    const bool joined =
+        image.stride == 3 * std::ptrdiff_t{image.cols} && pixels <= std::numeric_limits<int>::max() / 3;
+    return joined ? ImageView{image.data, 1, static_cast<int>(pixels), 3, 3 * pixels} : image;
+}
+
 }  // namespace
 
 Vector image_mean(const ImageView& image, int step) {
     if (step < 1 || step > 1024) refuse("step", "1 to 1024", step);
+    const ImageView view = step == 1 ? joined_rows(image) : image;
     const auto count = [&](int size) { return (std::max(size - step / 2, 0) + step - 1) / step; };
-    const double samples = static_cast<double>(count(image.rows)) * count(image.cols);
+    const double samples = static_cast<double>(count(view.rows)) * count(view.cols);
     if (samples == 0.0) return Vector::Zero(3);
     Sums sums{0, 0, 0};
     BlockSums blocks(step);
-    for (int y = step / 2; y < image.rows; y += step) {
-        const std::uint8_t* row = image.row(y);
+    for (int y = step / 2; y < view.rows; y += step) {
+        const std::uint8_t* row = view.row(y);
         if (step <= kMaxDenseStep) {
-            blocks.add(row, image.cols, sums);
+            blocks.add(row, view.cols, sums);
             continue;
         }
-        for (int x = step / 2; x < image.cols; x += step)
+        for (int x = step / 2; x < view.cols; x += step)
             for (std::size_t c = 0; c < 3; ++c) sums[c] += row[3 * static_cast<std::size_t>(x) + c];
     }
     blocks.flush(sums);

@@ -61,7 +61,9 @@ def limits_around(disparity: float, step: int, p: StereoHeadParams) -> tuple[int
     For subpixel disparities they are wider, because the first and the last candidate have no fraction. They
     end 2000 pixels away, the most that one search allows.
     """
-    below, above = (min(cells * step, MAX_CANDIDATE_DISPARITIES // 2) for cells in p.disparities)
+    below, above = p.disparities
+    below = min(below * step, MAX_CANDIDATE_DISPARITIES // 2)
+    above = min(above * step, MAX_CANDIDATE_DISPARITIES // 2)
     if not p.subpixel:
         return round(disparity) - below, round(disparity) + above
     return math.floor(disparity) - below, math.ceil(disparity) + above

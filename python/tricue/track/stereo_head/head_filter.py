@@ -103,7 +103,9 @@ def correct(
 
 def _limit_distance(mean: Floats, p: StereoHeadParams) -> None:
     """Move Z of a state's mean into the range from near to far."""
-    mean[2] = min(max(mean.item(2), p.near), p.far)
+    z = mean.item(2)
+    if not p.near <= z <= p.far:
+        mean[2] = min(max(z, p.near), p.far)
 
 
 @lru_cache(maxsize=2)
