@@ -9,6 +9,7 @@
 #include "cues/color/learn_ranks.hpp"
 #include "cues/color/rank_distance.hpp"
 #include "cues/color/rank_likelihood.hpp"
+#include "cues/color/rank_search.hpp"
 #include "cues/color/rank_sections.hpp"
 #include "cues/color/rank_window.hpp"
 #include "cues/color/sample_ellipses.hpp"
@@ -59,6 +60,24 @@ Array<double> rank_likelihood_arrays(const Bytes& image, const Array<double>& el
     const LikelihoodWeights weights{sharpness, contrast_weight};
     return give(unlocked(each.rows() * places,
                          [&] { return rank_likelihood(view, each, pattern, appearance, weights); }));
+}
+
+std::tuple<Array<double>, double, double> rank_search_arrays(
+    const Bytes& image, const Array<double>& ellipse, const Array<double>& offsets,
+    const Array<double>& inside, const Array<double>& around, const Array<float>& models,
+    const Array<double>& shares, bool nearest, const Array<float>& table, double sharpness,
+    double contrast_weight) {
+    const auto view = color_image(image, "image");
+    const auto where = vector(ellipse, "ellipse");
+    const auto windows = states(offsets, "offsets");
+    const EllipsePattern pattern{states(inside, "inside"), states(around, "around")};
+    const auto places = pattern.inside.rows();
+    const ColorAppearance appearance{rank_maps(models, places), vector(shares, "shares"), nearest,
+                                     color_cube(table)};
+    const LikelihoodWeights weights{sharpness, contrast_weight};
+    auto found = unlocked(windows.rows() * places,
+                          [&] { return rank_search(view, where, windows, pattern, appearance, weights); });
+    return {give(std::move(found.ellipse)), found.log_likelihood, found.log_likelihood_here};
 }
 
 std::tuple<Array<float>, Array<double>> rank_window_arrays(const Bytes& image, const Array<double>& ellipse,
@@ -145,6 +164,9 @@ void define_color(py::module_& m) {
     m.def("rank_likelihood", rank_likelihood_arrays, py::arg("image"), py::arg("ellipses"), py::arg("inside"),
           py::arg("around"), py::arg("models"), py::arg("shares"), py::arg("nearest"), py::arg("table"),
           py::arg("sharpness"), py::arg("contrast_weight"), docs::rank_likelihood);
+    m.def("rank_search", rank_search_arrays, py::arg("image"), py::arg("ellipse"), py::arg("offsets"),
+          py::arg("inside"), py::arg("around"), py::arg("models"), py::arg("shares"), py::arg("nearest"),
+          py::arg("table"), py::arg("sharpness"), py::arg("contrast_weight"), docs::rank_search);
     m.def("rank_window", rank_window_arrays, py::arg("image"), py::arg("ellipse"), py::arg("pattern"),
           py::arg("models"), py::arg("flat"), docs::rank_window);
     m.def("joint_histogram", joint_histogram_arrays, py::arg("samples"), py::arg("bins"),

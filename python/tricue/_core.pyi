@@ -2454,6 +2454,51 @@ def rank_likelihood(
     ours.
     """
 
+def rank_search(
+    image: numpy.typing.NDArray[numpy.uint8],
+    ellipse: numpy.typing.NDArray[numpy.float64],
+    offsets: numpy.typing.NDArray[numpy.float64],
+    inside: numpy.typing.NDArray[numpy.float64],
+    around: numpy.typing.NDArray[numpy.float64],
+    models: numpy.typing.NDArray[numpy.float32],
+    shares: numpy.typing.NDArray[numpy.float64],
+    nearest: bool,
+    table: numpy.typing.NDArray[numpy.float32],
+    sharpness: float,
+    contrast_weight: float,
+) -> tuple[numpy.typing.NDArray[numpy.float64], float, float]:
+    """
+    Searches around an ellipse for the most likely window, by rank_likelihood.
+
+    The windows are the ellipse itself and, for each (u, v, a, b) of offsets, the ellipse that is moved
+    by u and v of its semi-axes along x and y, and whose semi-axes are a and b times as long. Of equally
+    likely ones the first wins.
+
+    Args:
+        image: uint8 (H, W, 3) BGR, at least one pixel, 2 GB at most
+        ellipse: float64 (4,): center x, y, semi-axes along x (minor) and y (major), pixels, finite
+        offsets: float64 (K, 4): finite
+        inside: float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in sample_ellipses
+        around: float64 (m, 2): places (u, v) around it
+        models: float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1; in
+            C++ M rows of 3 n
+        shares: float64 (M,): weight of each map in the mean distance, finite
+        nearest: whether to take the least distance; shares then only have to be valid
+        table: float32 (B, B, B), B a power of two up to 64: P(target | color)
+        sharpness: nats, finite
+        contrast_weight: nats, finite
+
+    Returns:
+        ellipse: float64 (4,): center x, y, semi-axes along x and y, pixels
+        log_likelihood: of that ellipse, nats
+        log_likelihood_here: of the ellipse that was passed
+
+    Raises:
+        ValueError: as rank_likelihood, and on windows that aren't finite
+
+    Source: ours
+    """
+
 def rank_sections(
     samples: numpy.typing.NDArray[numpy.uint8], sections: int
 ) -> numpy.typing.NDArray[numpy.float32]:
@@ -4182,6 +4227,20 @@ class Kernels(Protocol):
         sharpness: float,
         contrast_weight: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def rank_search(
+        self,
+        image: numpy.typing.NDArray[numpy.uint8],
+        ellipse: numpy.typing.NDArray[numpy.float64],
+        offsets: numpy.typing.NDArray[numpy.float64],
+        inside: numpy.typing.NDArray[numpy.float64],
+        around: numpy.typing.NDArray[numpy.float64],
+        models: numpy.typing.NDArray[numpy.float32],
+        shares: numpy.typing.NDArray[numpy.float64],
+        nearest: bool,
+        table: numpy.typing.NDArray[numpy.float32],
+        sharpness: float,
+        contrast_weight: float,
+    ) -> tuple[numpy.typing.NDArray[numpy.float64], float, float]: ...
     def rank_sections(
         self, samples: numpy.typing.NDArray[numpy.uint8], sections: int
     ) -> numpy.typing.NDArray[numpy.float32]: ...

@@ -14,7 +14,7 @@ namespace tricue {
 namespace {
 
 constexpr int kTile = 1024;  // pixels, of a side: sums over a column and its rows fit into 32 bits
-constexpr int kStrip = 16;   // rows: sums over a column and its rows fit into bytes
+constexpr int kStrip = 16;   // rows: sums of a column's rows fit into bytes
 constexpr int kBlock = 64;   // pixels; a tile's width is padded to whole blocks
 constexpr int kPrefetchRows = 4;
 constexpr std::uint8_t kSkin = 255;
@@ -22,12 +22,6 @@ constexpr std::uint8_t kSkin = 255;
 /// Raw moments of integer pixel indices, relative to the region's corner; exact.
 struct Sums {
     std::int64_t count = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
-};
-
-/// For each column: the number of skin pixels, and the sum of their rows.
-template <typename Number>
-struct Columns {
-    alignas(kBlock) std::array<Number, kTile> count, rows;
 };
 
 /// In bytes as far as possible: |a - b| as max - min, and a difference limited to at least 0.
@@ -60,74 +54,72 @@ void mark_skin(const std::uint8_t* __restrict pixels, int n, const Bgr& referenc
             n, [=](std::ptrdiff_t x) { skin[x] = difference(delta(x), eta(x)) <= limit ? kSkin : 0; });
 }
 
-/// Adds the row-th row of a strip to the strip's n columns, in whole blocks, and counts its skin pixels.
+/// Adds the marks of a strip, `height` rows from row `top` of the tile, to the tile's columns, n in whole blocks, and counts the marks
+/// of each row.
 template <int kBytes>
-TRICUE_INLINE void add_row_by(const std::uint8_t* skin, int n, std::uint8_t row, std::uint8_t* count,
-                              std::uint8_t* rows, int* found) {
+TRICUE_INLINE void add_strip_by(const std::uint8_t* marks, int height, int top, int n, std::int32_t* count,
+                                std::int32_t* rows, int* found) {
     using Register = Pack<std::uint8_t, kBytes>;
-    Register total = {}, marks, each;  // at most kTile / 16 marks a lane
+    Register in_row[kStrip] = {};  // at most kTile / 16 marks a lane
+    std::uint8_t lanes[2][std::size_t{kBytes}];
     for (int x = 0; x < n; x += kBytes) {
-        load(skin + x, marks);
-        total -= marks;
-        load(count + x, each);
-        each -= marks;
-        store(each, count + x);
-        load(rows + x, each);
-        each += marks & row;
-        store(each, rows + x);
+        Register in_column = {}, their_rows = {}, mark;
+        for (int row = 0; row < height; ++row) {
+            load(marks + kTile * row + x, mark);
+            in_column -= mark;
+            their_rows += mark & static_cast<std::uint8_t>(row);
+            in_row[row] -= mark;
+        }
+        store(in_column, lanes[0]);
+        store(their_rows, lanes[1]);
+        for (int lane = 0; lane < kBytes; ++lane) {
+            count[x + lane] += lanes[0][lane];
+            rows[x + lane] += top * lanes[0][lane] + lanes[1][lane];
+        }
     }
-    std::uint8_t lanes[std::size_t{kBytes}];
-    store(total, lanes);
-    int sum = 0;
-    for (int lane = 0; lane < kBytes; ++lane) sum += lanes[lane];
-    *found = sum;
-}
-
-TRICUE_MULTIWIDTH(add_row, add_row_by,
-                  (const std::uint8_t* skin, int n, std::uint8_t row, std::uint8_t* count, std::uint8_t* rows,
-                   int* found),
-                  (skin, n, row, count, rows, found))
-
-/// Adds a strip that begins at a row of the tile to the tile's n columns, and empties it.
-TRICUE_MULTIVERSION
-void add_strip(std::uint8_t* __restrict count, std::uint8_t* __restrict rows, int n, int row,
-               std::int32_t* __restrict all_count, std::int32_t* __restrict all_rows) {
-    for (int x = 0; x < n; ++x) {
-        all_count[x] += count[x];
-        all_rows[x] += row * count[x] + rows[x];
-        count[x] = rows[x] = 0;
+    for (int row = 0; row < height; ++row) {
+        store(in_row[row], lanes[0]);
+        found[row] = 0;
+        for (int lane = 0; lane < kBytes; ++lane) found[row] += lanes[0][lane];
     }
 }
+
+TRICUE_MULTIWIDTH(add_strip, add_strip_by,
+                  (const std::uint8_t* marks, int height, int top, int n, std::int32_t* count,
+                   std::int32_t* rows, int* found),
+                  (marks, height, top, n, count, rows, found))
 
 void add_tile(const ImageView& image, const Bgr& reference, int least, const Region& region,
               const Region& tile, Sums& sums) {
     const int width = tile.x1 - tile.x0, height = tile.y1 - tile.y0;
     const int padded = (width + kBlock - 1) / kBlock * kBlock;
     const std::int64_t left = tile.x0 - region.x0, top = tile.y0 - region.y0;
-    alignas(kBlock) std::array<std::uint8_t, kTile> skin;
-    Columns<std::uint8_t> strip;
-    Columns<std::int32_t> columns;
-    std::fill_n(skin.begin(), padded, std::uint8_t{0});
-    std::fill_n(strip.count.begin(), padded, std::uint8_t{0});
-    std::fill_n(strip.rows.begin(), padded, std::uint8_t{0});
-    std::fill_n(columns.count.begin(), padded, 0);
-    std::fill_n(columns.rows.begin(), padded, 0);
-    for (int row = 0; row < height; ++row) {
-        const std::ptrdiff_t begin = 3 * std::ptrdiff_t{tile.x0};
-        if (row + kPrefetchRows < height)
-            prefetch_bytes(image.row(tile.y0 + row + kPrefetchRows) + begin, 3 * width);
-        mark_skin(image.row(tile.y0 + row) + begin, width, reference, least, skin.data());
-        int found = 0;
-        add_row(skin.data(), padded, static_cast<std::uint8_t>(row % kStrip), strip.count.data(),
-                strip.rows.data(), &found);
-        sums.yy += (top + row) * (top + row) * found;
-        if (row % kStrip == kStrip - 1 || row + 1 == height)
-            add_strip(strip.count.data(), strip.rows.data(), padded, row - row % kStrip, columns.count.data(),
-                      columns.rows.data());
+    alignas(kBlock) std::array<std::uint8_t, std::size_t{kStrip} * kTile> marks;
+    alignas(kBlock) std::array<std::int32_t, kTile> counts,
+        rows;  // of each column: skin, and sum of its rows
+    for (int row = 0; row < kStrip; ++row)
+        std::fill(marks.begin() + kTile * row + width, marks.begin() + kTile * row + padded, std::uint8_t{0});
+    std::fill_n(counts.begin(), padded, 0);
+    std::fill_n(rows.begin(), padded, 0);
+    for (int first = 0; first < height; first += kStrip) {
+        const int strip = std::min(kStrip, height - first);
+        for (int row = first; row < first + strip; ++row) {
+            const std::ptrdiff_t begin = 3 * std::ptrdiff_t{tile.x0};
+            if (row + kPrefetchRows < height)
+                prefetch_bytes(image.row(tile.y0 + row + kPrefetchRows) + begin, 3 * width);
+            mark_skin(image.row(tile.y0 + row) + begin, width, reference, least,
+                      marks.data() + kTile * (row - first));
+        }
+        int found[kStrip];
+        add_strip(marks.data(), strip, first, padded, counts.data(), rows.data(), found);
+        for (int row = 0; row < strip; ++row) {
+            const std::int64_t y = top + first + row;
+            sums.yy += y * y * found[row];
+        }
     }
     for (int column = 0; column < width; ++column) {
-        const std::int64_t x = left + column, count = columns.count[static_cast<std::size_t>(column)];
-        const std::int64_t y = columns.rows[static_cast<std::size_t>(column)] + top * count;
+        const auto at = static_cast<std::size_t>(column);
+        const std::int64_t x = left + column, count = counts[at], y = rows[at] + top * count;
         sums.count += count;
         sums.x += x * count;
         sums.y += y;

@@ -27,6 +27,7 @@ from tricue.reference.cues.color.learn_ranks import learn_ranks
 from tricue.reference.cues.color.pick_pixels import pick_pixels
 from tricue.reference.cues.color.rank_distance import rank_distance
 from tricue.reference.cues.color.rank_likelihood import rank_likelihood
+from tricue.reference.cues.color.rank_search import rank_search
 from tricue.reference.cues.color.rank_sections import rank_sections
 from tricue.reference.cues.color.rank_window import rank_window
 from tricue.reference.cues.color.sample_ellipses import sample_ellipses
@@ -167,6 +168,7 @@ __all__ = [
     "rank_distance",
     "rank_filter",
     "rank_likelihood",
+    "rank_search",
     "rank_sections",
     "rank_window",
     "rectangle_histogram",

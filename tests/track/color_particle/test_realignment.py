@@ -7,7 +7,16 @@ import pytest
 from tricue import Box, ColorParticleTracker, kernels
 from tricue.evaluation import metrics
 from tricue.track.color_particle.appearance import Appearance
-from tricue.track.color_particle.realignment import BLOCKS, FIRST_LOOK, WINDOWS, moved, realign
+from tricue.track.color_particle.realignment import (
+    BLOCKS,
+    FAR,
+    FIRST_LOOK,
+    NEAR,
+    SCALE,
+    WINDOWS,
+    moved,
+    realign,
+)
 
 START = Box(100, 90, 50, 63)
 K = kernels.load("native")
@@ -34,18 +43,21 @@ def overlap(ellipse):
     return metrics.overlaps([box], np.array([[START.x, START.y, START.width, START.height]]))[0]
 
 
-@pytest.mark.parametrize("offset", [(8, 0), (0, -10), (-9, 9)])
-def test_an_estimate_that_is_off_comes_back(offset, frame, first):
-    """One look after the other finds the face, never a place that is less like it."""
-    ellipse, before = ELLIPSE + [*offset, 0, 0], -np.inf
-    start = overlap(ellipse)
-    for block in range(2 * BLOCKS):
-        found = realign(K, frame, first, ellipse, block)
-        assert found.gain >= 0
-        assert found.log_likelihood >= before
-        ellipse, before = found.ellipse, found.log_likelihood
-    assert start < 0.8
-    assert overlap(ellipse) > 0.9
+def test_an_estimate_that_is_off_comes_back(frame, first):
+    """One look after the other finds the face from all sides, never a place that is less like it."""
+    offsets = [(8, 0), (0, -10), (-9, 9), (-8, 2), (5, 5), (4, -8), (0, 10), (-8, -6)]
+    ends = []
+    for offset in offsets:
+        ellipse, before = ELLIPSE + [*offset, 0, 0], -np.inf
+        assert overlap(ellipse) < 0.8
+        for block in range(2 * BLOCKS):
+            found = realign(K, frame, first, ellipse, block)
+            assert found.gain >= 0
+            assert found.log_likelihood >= before
+            ellipse, before = found.ellipse, found.log_likelihood
+        ends.append(overlap(ellipse))
+    assert min(ends) > 0.85
+    assert np.mean(ends) > 0.93
 
 
 def test_the_estimate_stays_where_the_face_is_not(stage, first):
@@ -87,8 +99,17 @@ def test_all_particles_move_with_their_estimate(frame, follow):
 
 
 def test_blocks_differ():
-    """Looks one after the other are at other windows."""
-    windows = np.stack([(ELLIPSE @ each).reshape(-1, 4) for each in FIRST_LOOK])
-    assert windows.shape == (BLOCKS, WINDOWS + 1, 4)
-    assert len(np.unique(windows[:, 1:].reshape(-1, 4), axis=0)) == BLOCKS * WINDOWS
-    np.testing.assert_array_equal(windows[:, 0], np.tile(ELLIPSE, (BLOCKS, 1)))
+    """Looks one after the other are at other windows, in turn near and far."""
+    offsets = np.stack(FIRST_LOOK)
+    assert offsets.shape == (BLOCKS, WINDOWS - 1, 4)
+    assert len(np.unique(offsets.reshape(-1, 4), axis=0)) == BLOCKS * (WINDOWS - 1)
+    for windows, spread in ((offsets[:, ::2], NEAR), (offsets[:, 1::2], FAR)):
+        np.testing.assert_allclose(windows[..., :2].std(axis=(0, 1)), 2 * spread, rtol=0.05)
+
+
+def test_sizes_are_even():
+    """A third of every block's windows is smaller, a third larger, and a third about as large."""
+    for offsets in FIRST_LOOK:
+        size = np.log(offsets[:, 2]) / SCALE
+        thirds = [np.sum(size < -1 / 3**0.5), np.sum(abs(size) <= 1 / 3**0.5), np.sum(size > 1 / 3**0.5)]
+        assert min(thirds) >= WINDOWS // 3 - 1

@@ -125,6 +125,16 @@ class Appearance(NamedTuple):
             log_likelihood += self.contrast.log_likelihood(k, *samples)
         return log_likelihood
 
+    def best_near(
+        self, k: Kernels, image: Image, ellipse: Floats, offsets: Floats
+    ) -> tuple[Floats, float, float]:
+        """The most likely (4,) of an ellipse (4,) and the windows at offsets (n, 4) from it, its
+        log-likelihood, and that of the ellipse; for comparable likelihoods only.
+        """
+        measurement = self.rank_measurement(searching=False)
+        assert measurement is not None
+        return k.rank_search(image, ellipse, offsets, *measurement)
+
     def recognition(self, k: Kernels, seen: Any, searching: bool = False) -> float:
         """The similarity, in [0, 1], of the observation to the target; about 0 in noise and flat windows."""
         return self.model.recognition(k, seen, searching)

@@ -16,8 +16,8 @@ from tricue.kernels import Kernels
 from tricue.track.color_particle.appearance import Appearance
 from tricue.track.color_particle.state import ParticleSet
 
-WINDOWS, BLOCKS = 48, 32  # windows per frame; blocks of windows, used in turn
-NEAR, FAR = 0.1, 0.3  # standard deviations of the windows' positions, in target sides; half of them each
+WINDOWS, BLOCKS = 32, 32  # windows per frame, with the estimate; blocks of windows, used in turn
+NEAR, FAR = 0.05, 0.3  # standard deviations of the windows' positions, in target sides; in turn
 SCALE = 0.05  # standard deviation of the logarithm of their size
 CLOSER = 0.3  # the second search, around the best window, has these deviations times this
 MIN_LOG_LIKELIHOOD = 0.0  # nats; colors and ranks together say that it is the target
@@ -27,17 +27,27 @@ Sizes = tuple[tuple[float, float], tuple[float, float]]  # smallest and largest 
 ANY_SIZE: Sizes = (0.0, 0.0), (math.inf, math.inf)
 
 
-def _patterns(closer: float) -> list[Floats]:
-    """BLOCKS matrices (4, 4 n): an ellipse (4,) times one gives n windows, first the ellipse itself."""
-    normal = np.random.default_rng(0).standard_normal((BLOCKS, WINDOWS, 3))  # any numbers do; drawn once
-    spread = 2 * closer * np.repeat([NEAR, FAR], WINDOWS // 2)[:, None]  # semi-axes
-    linear = np.tile(np.eye(4), (BLOCKS, WINDOWS + 1, 1, 1))
-    linear[:, 1:, [2, 3], [0, 1]] = spread * normal[..., :2]
-    linear[:, 1:, [2, 3], [2, 3]] = np.exp(closer * SCALE * normal[..., 2:])
-    return list(np.ascontiguousarray(linear.transpose(0, 2, 1, 3)).reshape(BLOCKS, 4, -1))
+def _even_numbers(n: int) -> Floats:
+    """(n, 3) numbers in [0, 1) that fill the cube more evenly than random ones, Roberts' sequence R3."""
+    root = 1.2207440846057596  # of x**4 = x + 1
+    return np.modf(0.5 + np.outer(np.arange(1, n + 1), [root**-1, root**-2, root**-3]))[0]
 
 
-FIRST_LOOK, CLOSER_LOOK = _patterns(1.0), _patterns(CLOSER)
+def _offsets(closer: float) -> list[Floats]:
+    """BLOCKS arrays (WINDOWS - 1, 4): shifts, semi-axes, and factors of the windows around an ellipse.
+
+    Shifts are normal, by Box and Muller; the logarithm of the factor is uniform. The near windows keep the
+    size from drifting: they differ from the estimate in little else.
+    """
+    first, second, third = np.moveaxis(_even_numbers(BLOCKS * WINDOWS).reshape(BLOCKS, WINDOWS, 3), 2, 0)
+    radius = 2 * closer * np.resize([FAR, NEAR], WINDOWS) * np.sqrt(-2 * np.log(1 - first))
+    angle = 2 * np.pi * second
+    factor = np.exp(closer * SCALE * np.sqrt(12) * (third - 0.5))
+    offsets = np.stack([radius * np.cos(angle), radius * np.sin(angle), factor, factor], axis=2)
+    return list(offsets[:, 1:].copy())
+
+
+FIRST_LOOK, CLOSER_LOOK = _offsets(1.0), _offsets(CLOSER)
 
 
 class Realignment(NamedTuple):
@@ -58,10 +68,10 @@ def realign(
 
     sizes: bounds of the semi-axes.
     """
-    best, highest, here = _look(k, image, first, ellipse, FIRST_LOOK[block % BLOCKS])
+    best, highest, here = first.best_near(k, image, ellipse, FIRST_LOOK[block % BLOCKS])
     if highest <= max(here, MIN_LOG_LIKELIHOOD):
         return Realignment(ellipse, here, 0.0)
-    best, highest, _ = _look(k, image, first, best, CLOSER_LOOK[block % BLOCKS])
+    best, highest, _ = first.best_near(k, image, best, CLOSER_LOOK[block % BLOCKS])
     (min_minor, min_major), (max_minor, max_major) = sizes
     x, y, minor, major = best.tolist()
     allowed = min(max(minor, min_minor), max_minor), min(max(major, min_major), max_major)
@@ -81,13 +91,3 @@ def moved(
     log_likelihood = float(appearance.log_likelihood(k, image, ellipse[None])[0])
     seen = appearance.observe(k, image, ellipse)
     return particles._replace(particles=shifted, ellipse=ellipse, log_likelihood=log_likelihood, seen=seen)
-
-
-def _look(
-    k: Kernels, image: Image, first: Appearance, ellipse: Floats, pattern: Floats
-) -> tuple[Floats, float, float]:
-    """The window most like the first frame's target, its log-likelihood, and that of the ellipse itself."""
-    windows = (ellipse @ pattern).reshape(-1, 4)
-    log_likelihood = first.log_likelihood(k, image, windows).tolist()
-    highest = max(log_likelihood)
-    return windows[log_likelihood.index(highest)], highest, log_likelihood[0]
