@@ -118,20 +118,29 @@ def test_millimeters_as_meters_warn() -> None:
 @pytest.mark.parametrize(
     ("meters", "scale", "message"),
     [
-        (1500.0, None, "1500 m, which looks like millimeters; pass depth_scale=0.001"),
-        (50.1, None, "50.1 m, which looks like millimeters"),
-        (12_500.0, 0.1, "1250 m, which looks like a wrong depth_scale, 0.1 meters per unit"),
-        (2.5, 0.001, "0.0025 m, which looks like a wrong depth_scale, 0.001 meters per unit"),
-        (0.0025, None, "0.0025 m, which looks like another unit than meters; pass depth_scale"),
+        (1400.0, None, "1000 m, which looks like millimeters; pass depth_scale=0.001"),
+        (50.1, None, "50 m, which looks like millimeters"),
+        (12_500.0, 0.1, "1000 m, which looks like a wrong depth_scale, 0.1 meters per unit"),
+        (2.6, 0.001, "0.003 m, which looks like a wrong depth_scale, 0.001 meters per unit"),
+        (0.0024, None, "0.002 m, which looks like another unit than meters; pass depth_scale"),
     ],
 )
 def test_a_wrong_unit_warns(meters: float, scale: float | None, message: str) -> None:
     """It proves that a median depth that no camera measures is warned of, with what is likely wrong."""
     depth = np.full((24, 32), meters)
     depth[::2] = 0
-    with pytest.warns(UserWarning, match=f"^depth: its median is {message}") as caught:
+    with pytest.warns(UserWarning, match=f"^depth: its median is about {message}") as caught:
         Frame(depth=depth, depth_scale=scale)
     assert caught[0].filename == __file__
+
+
+def test_a_wrong_unit_warns_once_for_frames_of_one_line() -> None:
+    """It proves that frames of a video, whose medians differ a little, don't give a warning each."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("default")
+        for millimeters in range(4600, 4700, 10):
+            Frame(depth=np.full((24, 32), float(millimeters)))
+    assert [str(each.message).partition(" m,")[0] for each in caught] == ["depth: its median is about 5000"]
 
 
 @pytest.mark.parametrize(("dtype", "scale"), [(np.uint16, 5000), (np.float64, 5000), (np.float32, None)])

@@ -173,7 +173,7 @@ def test_a_wrong_unit_warns_once(
         )
     error = capsys.readouterr().err
     assert error.count("\n") == 1
-    assert error.startswith("tricue track: warning: depth: its median is 4000 m")
+    assert error.startswith("tricue track: warning: depth: its median is about 4000 m")
 
 
 def test_the_frame_rate_of_images_can_be_given(recording: Path, nearest_tracker: str, tmp_path: Path) -> None:

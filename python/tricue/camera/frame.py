@@ -243,7 +243,8 @@ def _unit_problem(measured: NDArray[np.float32], scale: float | None) -> str:
         why = "millimeters; pass depth_scale=0.001"
     else:
         why = "another unit than meters; pass depth_scale, the meters per unit"
-    return f"its median is {median:.{4 if median > MAX_MEDIAN_DEPTH else 2}g} m, which looks like {why}"
+    about = float(f"{median:.1g}")  # the same in most frames, as Python shows each text of a line only once
+    return f"its median is about {about:g} m, which looks like {why}"
 
 
 def _loss(sample: NDArray[np.float32]) -> str:

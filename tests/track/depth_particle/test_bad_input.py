@@ -254,7 +254,7 @@ def test_meters_as_millimeters_are_warned_of():
     """Meters with the scale of millimeters make the Frame warn; the tracker misses its target, and goes
     on.
     """
-    with pytest.warns(UserWarning, match=r"^depth: its median is 0.006 m, .* a wrong depth_scale, 0.001"):
+    with pytest.warns(UserWarning, match=r"^depth: its median is about 0.006 m, .* wrong depth_scale, 0.001"):
         frame = Frame(depth=DEPTH, depth_scale=0.001)
     tracker = started()
     assert tracker.update(frame).status is Status.OCCLUDED
