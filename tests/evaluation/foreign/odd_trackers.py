@@ -13,6 +13,7 @@ import cv2
 import numpy as np
 import odd_helper
 from tricue import Box, Status, Track
+from tricue.track.base.traits import Channels, Traits
 
 print("printed while it is imported")
 ODD = 4  # the update at which most do what they do
@@ -49,6 +50,21 @@ class AsFrame(Still):
         assert (frame.depth, frame.right, frame.pose) == (None, None, None)
         assert frame[2:5].timestamp is None
         return self.box
+
+
+class OnDepth:
+    """Takes depth and its camera, as its traits say, and has no Params."""
+
+    traits = Traits(channels=(Channels.of("depth"),), camera=frozenset({"intrinsics"}))
+
+    def __init__(self, intrinsics, step=0.0):
+        self.step = step
+
+    def init(self, frame, box):
+        return self.update(frame)
+
+    def update(self, frame):
+        return (self.step, 2, 3, 4)
 
 
 class LikeOpenCv(Still):

@@ -376,6 +376,21 @@ def test_a_tracker_of_depth_pictures():
         assert spec.view(Depth())(Frame(depth=depth)).channels == ("color",)
 
 
+def test_traits_alone_choose_the_channels():
+    """It proves that a class with traits but no Params gets its channels; its settings are checked without
+    its camera.
+    """
+
+    class Depth:
+        channels, channel, registered, intrinsics, rig = ("depth",), "depth", True, None, None
+
+    spec = foreign_spec(f"{ODD}:OnDepth", {"step": 1.0}, PATIENT)
+    assert spec.view(Depth())(Frame(depth=np.ones((8, 9)))).channels == ("depth",)
+    assert spec.keywords(Depth()) == {"intrinsics": None, "step": 1.0}
+    with pytest.raises(ValueError, match=r"odd_trackers.py:OnDepth: .*unexpected keyword argument 'stride'"):
+        foreign_spec(f"{ODD}:OnDepth", {"stride": 1}, PATIENT)
+
+
 def test_processes_are_gone_afterwards(there):
     """It proves that no child of this process is left by a run that was whole, crashed or hung."""
     for name, limit in (("Still", PATIENT), ("Crashes", PATIENT), ("HangsInC", LIMIT)):

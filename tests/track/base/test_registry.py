@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 import tricue
+from tricue.errors import MissingChannelError
 from tricue.track.base import registry
+from tricue.track.base.traits import Channels, Traits
 
 
 class Plain:
@@ -55,6 +57,51 @@ def test_any_class_by_its_module() -> None:
     assert again.update(GRAY) == tracker.update(GRAY)
     with pytest.raises(ValueError, match="box: expected"):
         tracker.init(GRAY)
+
+
+class Nearest:
+    """Somebody else's tracker of the nearest depth in the box, which declares no parameters."""
+
+    traits = Traits(
+        channels=(Channels.of("depth"),),
+        camera=frozenset({"intrinsics"}),
+        detects="person",
+        shows=frozenset({"mask"}),
+    )
+
+    def __init__(self, intrinsics: tricue.Intrinsics, farther: float = 0.0) -> None:
+        self.intrinsics, self.farther = intrinsics, farther
+
+    def init(self, frame: Any, box: tricue.Box | None) -> tricue.Track:
+        self.box = tricue.Box(1, 2, 10, 12) if box is None else box
+        return self.update(frame)
+
+    def update(self, frame: Any) -> tricue.Track:
+        position = self.intrinsics.back_project(0, 0, np.nanmin(frame.depth) + self.farther)
+        return tricue.Track(self.box, 0.5, tricue.Status.TRACKED, position)
+
+
+def test_a_class_with_traits_needs_nothing_else() -> None:
+    """It proves that a class with init, update and traits is run on other channels than color, with a camera,
+    with and without a box, and in a MultiTracker; it needs no Params, and no keywords seed and kernels.
+    """
+    camera = tricue.Intrinsics.from_fov(60, 40, 60)
+    depth = tricue.Frame(depth=np.full((40, 60), 2.0))
+    name = f"{__name__}:Nearest"
+    tracker = tricue.create(name, intrinsics=camera, farther=0.5, seed=3, kernels="reference")
+    for box in ((3, 4, 5, 6), None):
+        track = tracker.init(depth, box)
+        assert track.box == (box or (1, 2, 10, 12))
+        assert track.position is not None
+        assert track.position[2] == 2.5
+        assert pickle.loads(pickle.dumps(tracker)).update(depth) == tracker.update(depth)
+    with pytest.raises(MissingChannelError, match=r"expected the channel depth, .*, got color"):
+        tracker.update(GRAY)
+    assert registry.traits(name).needs == "depth"
+    assert not registry.traits(name).shows
+    with tricue.MultiTracker(name, intrinsics=camera) as several:
+        number = several.add(depth, (3, 4, 5, 6))
+        assert several.update(depth)[number].box == (3, 4, 5, 6)
 
 
 def test_the_last_box_may_be_a_tracks() -> None:

@@ -65,10 +65,11 @@ def test_an_error_without_a_message_stays_as_it_is(error, things, monkeypatch):
 
 
 class Slotted:
-    """A third party's with traits, so it isn't wrapped, and without a ``__dict__``."""
+    """A third party's with traits and Params, so it isn't wrapped, and without a ``__dict__``."""
 
     __slots__ = ("box",)
     traits = Traits(channels=(Channels.of("color"),))
+    Params = None
 
     def __init__(self, seed: int, kernels: str) -> None: ...
 

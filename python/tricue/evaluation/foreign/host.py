@@ -118,7 +118,8 @@ def _check_settings(made: Any, settings: Mapping[str, Any]) -> None:
     elif settings:
         with suppress(ValueError):  # some compiled ones have no signature
             seed = {"seed": 0} if takes_seed(made._cls) else {}
-            inspect.signature(made._cls).bind(**seed, **settings)
+            cameras = dict.fromkeys(made.traits.camera)
+            inspect.signature(made._cls).bind(**{**seed, **cameras, **settings})
 
 
 def _to_plain(track: Any, method: str) -> PlainTrack:

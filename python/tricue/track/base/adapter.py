@@ -4,7 +4,7 @@
 import copy
 import inspect
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Container
 from dataclasses import replace
 from numbers import Real
 from typing import Any
@@ -31,22 +31,28 @@ def traits_of(tracker: Any) -> Traits:
 
 
 def adapt_class(cls: Any) -> Any:
-    """The class itself if it has ``traits``; otherwise a class of the same name with tricue's interface.
+    """The class itself if it has ``traits`` and ``Params``; otherwise a class of the same name with tricue's
+    interface.
 
     A third-party tracker needs only ``init(image, box)`` and ``update(image)``, in a class or in the result
     of a function. image: BGR (H, W, 3) uint8, with a frame's other parts as attributes such as ``timestamp``;
     a ``tricue.Frame`` if ``init`` is annotated so. box: (x, y, width, height). ``update`` returns a
     ``Track``, a box, (found, box) as cv2's trackers do, (box, score), or None for a lost target; a box of NaN
-    or infinity counts as lost, too. score: any finite number, higher for more confidence. The tracker is
-    assumed to need color and an initial box, and to draw random numbers if it takes a ``seed``. TypeError if
-    a method is missing.
+    or infinity counts as lost, too. score: any finite number, higher for more confidence. Without ``traits``,
+    the tracker is assumed to need color and an initial box, and to draw random numbers if it takes a
+    ``seed``. With ``traits``, it gets a ``tricue.Frame``, its constructor the camera that they name, and, if
+    they say that it detects targets, ``init`` also None as the box, and then returns a ``Track``; overlays
+    show its box alone. TypeError if a method is missing.
     """
-    if traits_of(cls) is not ADAPTED_TRAITS:
+    declared = traits_of(cls)
+    if declared is not ADAPTED_TRAITS and hasattr(cls, "Params"):
         return cls
     if isinstance(cls, type) and not _is_tracker(cls):
         raise TypeError(f"{cls.__qualname__}: expected a class with init(frame, box) and update(frame)")
     if cls not in _ADAPTED:
-        traits = replace(ADAPTED_TRAITS, random=takes_seed(cls))
+        plain = declared is ADAPTED_TRAITS
+        random = takes_seed(cls) if plain else declared.random
+        traits = replace(declared, random=random, shows=frozenset())
         members = {"_cls": staticmethod(cls), "__doc__": cls.__doc__, "traits": traits}
         _ADAPTED[cls] = type(getattr(cls, "__name__", "Adapted"), (_Adapted,), members)
     return _ADAPTED[cls]
@@ -54,10 +60,15 @@ def adapt_class(cls: Any) -> Any:
 
 def takes_seed(make: Callable[..., Any]) -> bool:
     """Whether a class or a function has a keyword ``seed``."""
+    return "seed" in _keywords(make)
+
+
+def _keywords(make: Callable[..., Any]) -> Container[str]:
+    """The names of a class's or a function's arguments."""
     try:
-        return "seed" in inspect.signature(make).parameters
+        return inspect.signature(make).parameters
     except (TypeError, ValueError):  # some compiled ones have no signature
-        return False
+        return ()
 
 
 def check_track(track: Any, method: str) -> Track:
@@ -114,20 +125,27 @@ class _Adapted:
 
     def __init__(self, *, seed: int = 0, kernels: str = "native", **params: Any) -> None:
         self.seed, self.kernels, self.params = seed, kernels, params
-        seeds = {"seed": seed} if self.traits.random else {}
-        self.tracker = _maker(type(self)._cls)(**seeds, **params)
+        cls = type(self)._cls
+        has_traits = traits_of(cls) is not ADAPTED_TRAITS
+        common = {"seed": seed, "kernels": kernels} if has_traits else {"seed": seed}
+        taken = {name: value for name, value in common.items() if name in _keywords(cls)}
+        self.tracker = _maker(cls)(**taken, **params)
         if not _is_tracker(self.tracker):
             made = type(self.tracker).__name__
             raise TypeError(
                 f"{type(self).__name__}: expected to make a tracker with init and update, got {made}"
             )
-        self._takes_frame = _takes_frame(self.tracker.init)
+        self._takes_frame = has_traits or _takes_frame(self.tracker.init)
         self._box: Box | None = None  # the last known box, set by ``init``
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
-        """Start, or start again, on ``box``."""
+        """Start, or start again, on ``box``; without it, if it detects targets, on one that it finds."""
         if box is None:
-            raise BoxNeededError("box: expected (x, y, width, height), got None")
+            if self.traits.detects is None:
+                raise BoxNeededError("box: expected (x, y, width, height), got None")
+            found = check_track(self.tracker.init(self._input(frame), None), "init")
+            self._box = found.box
+            return found
         first = as_box(box)
         start = first.as_int() if is_of_cv2(self.tracker) else first  # cv2 5 takes only integers
         given = self.tracker.init(self._input(frame), start)
@@ -150,7 +168,8 @@ class _Adapted:
 
     def _input(self, value: FrameLike) -> Frame | FrameImage:
         frame = as_frame(value)
-        frame.require("color")
+        if self.traits.best(frame.channels) is None:
+            frame.require(*self.traits.channels[-1].names)
         return frame if self._takes_frame else FrameImage.of(frame)
 
     def _track(self, given: Any, method: str, last: Box) -> Track:
