@@ -51,6 +51,17 @@ def test_iou_counts_pixels(a: Box, b: Box) -> None:
     assert a.iou(b) == pytest.approx(len(pixels(a) & pixels(b)) / len(pixels(a) | pixels(b)), abs=1e-12)
 
 
+def test_iou_with_any_four_numbers() -> None:
+    """It proves that true boxes in rows of an array need no conversion; NaN is an error."""
+    box = Box(0, 0, 4, 4)
+    for other in ((2, 0, 4, 4), [2.0, 0.0, 4.0, 4.0], np.array([2, 0, 4, 4]), np.array([2, 0, 4, 4.0])):
+        assert box.iou(other) == box.iou(Box(2, 0, 4, 4)) == 1 / 3
+    with pytest.raises(BoxError, match=r"^other: expected finite numbers"):
+        box.iou(np.full(4, np.nan))
+    with pytest.raises(TypeError, match=r"^other: expected four numbers"):
+        box.iou(np.zeros((2, 4)))
+
+
 @given(boxes, boxes)
 def test_iou_is_a_symmetric_share(a: Box, b: Box) -> None:
     """It proves that the overlap lies in [0, 1], doesn't depend on the order, and is 1 for the box itself."""

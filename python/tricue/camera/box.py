@@ -72,13 +72,14 @@ class Box(NamedTuple):
         x, y = min(max(left, 0.0), width), min(max(top, 0.0), height)
         return Box(x, y, max(min(right, width) - x, 0.0), max(min(bottom, height) - y, 0.0))
 
-    def iou(self, other: "Box") -> float:
-        """Intersection over union, in [0, 1]."""
-        shared = shared_area(self, other)
+    def iou(self, other: "BoxLike") -> float:
+        """Intersection over union, in [0, 1], with another box, also a tuple or a row of an array."""
+        box = other if isinstance(other, Box) else as_box(other, "other")
+        shared = shared_area(self, box)
         if shared == 0:
             return 0.0
         # With large coordinates, rounding may make the intersection slightly larger than the union.
-        return min(1.0, shared / (self.area + other.area - shared))
+        return min(1.0, shared / (self.area + box.area - shared))
 
     def _repr_html_(self) -> str:
         from tricue.notebook.tracks import box_html
