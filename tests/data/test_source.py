@@ -150,6 +150,19 @@ def test_a_file_of_true_boxes_goes_before_a_table(tmp_path: Path) -> None:
     assert open_source(tmp_path).first_box == (1, 2, 3, 4)
 
 
+def test_frames_without_a_row_have_no_true_box(tmp_path: Path) -> None:
+    """It proves that there is no true box after the last row, nor before the first frame."""
+    (images(tmp_path, 3) / "boxes.csv").write_text("x,y,w,h\n1,2,3,4\n5,6,7,8\n")
+    source = open_source(tmp_path)
+    assert [source.true_box(number) for number in (-2, -1, 0, 1, 2)] == [
+        None,
+        None,
+        (1, 2, 3, 4),
+        (5, 6, 7, 8),
+        None,
+    ]
+
+
 WORDS = st.sampled_from(
     [
         "channels.color=",

@@ -146,8 +146,8 @@ class Source:
         return self.true_box(0)
 
     def true_box(self, number: int) -> Box | None:
-        """The true box in a frame by its number from 0; None if it isn't known."""
-        if self.truth is None or len(self.truth) <= number or np.isnan(self.truth[number]).any():
+        """The true box in a frame by its number from 0; None if it isn't known, as before the first frame."""
+        if self.truth is None or not 0 <= number < len(self.truth) or np.isnan(self.truth[number]).any():
             return None
         return Box(*self.truth[number].tolist())
 
