@@ -71,7 +71,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     noise = kinds.add_parser("stereo-noise", help="of stereo-head, from stereo pairs of a head at rest")
     noise.add_argument("input", metavar="INPUT", help="as for tricue track")
     noise.add_argument("--box", type=box, metavar="X,Y,W,H", help="the head; default the first true box")
-    noise.add_argument("--distance", type=meters, metavar="M", help="to the head along the camera's axis")
+    noise.add_argument("--distance", type=meters, metavar="M", help="to the face along the camera's axis")
     noise.add_argument("--right", metavar="PLACE", help="the right camera's images; INPUT is the left one's")
     noise.add_argument("--calibration", type=Path, metavar="FILE", help="of the stereo pair")
     noise.add_argument(

@@ -85,9 +85,9 @@ def static_head(
 ) -> StereoScene:
     """As :func:`head`, but the person stands still and looks at the cameras.
 
-    distance: of the head's center along the camera's axis, 0.5 to 10 m. aside: how far the head is to the
-    right of and below the cameras' midpoint, as shares of half the view. ValueError if a camera wouldn't see
-    the whole head.
+    distance: of the head's center along the camera's axis, 0.5 to 10 m; the scene's ``positions``, of its
+    surface, are some 7 cm nearer. aside: how far the head is to the right of and below the cameras' midpoint,
+    as shares of half the view. ValueError if a camera wouldn't see the whole head.
     light: the largest difference of the light's gain from 1; the light's color then varies by 4 %. At 0
     neither changes.
     """
