@@ -47,6 +47,16 @@ def undisturbed(folders, tmp_path_factory):
     return folder, evaluate(folders, folder, FEW)
 
 
+@pytest.mark.parametrize(
+    "wrong", [{"trackers": "fused"}, {"trackers": (StillBox,)}, {"protocols": "starts"}, {"results": None}]
+)
+def test_options_take_several_names(wrong):
+    """A single name, whose letters would be taken for names, and a class are told by the argument."""
+    with pytest.raises(TypeError, match=rf"^{next(iter(wrong))}: expected a tuple of names, got "):
+        Options(**wrong)
+    assert Options(trackers=["fused"]).trackers == ["fused"]
+
+
 def test_every_tracker_sequence_seed_and_kind_is_a_run(undisturbed):
     """Those that draw random numbers run with each seed, the others once; each also with restarts."""
     folder, evaluation = undisturbed

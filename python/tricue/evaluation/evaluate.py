@@ -51,7 +51,7 @@ class Options:
     that draws random numbers. restarts: whether to also run each with restarts. reading: how the data set's
     files are read. results: folders of others' results, NAME=FOLDER. time_limit: seconds for an update of a
     tracker that isn't ours. protocols: names of those to run in addition to one pass, see
-    :mod:`tricue.evaluation.protocols`.
+    :mod:`tricue.evaluation.protocols`. TypeError for names that aren't a tuple or a list of strings.
     """
 
     trackers: tuple[str, ...] | None = None
@@ -62,6 +62,13 @@ class Options:
     results: tuple[str, ...] = ()
     time_limit: float = DEFAULT_TIME_LIMIT
     protocols: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        for name in ("trackers", "results", "protocols"):
+            value: Any = getattr(self, name)
+            several = isinstance(value, (tuple, list)) and all(isinstance(each, str) for each in value)
+            if not several and (name, value) != ("trackers", None):
+                raise TypeError(f"{name}: expected a tuple of names, got {value!r:.80}")
 
     @property
     def orders(self) -> dict[str, tuple[str, ...]]:
