@@ -33,7 +33,7 @@ class Frame:
     timestamp: seconds of any clock. If two frames are more than a second apart, trackers assume one second.
     pose: the pose, when the frame was taken, of the camera in whose coordinates positions are: a
         :class:`tricue.Pose` or its (4, 4) matrix. It replaces the pose of the tracker's camera, unless None.
-    depth_scale: meters per unit of ``depth``, 0.001 for millimeters.
+    depth_scale: meters per unit of ``depth``, 0.001 for millimeters; an error without ``depth``.
 
     Color images are not copied if the pixels of each row are contiguous, as in whole arrays and crops. Any
     other layout (mirrored, channels reversed, Fortran order) is copied once. A TypeError or ValueError
