@@ -132,8 +132,8 @@ a box.
 def test_signatures_are_readable(extension: dict[str, ModuleType]) -> None:
     """Arrays are NDArray, defaults are as in the source, and self isn't shown."""
     signature = extension["docstrings"].process_signature
-    shown = signature(None, "function", "", draw.overlay, None, "()", None)
-    assert shown[0].startswith("(image: NDArray[Any], track: Track, *, particles: ArrayLike | None=None")
+    shown = signature(None, "function", "", draw.depth_overlay, None, "()", None)
+    assert shown[0].startswith("(depth: NDArray[float32], track: Track, *, particles: ArrayLike | None=None")
     assert shown[1] == "NDArray[uint8]"
     shown = signature(None, "class", "", tricue.FusedTracker, None, "()", None)[0]
     assert "kernels: Literal['native', 'reference']='native'" in shown

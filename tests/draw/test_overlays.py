@@ -5,7 +5,7 @@ import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tricue import Box, Status, Track
+from tricue import Box, Frame, Status, Track
 from tricue.draw.canvas import STATUS_COLORS
 from tricue.draw.depth_pictures import depth_picture, depth_range
 from tricue.draw.overlays import depth_overlay, overlay
@@ -28,6 +28,15 @@ def test_the_box_is_where_it_should_be(status: Status) -> None:
     picture = overlay(BLACK, track(status=status))
     for row, column in [(300, 230), (379, 230), (340, 200), (340, 259)]:
         assert tuple(picture[row, column]) == STATUS_COLORS[status]
+
+
+def test_a_frame_is_drawn_as_its_images_are() -> None:
+    """It proves that what a tracker takes can be drawn: a frame's color, or its depth if it has no color."""
+    depth = np.full((48, 64), 2.0, np.float32)
+    for frame in (Frame(BLACK), Frame(BLACK, depth=depth)):
+        assert np.array_equal(overlay(frame, track(), note="a"), overlay(BLACK, track(), note="a"))
+    drawn = overlay(Frame(depth=depth), track(), truth=BOX)
+    assert np.array_equal(drawn, depth_overlay(depth, track(), truth=BOX))
 
 
 def test_the_image_is_left_alone() -> None:

@@ -3,7 +3,6 @@
 
 import math
 from collections.abc import Iterable
-from typing import Any
 
 import cv2
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from tricue.arrays import Image
 from tricue.camera.box import Box
+from tricue.camera.frame import Frame, FrameLike
 from tricue.draw.canvas import (
     BLACK,
     STATUS_COLORS,
@@ -31,7 +31,7 @@ _PARTICLE_COLOR, _TRUTH_COLOR, _OBJECT_COLOR = (255, 190, 60), WHITE, (230, 230,
 
 
 def overlay(
-    image: NDArray[Any],
+    image: FrameLike,
     track: Track,
     *,
     particles: ArrayLike | None = None,
@@ -39,12 +39,18 @@ def overlay(
     note: str = "",
     ellipse: bool = True,
 ) -> Image:
-    """A copy of an image, BGR (H, W, 3) or gray (H, W), with the track in it.
+    """A copy of an image, BGR (H, W, 3) or gray (H, W), or of a frame's color, with the track in it.
 
     A small image is enlarged by a whole number. particles: (N, 2 or more), their centers x, y in pixels.
     truth: the true box, drawn thin and white. note: text below the status. ellipse: whether the box's
-    inscribed ellipse is drawn, too, unless the box is tiny.
+    inscribed ellipse is drawn, too, unless the box is tiny. A frame of depth alone is drawn by
+    :func:`depth_overlay`.
     """
+    if isinstance(image, Frame):
+        if image.color is None:
+            assert image.depth is not None  # a frame has one or the other
+            return depth_overlay(image.depth, track, particles=particles, truth=truth, note=note)
+        image = image.color
     scale = choose_scale(*image.shape[:2])
     canvas = enlarge(image, scale, cv2.INTER_CUBIC)
     color = STATUS_COLORS[track.status]
