@@ -47,6 +47,14 @@ def test_every_format_is_known(tmp_path: Path) -> None:
         assert read_intrinsics(path, SIZE, "depth") == CAMERA, path
 
 
+def test_a_path_may_be_text(tmp_path: Path) -> None:
+    """It proves that a calibration is read by its path or by the path's text."""
+    path = toml(tmp_path / "c.toml", "width = 640\nheight = 480\nbaseline = 0.1\n")
+    assert read_intrinsics(str(path), SIZE, "depth") == CAMERA
+    assert read_rig(str(path), SIZE) == read_rig(path, SIZE)
+    assert read_registration(str(path), SIZE, SIZE) is None
+
+
 def test_blanks_of_kittis_file(tmp_path: Path) -> None:
     """It proves that tabs part its numbers as well, and that its lines may be indented or hold nothing."""
     path = kitti(tmp_path / "calib.txt")

@@ -16,7 +16,9 @@ from tricue.data.truth import OTB_TRUTH, Truth, read_truth_file
 def read(folder: Path, text: str) -> Truth:
     """The truth in a table of this text."""
     (folder / BOX_TABLE).write_text(text)
-    return read_box_table(folder / BOX_TABLE)
+    truth = read_box_table(folder / BOX_TABLE)
+    np.testing.assert_array_equal(read_box_table(f"{folder}/{BOX_TABLE}").boxes, truth.boxes)
+    return truth
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,9 @@ from tricue.data.truth import OTB_TRUTH, VOT_TRUTH, find_truth, otb_targets, rea
 def read(folder: Path, name: str, text: str) -> NDArray[np.float64]:
     """The boxes of a file with this name and text."""
     (folder / name).write_text(text)
-    return read_truth_file(folder / name).boxes
+    boxes = read_truth_file(folder / name).boxes
+    np.testing.assert_array_equal(read_truth_file(f"{folder}/{name}").boxes, boxes)
+    return boxes
 
 
 @pytest.mark.parametrize(

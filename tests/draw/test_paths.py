@@ -70,7 +70,9 @@ def test_files(tmp_path: Path) -> None:
     """It proves that the figure is written as a picture, and a name that can't be one is refused before."""
     check_format(tmp_path / "o.PNG")
     save_path(tmp_path / "new" / "o.png", walk(), CAMERA)
-    assert cv2.imread(str(tmp_path / "new" / "o.png")) is not None
+    save_path(f"{tmp_path}/by_text.png", walk(), CAMERA)
+    for name in ("new/o.png", "by_text.png"):
+        assert cv2.imread(str(tmp_path / name)) is not None
     for name in ("o.txt", "o"):
         with pytest.raises(ValueError, match=f"{name}: expected a picture's name that ends in .png"):
             check_format(tmp_path / name)

@@ -12,7 +12,7 @@ from tricue.camera import toml
 from tricue.camera.calibration_formats import ImageSizeError, other_size, read_princeton_camera
 from tricue.camera.registration import Registration
 from tricue.camera.rig import Intrinsics, StereoRig
-from tricue.camera.types import Size
+from tricue.camera.types import PathLike, Size
 
 TOML, PRINCETON, OPENCV, KITTI = "toml", "princeton", "opencv", "kitti"
 KITTI_COLOR_CAMERAS = 2, 3
@@ -21,7 +21,7 @@ T = TypeVar("T", Intrinsics, StereoRig)
 
 
 def read_intrinsics(
-    path: Path, size: Size, channel: str, kitti_camera: int = KITTI_COLOR_CAMERAS[0]
+    path: PathLike, size: Size, channel: str, kitti_camera: int = KITTI_COLOR_CAMERAS[0]
 ) -> Intrinsics:
     """The intrinsics in a calibration file of any known format.
 
@@ -31,10 +31,11 @@ def read_intrinsics(
     a file for another image size is an error, because every position would be wrong. Warns (UserWarning) of
     distortion, which isn't corrected.
     """
+    path = Path(path)
     return _read_for(channel, path, size, _reader(path, channel, kitti_camera))
 
 
-def read_registration(path: Path, depth: Size, color: Size) -> Registration | None:
+def read_registration(path: PathLike, depth: Size, color: Size) -> Registration | None:
     """The registration of depth images to the color camera, from a TOML file with both cameras.
 
     The file has the tables ``depth`` and ``color``. None for any other file, and if both cameras are equal,
@@ -42,6 +43,7 @@ def read_registration(path: Path, depth: Size, color: Size) -> Registration | No
     color camera without a pose gets the depth camera's. depth, color: width and height of the images, pixels.
     ValueError as from :func:`read_intrinsics`.
     """
+    path = Path(path)
     if _format(path) != TOML or not all(_table(path, name) for name in ("depth", "color")):
         return None
     of_depth, of_color = read_intrinsics(path, depth, "depth"), read_intrinsics(path, color, "color")
@@ -50,7 +52,7 @@ def read_registration(path: Path, depth: Size, color: Size) -> Registration | No
 
 
 def read_rig(
-    path: Path,
+    path: PathLike,
     size: Size,
     unit: float | None = None,
     kitti_cameras: tuple[int, int] = KITTI_COLOR_CAMERAS,
@@ -63,6 +65,7 @@ def read_rig(
     or OSError names the file, as from :func:`read_intrinsics`; ValueError, too, for a unit other than 1 with
     ROS's, and for any unit with KITTI's and TOML, which are in meters.
     """
+    path = Path(path)
     kind = _format(path)
     if unit is not None and kind != OPENCV:
         raise ValueError(f"--unit: expected with a calibration by OpenCV, got {path}, which is in meters")

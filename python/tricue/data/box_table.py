@@ -53,7 +53,7 @@ class _Row(NamedTuple):
         )
 
 
-def read_box_table(path: Path) -> Truth:
+def read_box_table(path: str | Path) -> Truth:
     """The boxes in a table, pixels from 0, and the target's positions if there are columns x_m, y_m or z_m.
 
     Each row is one frame, in order, unless a column ``frame`` gives its number from 0; frames without a row
@@ -61,7 +61,7 @@ def read_box_table(path: Path) -> Truth:
     are ignored. ValueError names the file and the line.
     """
     frames, numbers, places = _Frames(), array("d"), array("d")  # millions of lists would take gigabytes
-    for row in _rows(path):
+    for row in _rows(Path(path)):
         frames.add(row)
         numbers.extend(row.box())
         places.extend(map(row.number, _POSITION_COLUMNS))

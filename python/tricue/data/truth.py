@@ -106,14 +106,14 @@ def add_tags_and_depths(truth: Truth, folder: Path, rows: int = 0) -> Truth:
     return truth
 
 
-def read_truth_file(path: Path, count: int | None = None) -> Truth:
+def read_truth_file(path: str | Path, count: int | None = None) -> Truth:
     """Read a file with one box per line: x, y, width, height; the result counts pixels from 0.
 
     Commas, tabs, semicolons or blanks separate the numbers. VOT's polygons and masks become their bounding
     boxes. count: how many numbers of a line to read; by default all. ValueError names a line with anything
     else.
     """
-    numbers = array("d")  # millions of tuples would take gigabytes
+    path, numbers = Path(path), array("d")  # millions of tuples would take gigabytes
     for number, line in enumerate(lines_of(path), 1):
         numbers.extend(_true_box(line, f"{path}, line {number}", count))
     truth = truth_from_rows(numbers)

@@ -56,9 +56,13 @@ def draw_path(
 
 
 def save_path(
-    path: Path, tracks: Iterable[Track], intrinsics: Intrinsics | None = None, truth: ArrayLike | None = None
+    path: str | Path,
+    tracks: Iterable[Track],
+    intrinsics: Intrinsics | None = None,
+    truth: ArrayLike | None = None,
 ) -> None:
     """Write the figure of :func:`path_from_above` to a file."""
+    path = Path(path)
     figure = path_from_above(tracks, intrinsics, truth)
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=STYLE["savefig.dpi"])
