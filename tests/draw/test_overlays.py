@@ -36,7 +36,8 @@ def test_a_frame_is_drawn_as_its_images_are() -> None:
     for frame in (Frame(BLACK), Frame(BLACK, depth=depth)):
         assert np.array_equal(overlay(frame, track(), note="a"), overlay(BLACK, track(), note="a"))
     drawn = overlay(Frame(depth=depth), track(), truth=BOX)
-    assert np.array_equal(drawn, depth_overlay(depth, track(), truth=BOX))
+    assert np.array_equal(drawn, depth_overlay(depth, track(), truth=np.array(BOX)))
+    assert np.array_equal(overlay(BLACK, track(), truth=BOX), overlay(BLACK, track(), truth=tuple(BOX)))
 
 
 def test_the_image_is_left_alone() -> None:

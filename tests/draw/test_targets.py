@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 import numpy as np
 import pytest
-from tricue import Box, Status, Track
+from tricue import Box, Frame, Status, Track
+from tricue.draw.depth_pictures import depth_picture
 from tricue.draw.targets import TARGET_COLORS, target_color, targets_overlay
 
 BLACK = np.zeros((480, 640, 3), np.uint8)
@@ -22,6 +23,15 @@ def test_each_box_has_its_color():
         for x, y in ((left, middle[1]), (right - 1, middle[1]), (middle[0], top), (middle[0], bottom - 1)):
             assert tuple(picture[y, x]) == target_color(target)
     assert not BLACK.any()
+
+
+def test_a_frame_is_drawn_as_its_images_are():
+    """What MultiTracker.update takes can be drawn: a frame's color, or its depth if it has no color."""
+    depth = np.linspace(1, 3, 480 * 640).reshape(480, 640).astype(np.float32)
+    drawn = targets_overlay(Frame(BLACK, depth=depth), tracks())
+    np.testing.assert_array_equal(drawn, targets_overlay(BLACK, tracks()))
+    drawn = targets_overlay(Frame(depth=depth), tracks())
+    np.testing.assert_array_equal(drawn, targets_overlay(depth_picture(depth), tracks()))
 
 
 def test_colors_differ():

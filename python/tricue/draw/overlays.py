@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tricue.arrays import Image
-from tricue.camera.box import Box
+from tricue.camera.box import Box, BoxLike
 from tricue.camera.frame import Frame, FrameLike
 from tricue.draw.canvas import (
     BLACK,
@@ -35,7 +35,7 @@ def overlay(
     track: Track,
     *,
     particles: ArrayLike | None = None,
-    truth: Box | None = None,
+    truth: BoxLike | None = None,
     note: str = "",
     ellipse: bool = True,
 ) -> Image:
@@ -57,7 +57,7 @@ def overlay(
     if particles is not None:
         draw_dots(canvas, np.asarray(particles, np.float64), scale, _PARTICLE_COLOR)
     if truth is not None:
-        draw_box(canvas, truth, scale, _TRUTH_COLOR, 1)
+        draw_box(canvas, Box(*truth), scale, _TRUTH_COLOR, 1)
     if ellipse and min(track.box[2:]) * scale >= MIN_ELLIPSE * line_width(canvas):
         draw_ellipse(canvas, track.box, scale, color)
     draw_box(canvas, track.box, scale, color, 2)
@@ -71,7 +71,7 @@ def depth_overlay(
     *,
     particles: ArrayLike | None = None,
     objects: Iterable[Box] = (),
-    truth: Box | None = None,
+    truth: BoxLike | None = None,
     note: str = "",
     near: float | None = None,
     far: float | None = None,
@@ -89,7 +89,7 @@ def depth_overlay(
     if particles is not None:
         draw_dots(canvas, np.asarray(particles, np.float64), scale, STATUS_COLORS[track.status])
     if truth is not None:
-        draw_box(canvas, truth, scale, _TRUTH_COLOR, 1)
+        draw_box(canvas, Box(*truth), scale, _TRUTH_COLOR, 1)
     draw_box(canvas, track.box, scale, BLACK, 5)
     draw_box(canvas, track.box, scale, STATUS_COLORS[track.status], 2)
     _write_track(canvas, track, note)

@@ -2,12 +2,11 @@
 """Overlays of several targets, each with its own color and its id."""
 
 from collections.abc import Mapping
-from typing import Any
 
 import cv2
-from numpy.typing import NDArray
 
 from tricue.arrays import Image
+from tricue.camera.frame import Frame, FrameLike
 from tricue.draw.canvas import (
     BLACK,
     WHITE,
@@ -20,6 +19,7 @@ from tricue.draw.canvas import (
     put_text,
     to_pixels,
 )
+from tricue.draw.depth_pictures import depth_picture
 from tricue.track.base.track import Status, Track
 
 # Okabe and Ito's colors without black, in BGR, distinct for all kinds of color vision; used in a cycle.
@@ -41,18 +41,25 @@ def target_color(target: int) -> Color:
 
 
 def targets_overlay(
-    image: NDArray[Any],
+    image: FrameLike,
     tracks: Mapping[int, Track],
     *,
     note: str = "",
     names: Mapping[int, str] | None = None,
 ) -> Image:
-    """A copy of an image, BGR (H, W, 3) or gray (H, W), with the tracks of several targets by their ids.
+    """A copy of an image, BGR (H, W, 3) or gray (H, W), or of a frame's color or depth, with the tracks of
+    several targets by their ids.
 
     A small image is enlarged by a whole number. Each box has its target's color and name; occluded or lost
     ones are drawn thin, with their status. note: text in the upper left corner. names: by the ids; the ids
     themselves by default.
     """
+    if isinstance(image, Frame):
+        if image.color is None:
+            assert image.depth is not None  # a frame has one or the other
+            image = depth_picture(image.depth)
+        else:
+            image = image.color
     scale = choose_scale(*image.shape[:2])
     canvas = enlarge(image, scale, cv2.INTER_CUBIC)
     for target, track in tracks.items():
