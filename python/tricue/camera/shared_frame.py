@@ -33,6 +33,14 @@ class SharedFrame(Frame):
         """A shared frame with a frame's channels, which aren't copied."""
         return cls(**{name: getattr(frame, name) for name in _ATTRIBUTES})
 
+    def with_own_images(self) -> "SharedFrame":
+        """The same with copies of the images, for a tracker that may write to them; messages stay common."""
+        values = {name: getattr(self, name) for name in _ATTRIBUTES}
+        images = {name: values[name].copy() for name in self.channels}
+        own = SharedFrame(**values | images)
+        object.__setattr__(own, "messages", self.messages)
+        return own
+
 
 def once(frame: Frame, function: Callable[..., T], *arguments: Any) -> T:
     """``function(frame, *arguments)``; for a shared frame it is computed once for each set of arguments.

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tricue import Box, MultiTracker
+from tricue import Box, Frame, FusedTracker, MultiTracker
 from tricue.track.multi.worker import _portable
 
 from tests.track.multi.kinds import FUSED
@@ -52,6 +52,34 @@ def test_a_third_partys_tracker_may_keep_images(workers, things):
             several.add(things.frames[0], box)
         for frame, change in zip(things.frames[1:4], expected, strict=True):
             assert [track.box[0] for track in several.update(frame).values()] == [change] * 2
+
+
+class Drawing:
+    """A third party's: it blackens the image, as others draw boxes into it."""
+
+    def init(self, image, box) -> None:
+        self.box = box
+        self.update(image)
+
+    def update(self, image) -> tuple[float, ...]:
+        image[:] = 0
+        return self.box
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_third_partys_tracker_may_draw_into_images(workers, things):
+    """The other targets, in its process and in the other one, and the caller still have the image."""
+    frames = [Frame(each.color.copy()) for each in things.frames[:4]]
+    alone = FusedTracker()
+    expected = [alone.init(things.frames[0].color, things.boxes[0])]
+    expected += [alone.update(each.color) for each in things.frames[1:4]]
+    with MultiTracker(workers=workers) as several:
+        for name in (f"{__name__}:Drawing", "fused") * 2:
+            several.add(frames[0], things.boxes[0], name)
+        for frame, track in zip(frames[1:], expected[1:], strict=True):
+            found = several.update(frame)
+            assert found[2] == found[4] == track
+    assert all(np.array_equal(a.color, b.color) for a, b in zip(frames, things.frames, strict=False))
 
 
 class Locked(Previous):

@@ -13,6 +13,7 @@ import numpy as np
 
 from tricue.camera.box import Box, BoxLike, as_box
 from tricue.camera.frame import Frame, FrameLike, as_frame
+from tricue.camera.shared_frame import SharedFrame
 from tricue.errors import BoxNeededError
 from tricue.track.base.frame_image import FrameImage
 from tricue.track.base.track import Status, Track
@@ -170,6 +171,8 @@ class _Adapted:
         frame = as_frame(value)
         if self.traits.best(frame.channels) is None:
             frame.require(*self.traits.channels[-1].names)
+        if isinstance(frame, SharedFrame):
+            frame = frame.with_own_images()  # it may draw into them, and other targets need them
         return frame if self._takes_frame else FrameImage.of(frame)
 
     def _track(self, given: Any, method: str, last: Box) -> Track:
