@@ -75,8 +75,9 @@ std::tuple<Array<double>, double, double> rank_search_arrays(
     const ColorAppearance appearance{rank_maps(models, places), vector(shares, "shares"), nearest,
                                      color_cube(table)};
     const LikelihoodWeights weights{sharpness, contrast_weight};
-    auto found = unlocked(windows.rows() * places,
-                          [&] { return rank_search(view, where, windows, pattern, appearance, weights); });
+    const auto work = work_of(windows.rows() + 1, places + pattern.around.rows());
+    auto found =
+        unlocked(work, [&] { return rank_search(view, where, windows, pattern, appearance, weights); });
     return {give(std::move(found.ellipse)), found.log_likelihood, found.log_likelihood_here};
 }
 
