@@ -259,7 +259,6 @@ BAD = [
     ({"depth": METERS, "depth_scale": -1.0}, ValueError, "depth_scale: expected meters per unit above 0"),
     ({"depth": METERS, "depth_scale": np.nan}, ValueError, "depth_scale: expected a finite number"),
     ({"depth": METERS, "depth_scale": "mm"}, TypeError, "depth_scale: expected a number"),
-    ({"color": PICTURE, "depth_scale": 0.001}, ValueError, "depth_scale: expected together with depth"),
     (
         {"color": PICTURE, "timestamp": np.inf},
         ValueError,
@@ -324,6 +323,12 @@ def test_a_picture_of_pillow_tells_how_to_convert_it() -> None:
         with pytest.raises(TypeError, match=re.escape(f"got Image; {hint} makes a BGR array of it")):
             make(image)
     assert np.array_equal(as_frame(eval(hint)).color, PICTURE)
+
+
+def test_a_frame_without_depth_may_have_its_scale() -> None:
+    """A camera's depth image that was dropped, in a loop that always passes both."""
+    frame = Frame(PICTURE, depth=None, depth_scale=0.001)
+    assert frame.channels == ("color",)
 
 
 def test_a_depth_scale_is_in_meters() -> None:

@@ -33,7 +33,7 @@ class Frame:
     timestamp: seconds of any clock. If two frames are more than a second apart, trackers assume one second.
     pose: the pose, when the frame was taken, of the camera in whose coordinates positions are: a
         :class:`tricue.Pose` or its (4, 4) matrix. It replaces the pose of the tracker's camera, unless None.
-    depth_scale: meters per unit of ``depth``, 0.001 for millimeters; an error without ``depth``.
+    depth_scale: meters per unit of ``depth``, 0.001 for millimeters; not used without ``depth``.
 
     Color images are not copied if the pixels of each row are contiguous, as in whole arrays and crops. Any
     other layout (mirrored, channels reversed, Fortran order) is copied once. A TypeError or ValueError
@@ -61,8 +61,6 @@ class Frame:
             raise ValueError(
                 f"frame: expected color or depth, got {'neither' if right is None else 'right alone'}"
             )
-        if depth is None and depth_scale is not None:
-            raise ValueError(f"depth_scale: expected together with depth, got {depth_scale!r} alone")
         assign = object.__setattr__  # the dataclass is frozen
         assign(self, "color", None if color is None else _image(color, "color"))
         assign(self, "depth", None if depth is None else _depth(depth, depth_scale))
