@@ -112,7 +112,7 @@ def test_shifts_are_measured(room: tuple[Image, Plane], right: int, down: int) -
     assert (-check.fits[0].right, -check.fits[0].down) == (right, down)
     assert check.fits[0].error == pytest.approx(np.hypot(right, down))
     assert f"about {np.hypot(right, down):.0f} px beside" in check.problem
-    assert "registration.Registration, or --calibration FILE" in check.problem
+    assert "(tricue.camera.registration.Registration)" in check.problem
 
 
 @pytest.mark.parametrize(

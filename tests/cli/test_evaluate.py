@@ -192,7 +192,7 @@ def test_parameters_of_trackers_are_set_by_name(dataset, tmp_path):
         (["--time-limit", "-3"], "expected seconds above 0, got '-3'"),
         (["--jobs", "0"], "expected a whole number above 0, got '0'"),
         (["--jobs", "2", "--scheduler", "tcp://127.0.0.1:9"], "not allowed with"),
-        (["--depth-scale", "-1"], "depth_scale"),
+        (["--depth-scale", "-1"], "evaluate: --depth-scale: expected meters"),
         (["--protocols", "one-pass,thirds"], "--protocols: expected some of one-pass, restarts, starts"),
         (["--figures", "pdf,eps"], "--figures: expected some of pdf, svg, png, got 'eps'"),
     ],

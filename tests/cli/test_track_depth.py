@@ -209,7 +209,7 @@ BAD = [
     (["{depth}", *MM, "--fps", "0"], "--fps: expected frames per second above 0, got 0.0"),
     (["{depth}", *MM, "--fps", "fast"], "argument --fps: invalid float value: 'fast'"),
     (["{depth}", "--depth-scale", "mm"], "argument --depth-scale: invalid float value: 'mm'"),
-    (["{depth}", "--depth-scale", "-1"], "depth_scale: expected meters per unit above 0, got -1.0"),
+    (["{depth}", "--depth-scale", "-1"], "--depth-scale: expected meters per unit above 0, got -1.0"),
     (["{depth}", *MM, "--plot", "o.txt"], "o.txt: expected a picture's name that ends in .png"),
     (["{depth}", *MM, *FOV, "--plot", "{toml}"], ".*toml: expected a picture's name"),
     (

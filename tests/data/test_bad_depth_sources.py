@@ -27,7 +27,7 @@ from tests.data.depth_folders import (
 @pytest.mark.parametrize("make", [lambda f: tum(f, [1.0], [1.0]), lambda f: tum(f, [], [1.0]), ptb])
 def test_fps_beside_recorded_times_is_refused(tmp_path: Path, make: Callable[[Path], Path]) -> None:
     """It proves that TUM's and Princeton's images keep their own times, also a single one."""
-    with pytest.raises(ValueError, match=r"^--fps 15: expected with images without times"):
+    with pytest.raises(ValueError, match=r"^fps=15: expected with images without times"):
         open_source(make(tmp_path), fps=15)
 
 
@@ -91,11 +91,11 @@ def uneven_vot(folder: Path) -> Source:
     [
         (
             lambda f: open_source(depth_folder(f / "walk", [1])),
-            r"walk: expected --depth-scale, the meters per unit .*; 0\.001 where they are .*8 bits",
+            r"walk: expected depth_scale, the meters per unit .*; 0\.001 where they are .*8 bits",
         ),
         (
             lambda f: open_source(color_folder(f / "c", 1), depth=depth_folder(f / "d", [1])),
-            "d: expected --depth-scale",
+            "d: expected depth_scale",
         ),
         (
             lambda f: open_source(depth_folder(f, [1]), depth_scale=0),
@@ -108,7 +108,7 @@ def uneven_vot(folder: Path) -> Source:
         (uneven_vot, "expected as many color as depth images, got 2 color and 3 depth"),
         (
             lambda f: open_source(color_folder(f, 1), depth_scale=0.001),
-            "expected depth images where --depth-scale is given, found only color",
+            "expected depth images where depth_scale is given, found only color",
         ),
         (beside(eight_bits), r"1.png: expected depth, 16 bits .*, got uint8 \(48, 64, 3\); .* not meters"),
         (beside(gray_bits), r"1.png: .* got uint8 \(30, 40\); 8 bits are a picture of the depth, not meters"),
@@ -124,7 +124,7 @@ def uneven_vot(folder: Path) -> Source:
         (beside(lambda f: f.write_text("x")), "d: expected a folder of 16-bit images of depth, got a file"),
         (
             lambda f: open_source(depth_folder(f / "a", [1]), depth=f / "a", depth_scale=1),
-            "a: expected color images beside --depth .*, found only depth",
+            "a: expected color images beside depth=.*, found only depth",
         ),
         (unlisted, "2.000000.png: there is no such file"),
         (misspelt("1.0"), "depth.txt, line 2: expected a timestamp and a file name, got '1.0'"),
@@ -180,5 +180,5 @@ def test_a_camera_has_no_depth_folder(tmp_path: Path, monkeypatch: pytest.Monkey
 
     monkeypatch.setattr(cv2, "VideoCapture", Endless)
     assert open_source("0").size == (64, 48)
-    with pytest.raises(ValueError, match=r"--depth .*: expected with a video or a folder, got camera 0"):
+    with pytest.raises(ValueError, match=r"^depth=.*: expected with a video or a folder, got camera 0"):
         open_source("0", depth=depth_folder(tmp_path, [1]), depth_scale=0.001)

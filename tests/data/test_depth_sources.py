@@ -50,7 +50,7 @@ def test_depth_of_an_unknown_unit_is_left_out_with_a_note(tmp_path: Path) -> Non
     source = open_source(tmp_path)
     assert list(source.channels) == ["color"]
     (note,) = source.notes
-    assert note.startswith(f"left out {tmp_path / 'depth'}: --depth-scale")
+    assert note.startswith(f"left out {tmp_path / 'depth'}: depth_scale")
 
 
 def test_a_second_folder_of_depth(tmp_path: Path) -> None:

@@ -157,11 +157,11 @@ def test_fps_beside_times_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyP
     folder = images(tmp_path / "vot" / "color", ["1.png"]).parent
     (folder / "sequence").write_text("fps=25\nchannels.color=color/%08d.png\n")
     monkeypatch.setattr(cv2, "VideoCapture", GrayCamera)
-    with pytest.raises(ValueError, match=r"^--fps 15: expected with images without times, but camera 3"):
+    with pytest.raises(ValueError, match=r"^fps=15: expected with images without times, but camera 3"):
         open_source("3", fps=15)
     monkeypatch.undo()
     for place, own in ((video(tmp_path / "v.avi", fps=12.5), "v has its own, 12.5"), (folder, "vot .* 25")):
-        with pytest.raises(ValueError, match=f"^--fps 15: .*, but {own} frames per second; leave it out$"):
+        with pytest.raises(ValueError, match=f"^fps=15: .*, but {own} frames per second; leave it out$"):
             open_source(place, fps=15)
 
 
@@ -178,7 +178,7 @@ def test_fps_beside_times_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyP
 )
 def test_bad_fps_is_named(tmp_path: Path, fps: Any, error: type[Exception], message: str) -> None:
     """It proves that what can't be a frame rate is an error that names it."""
-    with pytest.raises(error, match=f"^--fps: {message}"):
+    with pytest.raises(error, match=f"^fps: {message}"):
         open_source(images(tmp_path, ["1.png"]), fps=fps)
 
 
@@ -365,7 +365,7 @@ def test_topics_and_targets_of_no_folder(place: str) -> None:
     """It proves that cameras and URLs refuse topics and a target before they are opened, without telling a
     password.
     """
-    with pytest.raises(ValueError, match=r"^--topics: expected with a recording .*; leave it out$") as told:
+    with pytest.raises(ValueError, match=r"^topics: expected with a recording .*; leave it out$") as told:
         open_source(place, topics={"color": "/a"})
     assert "word" not in str(told.value)
     with pytest.raises(ValueError, match=r": expected target to be none, for it has one .* 'Car 1'$") as told:
@@ -377,7 +377,7 @@ def test_topics_and_targets_of_no_folder(place: str) -> None:
 def test_live_devices_tell_their_own_unit(place: str) -> None:
     """It proves that a camera refuses a scale of depth before it is opened."""
     with pytest.raises(
-        ValueError, match=r"^--depth-scale: expected with recorded depth, got .*; leave it out$"
+        ValueError, match=r"^depth_scale: expected with recorded depth, got .*; leave it out$"
     ):
         open_source(place, depth_scale=0.001)
 
@@ -385,7 +385,7 @@ def test_live_devices_tell_their_own_unit(place: str) -> None:
 def test_passwords_stay_out_of_errors(monkeypatch: pytest.MonkeyPatch) -> None:
     """It proves that an error about an option names a URL without its password."""
     monkeypatch.setattr(cv2, "VideoCapture", GrayCamera)
-    with pytest.raises(ValueError, match=r"^https://host/a\.mp4: expected depth images where --depth-scale"):
+    with pytest.raises(ValueError, match=r"^https://host/a\.mp4: expected depth images where depth_scale"):
         open_source("https://me:p@ss@host/a.mp4", depth_scale=0.001)
 
 

@@ -214,7 +214,7 @@ def test_two_cameras(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     assert frame.color is not None
     assert frame.right is not None
     assert (frame.color[0, 0, 0], frame.right[0, 0, 0]) == (10, 20)
-    with pytest.raises(ValueError, match=r"--right .*: expected two cameras or two recordings"):
+    with pytest.raises(ValueError, match=r"^right=.*: expected two cameras or two recordings"):
         open_source("1", right=images(tmp_path / "a", 10))
 
 

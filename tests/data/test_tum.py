@@ -60,9 +60,7 @@ def test_times_of_their_own_go_before_those_of_other_channels(tmp_path: Path) ->
     color, depth = color_folder(tmp_path / "c", 2), tum(tmp_path / "d", [], [7.0, 7.25])
     source = open_source(color, depth=depth)
     assert ([frame.timestamp for frame in source], source.fps) == ([7.0, 7.25], 4.0)
-    with pytest.raises(
-        ValueError, match=r"^--fps 15: .* but c has its own, 4 frames per second; leave it out"
-    ):
+    with pytest.raises(ValueError, match=r"^fps=15: .* but c has its own, 4 frames per second; leave it out"):
         open_source(color, depth=depth, fps=15)
     plain = depth_folder(tmp_path / "e", [1000, 2000])
     source = open_source(color, depth=plain, depth_scale=0.001, fps=8)

@@ -95,7 +95,7 @@ def test_depth_of_an_unknown_unit(tmp_path: Path) -> None:
     assert list(source.channels) == ["color"]
     assert [frame.color[0, 0, 0] for frame in source if frame.color is not None] == [10, 20]
     assert source.notes == (
-        "left out Depth_1.png and others: --depth-scale gives its meters per unit, 0.001 for millimeters",
+        "left out Depth_1.png and others: depth_scale gives its meters per unit, 0.001 for millimeters",
     )
 
 
@@ -106,7 +106,7 @@ def test_pictures_of_depth(tmp_path: Path) -> None:
     assert list(source.channels) == ["color"]
     assert source.length == 2
     assert source.notes == ("left out Depth_1.png and others: 8 bits are a picture of depth",)
-    with pytest.raises(ValueError, match="expected depth images where --depth-scale is given"):
+    with pytest.raises(ValueError, match="expected depth images where depth_scale is given"):
         open_source(tmp_path, depth_scale=0.001)
 
 

@@ -64,7 +64,7 @@ def test_vot_rgbd_is_known_without_its_sequence_file(tmp_path: Path) -> None:
     for index in (1, 2):
         (tmp_path / "depth" / f"{index:08}.png").rename(tmp_path / "depth" / f"frame{index}.png")
     (note,) = open_source(tmp_path).notes
-    assert "--depth-scale" in note
+    assert "depth_scale" in note
 
 
 def test_vot_masks_and_polygons_have_boxes(tmp_path: Path) -> None:

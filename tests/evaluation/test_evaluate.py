@@ -192,15 +192,15 @@ def test_a_tracker_that_breaks_finds_nothing_from_there(folders, tmp_path, monke
     [
         (
             Options(("color-particel",)),
-            "--trackers: expected some of color-particle, .* got 'color-particel'",
+            "^trackers: expected some of color-particle, .* got 'color-particel'",
         ),
         (Options(settings={"color-particle": {"particles": -1}}), "particles"),
         (Options(settings={"still-box": {"scales": 2}}), "got one of still-box"),
         (
             Options(("color-particle", "still-box"), {"fused": {"max_speed": 3}}),
-            r"--set: expected a parameter of a tracker that runs \(color-particle, .*\), got one of 'fused'",
+            r"^settings: expected a parameter of a tracker that runs \(color-particle, .*\), got .*'fused'",
         ),
-        (Options(settings={"fussed": {"max_speed": 3}}), "--set: .*color-particle.* got one of 'fussed'"),
+        (Options(settings={"fussed": {"max_speed": 3}}), "^settings: .*color-particle.* got one of 'fussed'"),
     ],
 )
 def test_wrong_options_are_told_before_anything_runs(folders, tmp_path, options, message):

@@ -276,8 +276,8 @@ def test_what_is_no_box_is_told(tmp_path, there, found):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("folder", "--results: expected NAME=FOLDER, got 'folder'"),
-        ("a=nowhere", "--results: nowhere: there is no such folder"),
+        ("folder", "results: expected NAME=FOLDER, got 'folder'"),
+        ("a=nowhere", "results: nowhere: there is no such folder"),
         ("a=.", "expected Sequence.txt, .* found none"),
         ("a=.:coco", "expected a form of otb, otb0, otb1, got10k, vot, got 'coco'"),
     ],

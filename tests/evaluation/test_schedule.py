@@ -221,5 +221,5 @@ def test_an_impossible_address_is_refused_at_once(address, monkeypatch):
     distributed = pytest.importorskip("distributed", reason="needs the extra dask")
     monkeypatch.setattr(distributed, "Client", None)
     tasks = [Task(TrackerSpec("still-box"), Entry("a", Path("a")))]
-    with pytest.raises(ValueError, match=rf"--scheduler: expected an address .*, got '{address}'"):
+    with pytest.raises(ValueError, match=rf"^scheduler: expected an address .*, got '{address}'"):
         list(schedule.run_tasks(tasks, perform, scheduler=address))

@@ -18,6 +18,6 @@ def run_parallel(run: Callable[[Task], Result], tasks: Iterable[Task], jobs: int
     try:
         from joblib import Parallel, delayed
     except ImportError:
-        raise missing_extra("--jobs above 1", "evaluate") from None
+        raise missing_extra("more than one job", "evaluate") from None
     parallel = Parallel(n_jobs=jobs, return_as="generator", batch_size=1)
     yield from parallel(delayed(run)(task) for task in tasks)

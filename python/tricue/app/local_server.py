@@ -83,7 +83,7 @@ def _quiet_at_the_end(server: uvicorn.Server) -> Iterator[None]:
 def listening(port: int | None) -> socket.socket:
     """A socket at this port; for None at the default one, or at a free one if that is in use."""
     if port is not None and not 0 <= port <= MAX_PORT:
-        raise ValueError(f"--port {port}: expected a port from 0 to {MAX_PORT}")
+        raise ValueError(f"port={port}: expected a port from 0 to {MAX_PORT}")
     try:
         return socket.create_server((ADDRESS, DEFAULT_PORT if port is None else port))
     except OSError as error:
@@ -91,7 +91,7 @@ def listening(port: int | None) -> socket.socket:
             return socket.create_server((ADDRESS, 0))
         why = {errno.EADDRINUSE: "the port is in use", errno.EACCES: "you have no permission for it"}
         reason = why.get(error.errno or 0, error.strerror)
-        raise OSError(f"--port {port}: {reason}; give another, or leave it out") from None
+        raise OSError(f"port={port}: {reason}; give another, or leave it out") from None
 
 
 def show(url: str, browser: bool) -> None:

@@ -68,8 +68,8 @@ class DepthCheck(NamedTuple):
                     f"seems not to be registered to color: its edges lie about {fit.error:.0f} px beside "
                     f"those of color, and fit after a shift by ({fit.right}, {fit.down}) px and a scale of "
                     f"{fit.scale:g}; register it by both cameras' intrinsics "
-                    "(tricue.camera.registration.Registration, or --calibration FILE), and by where they "
-                    "stand to each other if that is known (Reprojection there)"
+                    "(tricue.camera.registration.Registration), and by where they stand to each other if "
+                    "that is known (Reprojection there)"
                 )
         return ""
 

@@ -68,7 +68,7 @@ def read_rig(
     path = Path(path)
     kind = _format(path)
     if unit is not None and kind != OPENCV:
-        raise ValueError(f"--unit: expected with a calibration by OpenCV, got {path}, which is in meters")
+        raise ValueError(f"unit: expected with a calibration by OpenCV, got {path}, which is in meters")
     if kind == PRINCETON:
         raise ValueError(f"{path}: expected the calibration of a stereo pair, got one camera's")
     return _read_for("color", path, size, _rig_reader(path, kind, unit, kitti_cameras))

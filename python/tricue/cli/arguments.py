@@ -5,8 +5,6 @@ import argparse
 import math
 import re
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
 
@@ -156,18 +154,6 @@ def add_topics(command: argparse.ArgumentParser) -> None:
         metavar="CHANNEL=TOPIC,...",
         help="topics to read from a recording: color=/a,depth=/b",
     )
-
-
-@contextmanager
-def naming_options(**options: str) -> Iterator[None]:
-    """Errors about these arguments of the library name the options by which users set them."""
-    try:
-        yield
-    except ValueError as error:
-        argument, colon, rest = str(error).partition(":")
-        if argument not in options:
-            raise
-        raise ValueError(f"{options[argument]}{colon}{rest}") from error
 
 
 def find_modules_here() -> None:

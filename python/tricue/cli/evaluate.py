@@ -9,7 +9,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from tricue.cli.arguments import any_tracker_names, count, naming_options, seconds, words
+from tricue.cli.arguments import any_tracker_names, count, seconds, words
+from tricue.cli.option_names import by_options, naming_options
 from tricue.cli.progress import Progress
 from tricue.cli.settings import read_settings, third_party_settings
 from tricue.evaluation import baselines, tables
@@ -47,6 +48,13 @@ examples:
   tricue evaluate /data/all --scheduler tcp://host:8786       a Dask cluster, which sees that folder
 """
 FAILED = 1
+_OPTIONS = {
+    "protocols": "--protocols",
+    "results": "--results",
+    "scheduler": "--scheduler",
+    "settings": "--set",
+    "trackers": "--trackers",
+}
 MAX_NAMES = 6  # names of sequences per line
 _SET_BY = {
     "seed": "--seeds N",
@@ -183,7 +191,7 @@ def run(options: argparse.Namespace) -> int:
         time_limit=options.time_limit,
         protocols=protocols,
     )
-    with Progress() as progress, naming_options(protocols="--protocols"):
+    with Progress() as progress, naming_options(**_OPTIONS):
 
         def show(update: ProgressUpdate) -> None:
             progress.total = update.total
@@ -248,7 +256,7 @@ def _report(evaluation: Evaluation, folder: Path, options: argparse.Namespace) -
         written += write_figures(evaluation, folder / FIGURES, options.figures)
     print(markdown(evaluation))
     for line in [*_troubles(evaluation), *_left_out(evaluation), *evaluation.notes]:
-        print(line)
+        print(by_options(line))
     errors = _errors(evaluation)
     for error in errors:
         print(f"failed: {error}", file=sys.stderr)
@@ -263,7 +271,7 @@ def _errors(evaluation: Evaluation) -> list[str]:
     """
     asked, total = _asked(evaluation), len(evaluation.opened)
     return [
-        *(f"{name}: {error}" for name, error in evaluation.failed.items()),
+        *(f"{name}: {by_options(error)}" for name, error in evaluation.failed.items()),
         *(line for name in evaluation.unstarted if name in asked for line in _unstarted(evaluation, name)),
         *(f"{name}: no result that fits any of {total} sequences" for name in _without_results(evaluation)),
     ]

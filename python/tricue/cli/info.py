@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from tricue.cli.arguments import add_topics
+from tricue.cli.option_names import by_options
 from tricue.cli.progress import Progress
 from tricue.cli.source_options import UNIT_HELP
 from tricue.data import layouts
@@ -89,6 +90,8 @@ def _open(options: argparse.Namespace) -> Source:
             target=options.target,
             topics=options.topics,
         )
+    if options.unit is not None and options.calibration is None:
+        raise ValueError("--unit: expected with --calibration FILE, by OpenCV")
     if any(isinstance(stream, LiveStream) for stream in source.channels.values()):
         raise ValueError(f"{source.name}: expected a recording, of which the frames can be counted")
     return source
@@ -106,8 +109,10 @@ def _facts(source: Source, options: argparse.Namespace) -> Summary:
     _read_videos(source)
     channels = {name: summarize_channel(stream) for name, stream in source.channels.items()}
     frames = min(each["frames"] for each in channels.values())
-    unit = f"{source.format.split()[0]}'s format" if options.depth_scale is None else "--depth-scale"
-    depth, streams = source.channels.get("depth"), source.channels.values()
+    unit = f"{source.format.split()[0]}'s format"
+    given = "" if options.depth_scale is None else "--depth-scale"
+    notes = [*source.notes, *source.remarks, *filter(None, map(note_other_sizes, source.channels.values()))]
+    depth = source.channels.get("depth")
     return {
         "name": source.name,
         "format": source.format,
@@ -117,11 +122,11 @@ def _facts(source: Source, options: argparse.Namespace) -> Summary:
         "seconds": compute_duration(source, frames),
         "channels": channels,
         "topics": summarize_topics(source),
-        "depth": None if depth is None else summarize_depth(depth, unit),
+        "depth": None if depth is None else summarize_depth(depth, unit, given),
         "truth": summarize_truth(source, frames),
         "targets": _targets(Path(options.place)),
         "calibration": summarize_calibration(source, options.calibration, options.unit),
-        "notes": [*source.notes, *source.remarks, *filter(None, map(note_other_sizes, streams))],
+        "notes": list(map(by_options, notes)),
     }
 
 
@@ -223,7 +228,7 @@ def _summarize(root: Path, place: Path, scale: float | None) -> Summary:
     try:
         source, names = _open_with_scale(place, scale), _targets(place)
     except (OSError, ValueError) as error:
-        return {"place": name, "error": str(error)}
+        return {"place": name, "error": by_options(str(error))}
     boxes = None if source.truth is None else int(np.isfinite(source.truth).all(axis=1).sum())
     return {
         "place": name,

@@ -8,6 +8,7 @@ from typing import Any
 from tricue import app
 from tricue.cli.arguments import add_topics, seed, tracker_name
 from tricue.cli.calibrations import find_calibration
+from tricue.cli.option_names import by_options, naming_options
 from tricue.cli.source_options import add_source_options, open_input
 from tricue.cli.starts import DEFAULT_TRACKER, depth_tracker
 from tricue.data.open_source import Source, live_device
@@ -77,7 +78,8 @@ def _serve_camera(options: argparse.Namespace, name: str) -> int:
     from tricue.app.live.session import Opened
 
     def open_() -> Opened:
-        source, cameras, notes = _calibrated(options, open_input(options))
+        with naming_options():  # for the page, which shows them
+            source, cameras, notes = _calibrated(options, open_input(options))
         for note in notes:
             print(note, flush=True)
         return Opened(source, cameras)
@@ -107,4 +109,4 @@ def _calibrated(
         general = depth_tracker()
     found = find_calibration(argparse.Namespace(**given, tracker=general), source)
     notes = (*source.notes, *([found.note] if found.note else []))
-    return found.prepare(source), found.keywords, notes
+    return found.prepare(source), found.keywords, tuple(map(by_options, notes))

@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 import tricue
+from tricue.cli.option_names import by_options
 from tricue.cli.signals import clean_exits
 from tricue.errors import one_line
 
@@ -100,7 +101,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         )  # Python flushes it once more at the end
         return CLOSED_PIPE
     except (ImportError, OSError, RuntimeError, TypeError, ValueError) as error:
-        print(f"tricue {options.command}: {one_line(error)}", file=sys.stderr)
+        print(f"tricue {options.command}: {by_options(one_line(error))}", file=sys.stderr)
         return USAGE
     except KeyboardInterrupt:
         print(f"tricue {options.command}: interrupted", file=sys.stderr)

@@ -16,6 +16,7 @@ import tricue
 from tricue.camera.frame import Frame
 from tricue.camera.rig import Intrinsics
 from tricue.cli.exports import CocoOutput, MotOutput
+from tricue.cli.option_names import by_options
 from tricue.cli.outputs import STANDARD_OUTPUT, CsvOutput, JsonLines, JsonOutput, Output, Step, VideoOutput
 from tricue.cli.progress import Progress
 from tricue.cli.signals import catch_signals
@@ -51,7 +52,7 @@ def run(options: argparse.Namespace) -> int:
         report(run, clock, record, interrupted)
         results = _results(options, run, outputs, record.tracks.get(1, {}))
         for note in [*record.notes, *notes, *run.source.remarks, *results]:
-            print(note)
+            print(by_options(note))
     if not interrupted:
         require_all_started(run, clock)
     return 128 + signal_number if interrupted else 0

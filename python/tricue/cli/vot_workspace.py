@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from tricue.cli.arguments import tracker_names
+from tricue.cli.option_names import by_options, naming_options
 from tricue.data.datasets import find_sequences
 from tricue.evaluation.toolkits.vot_workspace import TRACKERS, write_workspace
 
@@ -42,9 +43,10 @@ def add_options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Run the command and print what to run next; return the exit code."""
     folder, trackers = options.folder, list(dict.fromkeys(options.trackers))
-    report = write_workspace(folder, trackers, _recordings(options.sequences), options.python)
+    with naming_options(python="--python", recordings="--sequences"):
+        report = write_workspace(folder, trackers, _recordings(options.sequences), options.python)
     for note in report.notes:
-        print(note)
+        print(by_options(note))
     for name in report.added:
         print(f"wrote {folder / 'sequences' / name}")
     print(f"wrote {folder}: {', '.join(trackers)} on {', '.join(report.sequences)}")

@@ -55,7 +55,7 @@ def require_scale(place: Path, scale: float | None) -> float:
     """The scale, meters per unit; ValueError if it isn't given, because it is never guessed."""
     if scale is None:
         raise ValueError(
-            f"{place}: expected --depth-scale, the meters per unit of these 16-bit images; "
+            f"{place}: expected depth_scale, the meters per unit of these 16-bit images; "
             "0.001 where they are millimeters, 0.0002 for TUM's; gray images that aren't depth need 8 bits"
         )
     return scale

@@ -135,7 +135,7 @@ def _read_plain_layout(folder: Path, scale: float | None, target: str | None) ->
     elif video := _video(folder, optional=bool(depth)):
         channels["color"] = video
     if depth and channels and scale is None:
-        unit = "--depth-scale gives its meters per unit, 0.001 for millimeters"
+        unit = "depth_scale gives its meters per unit, 0.001 for millimeters"
         notes = (f"left out {folder / 'depth'}: {unit}",)
     elif depth:
         channels["depth"] = depth_images(depth, scale)

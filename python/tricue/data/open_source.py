@@ -80,7 +80,7 @@ def open_source(
         if depth is not None:
             source = _with_depth(source, shown, Path(depth), depth_scale)
         if depth_scale is not None and "depth" not in source.channels:
-            raise ValueError(f"{shown}: expected depth images where --depth-scale is given, found only color")
+            raise ValueError(f"{shown}: expected depth images where depth_scale is given, found only color")
         if fps is None and not source.clock.timed:
             fps = FORMAT_RATES.get(source.format)
         return source if fps is None else replace(source, rate=fps)
@@ -151,15 +151,13 @@ def _opened(
 def _refuse_scale_of_device(place: str | Path) -> None:
     """ValueError for a live device: if it has depth, that is in meters."""
     if isinstance(place, str) and (device := live_device(place)):
-        raise ValueError(f"--depth-scale: expected with recorded depth, got {device.name}; leave it out")
+        raise ValueError(f"depth_scale: expected with recorded depth, got {device.name}; leave it out")
 
 
 def _refuse_topics(topics: Mapping[str, str] | None, place: str | Path) -> None:
     """ValueError if topics are given for a place that isn't a recording."""
     if topics is not None:
-        raise ValueError(
-            f"--topics: expected with a recording (.bag, .mcap, .db3), got {place}; leave it out"
-        )
+        raise ValueError(f"topics: expected with a recording (.bag, .mcap, .db3), got {place}; leave it out")
 
 
 def _refuse_target(target: str | None, place: str | Path) -> None:
@@ -204,15 +202,15 @@ def _with_truth(source: Source, truth: Truth | None) -> Source:
 def _with_right(source: Source, shown: str, right: str | Path, timeout: float | None) -> Source:
     """The source as a stereo pair: its color images on the left, those of ``right`` on the right."""
     streams = [opened.channels.get("color") for opened in (source, _opened(right, None, timeout=timeout))]
-    option = f"--right {without_password(str(right))}"
-    for stream, at in zip(streams, (shown, option), strict=True):
+    argument = f"right={without_password(str(right))}"
+    for stream, at in zip(streams, (shown, argument), strict=True):
         if stream is None:
             raise ValueError(f"{at}: expected color images of a stereo pair, found only depth")
     left, other = streams
     assert left
     assert other
     if isinstance(left, LiveStream) != isinstance(other, LiveStream):
-        raise ValueError(f"{option}: expected two cameras or two recordings, got one of each")
+        raise ValueError(f"{argument}: expected two cameras or two recordings, got one of each")
     note = "the two cameras don't expose at one time; what moves fast isn't at one place in both"
     notes = (*source.notes, note) if isinstance(left, LiveStream) else source.notes
     rest = {name: stream for name, stream in source.channels.items() if name not in ("color", "right")}
@@ -224,9 +222,9 @@ def _with_depth(source: Source, shown: str, depth: Path, scale: float | None) ->
     """The source with depth images from another place."""
     color = source.channels.get("color")
     if color is None:
-        raise ValueError(f"{shown}: expected color images beside --depth {depth}, found only depth")
+        raise ValueError(f"{shown}: expected color images beside depth={depth}, found only depth")
     if isinstance(color, LiveStream):
-        raise ValueError(f"--depth {depth}: expected with a video or a folder, got {source.name}")
+        raise ValueError(f"depth={depth}: expected with a video or a folder, got {source.name}")
     channels = {**source.channels, "depth": _depth_stream(_existing(depth), scale)}
     return replace(source, channels=channels, calibration=source.calibration or _calibration(depth))
 

@@ -220,12 +220,12 @@ class Source:
         )
 
     def _check_rate(self, rate: float) -> None:
-        if not positive(rate, "--fps", "frames per second") <= MAX_FPS:
-            raise ValueError(f"--fps: expected at most {MAX_FPS:.0f} frames per second, got {rate}")
+        if not positive(rate, "fps", "frames per second") <= MAX_FPS:
+            raise ValueError(f"fps: expected at most {MAX_FPS:.0f} frames per second, got {rate}")
         clock = self.clock
         if clock.timed:
             raise ValueError(
-                f"--fps {rate:g}: expected with images without times, but {self.name} has its own, "
+                f"fps={rate:g}: expected with images without times, but {self.name} has its own, "
                 f"{clock.fps:.4g} frames per second; leave it out"
             )
 

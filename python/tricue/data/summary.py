@@ -91,12 +91,12 @@ def summarize_topics(source: Source) -> list[Summary]:
     ]
 
 
-def summarize_depth(stream: Stream, source: str) -> Summary | None:
+def summarize_depth(stream: Stream, source: str, given: str = "") -> Summary | None:
     """The unit, the 5th and 95th percentile of the depth in meters, and the share of pixels without depth.
 
     They are computed over all frames, or over MAX_SAMPLED_FRAMES evenly spaced ones. The percentiles are None
     if no pixel has a depth; the summary is None if the unit isn't known. source: where the unit comes from,
-    for the report.
+    for the report. given: what the user gave it by, "" if nothing.
     """
     scale, rotated = _depth_unit(stream)
     if scale is None:
@@ -112,7 +112,7 @@ def summarize_depth(stream: Stream, source: str) -> Summary | None:
     near, far = (_percentile(counts, share, level) for share in (0.05, 0.95))
     return {
         "meters_per_unit": scale,
-        "unit_from": "Princeton's format" if rotated and source != "--depth-scale" else source,
+        "unit_from": given or ("Princeton's format" if rotated else source),
         "near_m": near,
         "far_m": far,
         "invalid": float(counts[0] / counts.sum()),
@@ -146,9 +146,9 @@ def summarize_calibration(source: Source, given: Path | None, unit: float | None
     without one; for a file that was found beside the images, "error" says why.
     """
     if unit is not None and not given:
-        raise ValueError("--unit: expected with --calibration FILE, by OpenCV")
+        raise ValueError("unit: expected with a calibration file by OpenCV, got none")
     if unit is not None and "right" not in source.channels:
-        raise ValueError("--unit: expected with a stereo pair; leave it out")
+        raise ValueError("unit: expected with a stereo pair; leave it out")
     path = given or source.calibration
     if path is None:
         own = source.camera

@@ -46,7 +46,7 @@ def read_channels(folder: Path, scale: float | None) -> tuple[dict[str, Stream],
     if not is_depth(second[0]):
         return channels, (*notes, f"left out {second[0].name} and others: 8 bits are a picture of depth")
     if scale is None:
-        unit_of = "--depth-scale gives its meters per unit, 0.001 for millimeters"
+        unit_of = "depth_scale gives its meters per unit, 0.001 for millimeters"
         return channels, (*notes, f"left out {second[0].name} and others: {unit_of}")
     channels["depth"] = Images(second, read=DepthReader(scale))
     return channels, notes

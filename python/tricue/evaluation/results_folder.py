@@ -117,15 +117,15 @@ def results_spec(text: str) -> ResultsSpec:
     """
     name, equals, rest = text.partition("=")
     if not (equals and name.strip() and rest):
-        raise ValueError(f"--results: expected NAME=FOLDER, got {text!r}")
+        raise ValueError(f"results: expected NAME=FOLDER, got {text!r}")
     place, colon, form = rest.rpartition(":")
     if not (colon and form in FORMS):
         if colon and not Path(rest).exists() and Path(place).is_dir():
-            raise ValueError(f"--results: expected a form of {', '.join(FORMS)}, got {form!r}")
+            raise ValueError(f"results: expected a form of {', '.join(FORMS)}, got {form!r}")
         place, form = rest, ""
     folder = Path(place)
     if not folder.is_dir():
-        raise ValueError(f"--results: {folder}: there is no such folder")
+        raise ValueError(f"results: {folder}: there is no such folder")
     if (folder / name.strip()).is_dir():
         folder = folder / name.strip()
     form = form or _detect_form(folder)
@@ -144,7 +144,7 @@ def _detect_form(folder: Path) -> str:
         return OTB
     matlab = "; MATLAB's files can't be read, write them as text" if any(folder.glob("*.mat")) else ""
     expected = "Sequence.txt, Sequence/Sequence_001.txt, or VOT's baseline, unsupervised or longterm"
-    raise ValueError(f"--results: {folder}: expected {expected}, found none{matlab}")
+    raise ValueError(f"results: {folder}: expected {expected}, found none{matlab}")
 
 
 def _is_vot(path: Path) -> bool:

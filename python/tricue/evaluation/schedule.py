@@ -62,9 +62,9 @@ def perform_in_process(index: int, task: Task, perform: Perform) -> tuple[Finish
     return found, {str(each.message) for each in caught}
 
 
-def missing_extra(option: str, extra: str) -> ImportError:
-    """The error for an option of which the extra is missing."""
-    return ImportError(f"{option} needs the extra {extra}: {install_extra(extra)}")
+def missing_extra(use: str, extra: str) -> ImportError:
+    """The error for a use of which the extra is missing."""
+    return ImportError(f"{use} needs the extra {extra}: {install_extra(extra)}")
 
 
 def _run_here(tasks: Sequence[Task], perform: Perform) -> Generator[Finished, None, None]:
@@ -77,7 +77,7 @@ def _run_in_processes(tasks: Sequence[Task], perform: Perform, jobs: int) -> Gen
     try:
         from joblib.externals.loky import ProcessPoolExecutor  # unlike Python's it needs no main module
     except ImportError:
-        raise missing_extra("--jobs above 1", "evaluate") from None
+        raise missing_extra("more than one job", "evaluate") from None
     waiting = list(range(len(tasks)))
     while waiting:
         done = set()
@@ -151,7 +151,7 @@ def _require_address(address: str) -> None:
         if scheme != "inproc":  # such an address has no port
             get_address_host_port(address, strict="://" in address)
     except ValueError as error:
-        expected = f"--scheduler: expected an address such as tcp://HOST:8786, got {address!r}"
+        expected = f"scheduler: expected an address such as tcp://HOST:8786, got {address!r}"
         raise ValueError(f"{expected} ({error})") from None
 
 
@@ -159,7 +159,7 @@ def _run_on_cluster(tasks: Sequence[Task], perform: Perform, address: str) -> Ge
     try:
         from distributed import Client, as_completed
     except ImportError:
-        raise missing_extra("--scheduler", "dask") from None
+        raise missing_extra("a scheduler", "dask") from None
     _require_address(address)
     with Client(address, timeout=CONNECT_TIMEOUT, set_as_default=False) as client:
         indices = range(len(tasks))

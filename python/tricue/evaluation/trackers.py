@@ -36,16 +36,16 @@ def tracker_specs(
     for word in plain:
         if word not in known and not split_ours(word)[1]:
             places = "module:Class, file.py:Class, cv2:Name, trax:command"
-            raise ValueError(f"--trackers: expected some of {', '.join(known)}, {places}, got {word!r}")
+            raise ValueError(f"trackers: expected some of {', '.join(known)}, {places}, got {word!r}")
     for name in settings:
         if name not in names:
             running = ", ".join(names) or "none"
             raise ValueError(
-                f"--set: expected a parameter of a tracker that runs ({running}), got one of {name!r}"
+                f"settings: expected a parameter of a tracker that runs ({running}), got one of {name!r}"
             )
     for word, name in zip(words, names, strict=True):
         if name in (*baselines.NAMES, *registry.names()) and word != name:
-            raise ValueError(f"--trackers: expected another name than {name!r}, which is taken, in {word!r}")
+            raise ValueError(f"trackers: expected another name than {name!r}, which is taken, in {word!r}")
     found = [
         foreign_spec(word, settings.get(name, {}), time_limit)
         if is_foreign(word)
@@ -55,7 +55,7 @@ def tracker_specs(
     for each in found:
         _check(each)
     if found and all(each.name in _missing() for each in found):
-        raise ValueError(f"--trackers: {baselines.missing_reason(found[0].name)}")
+        raise ValueError(f"trackers: {baselines.missing_reason(found[0].name)}")
     return found
 
 
@@ -69,9 +69,9 @@ def require_unique(names: Iterable[str]) -> None:
     """ValueError if two trackers have the same name, or one has a name that can't be a folder's."""
     for name, count in Counter(names).items():
         if count > 1:
-            raise ValueError(f"--trackers: expected different names, got {name!r} twice; NAME=... gives one")
+            raise ValueError(f"trackers: expected different names, got {name!r} twice; NAME=... gives one")
         if name in (".", "..") or "/" in name or "\\" in name:
-            raise ValueError(f"--trackers: expected a name without slashes, got {name!r}")
+            raise ValueError(f"trackers: expected a name without slashes, got {name!r}")
 
 
 def missing_note(chosen: Sequence[str] | None) -> str:
@@ -92,4 +92,4 @@ def _check(spec: TrackerSpec) -> None:
     if spec.ours:
         registry.tracker_class(spec.kind or spec.name).Params(**dict(spec.settings))
     elif spec.settings and spec.name in baselines.NAMES:
-        raise ValueError(f"--set: expected a parameter of one of our trackers, got one of {spec.name}")
+        raise ValueError(f"settings: expected a parameter of one of our trackers, got one of {spec.name}")

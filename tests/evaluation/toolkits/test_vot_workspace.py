@@ -383,7 +383,7 @@ def test_hopeless_wishes_write_nothing(tmp_path: Path) -> None:
         with pytest.raises(ValueError, match=message):
             write_workspace(tmp_path / "ws", trackers, [place])
     with pytest.raises(
-        ValueError, match="--sequences: expected one that VOT can start on, found none; left out"
+        ValueError, match="recordings: expected one that VOT can start on, found none; left out"
     ):
         write_workspace(tmp_path / "ws", ["depth-particle"], [place])
     with pytest.raises(ValueError, match="expected a path without %"):

@@ -70,8 +70,8 @@ def started(first: Frame | None = None, **values: Any) -> FusedTracker:
 @pytest.mark.parametrize(
     ("scale", "words"),
     [
-        (1000, r"expected meters, got 2000 to 4000, .* millimeters; .*--depth-scale 0.001"),
-        (0.001, r"expected meters, got 0.002 to 0.004, .* read as millimeters; .*--depth-scale 1 "),
+        (1000, r"expected meters, got 2000 to 4000, .* millimeters; .*depth_scale=0.001"),
+        (0.001, r"expected meters, got 0.002 to 0.004, .* read as millimeters; .*depth_scale=1 "),
     ],
 )
 def test_another_unit_is_left_out(scale: float, words: str) -> None:

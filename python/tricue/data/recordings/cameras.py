@@ -170,8 +170,8 @@ def _stereo(left: View, right: View, transforms: Sequence[Transform]) -> Cameras
     if not baseline:
         return Cameras(camera, notes=(*notes, "the baseline isn't known: no P of the right camera has it"))
     if baseline < 0:
-        swapped = f"--topics color={right.topic},right={left.topic}"
-        note = f"the right camera is left of the left one; swap the two cameras: {swapped}"
+        swapped = {"color": right.topic, "right": left.topic}
+        note = f"the right camera is left of the left one; swap the two cameras: topics={swapped}"
         return Cameras(camera, notes=(*notes, note))
     return Cameras(StereoRig(camera, baseline), notes=notes)
 
@@ -235,7 +235,8 @@ def _note_two_cameras(left: Intrinsics, right: Intrinsics) -> str:
     differ = ", ".join(f"{name} {getattr(left, name):.6g} and {getattr(right, name):.6g}" for name in names)
     return (
         f"the two cameras of the rectified pair differ ({differ}), which would make wrong meters; rectify "
-        f"with cv2.CALIB_ZERO_DISPARITY, or give the raw images and --calibration FILE --rectify"
+        "with cv2.CALIB_ZERO_DISPARITY, or rectify the raw images by "
+        "tricue.camera.rectification.Rectification"
     )
 
 

@@ -209,9 +209,10 @@ class Recording:
         self._left_out, self._moments, self._steps_back = +pairing.left_out, count, steps_back
         if count == 0:
             names = " and ".join(self.chosen)
+            alone = {self.clock: self.chosen[self.clock]}
             raise ValueError(
                 f"{self.container.path}: expected {names} images within {self.tolerance / 1e6:.3g} ms of "
-                f"each other, found none; --topics {self.clock}={self.chosen[self.clock]} reads one alone"
+                f"each other, found none; topics={alone} reads one alone"
             )
 
     def images(self, start: int = 0) -> Iterator[Timed[Stored]]:
@@ -263,7 +264,7 @@ def open_recording(path: Path, topics: Mapping[str, str] | None = None, scale: f
         recording = Recording(container, ordered, head, units)
     except ValueError as error:
         given = ", ".join(f"{channel}={topic}" for channel, topic in ordered.items())
-        raise ValueError(f"{path}: {error}; got {given}, choose others by --topics") from None
+        raise ValueError(f"{path}: {error}; got {given}, choose others by topics=") from None
     cameras = calibrate({channel: _view(recording, channel) for channel in ordered}, head.transforms)
     return Source(
         path.resolve().stem,
@@ -311,18 +312,19 @@ def _check_topics(container: Container, topics: Mapping[str, str] | None) -> Non
         raise ValueError(f"{container.path}: expected images in the recording, found {found}{damage}")
     for channel, name in (topics or {}).items():
         if channel not in CHANNELS or (channel == "right" and "color" not in (topics or {})):
-            raise ValueError(f"--topics {channel}={name}: expected color, depth, or right beside color")
+            wrong = {channel: name}
+            raise ValueError(f"topics={wrong}: expected color, depth, or right beside color")
         if name not in images:
             topic = container.topics.get(name)
             got = f"{name}, of the type {topic.type}" if topic else f"{name}, which isn't there"
-            raise ValueError(f"--topics: expected one of the images {', '.join(sorted(images))}, got {got}")
+            raise ValueError(f"topics: expected one of the images {', '.join(sorted(images))}, got {got}")
 
 
 def _check_images(container: Container, head: Head, chosen: Mapping[str, str]) -> None:
     for name in chosen.values():
         if name not in head.images:
             reason = head.unread.get(name, "it has no image at the beginning")
-            raise ValueError(f"{container.path}: {name} can't be read: {reason}; choose by --topics")
+            raise ValueError(f"{container.path}: {name} can't be read: {reason}; choose by topics=")
     if not chosen:
         reason = next((f"{name}: {why}" for name, why in head.unread.items()), "the topics have no messages")
         raise ValueError(f"{container.path}: expected images in the recording, found none: {reason}")
@@ -349,7 +351,7 @@ def _note_choice(chosen: Mapping[str, str], container: Container, head: Head) ->
         ]
     named = ", ".join(f"{channel}={name}" for channel, name in chosen.items())
     rest = f"; left out {', '.join(others)}" if others else ""
-    return f"topics chosen: {named}{rest}" + ("; --topics chooses others" if others else "")
+    return f"topics chosen: {named}{rest}" + ("; topics= chooses others" if others else "")
 
 
 def _view(recording: Recording, channel: str) -> View:

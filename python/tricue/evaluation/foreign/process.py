@@ -107,12 +107,12 @@ class WorkerProcess:
 
 def no_answer(limit: float) -> str:
     """The message for a process that a time limit ended."""
-    return f"no answer within {limit:g} s (--time-limit)"
+    return f"no answer within {limit:g} s (time_limit)"
 
 
 def not_loaded(limit: float) -> str:
     """The message for one that ended while it was loading."""
-    return f"not loaded within {limit:g} s (--time-limit)"
+    return f"not loaded within {limit:g} s (time_limit)"
 
 
 def ended_by_another_limit(error: str, limit: float) -> bool:
@@ -121,7 +121,7 @@ def ended_by_another_limit(error: str, limit: float) -> bool:
     return _LATE.search(error) is not None and not error.endswith(present)
 
 
-_LATE = re.compile(r"(?:no answer|not loaded) within \S+ s \(--time-limit\)$")
+_LATE = re.compile(r"(?:no answer|not loaded) within \S+ s \(time_limit\)$")
 
 
 class RemoteTracker:

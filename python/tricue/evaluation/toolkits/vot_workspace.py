@@ -104,7 +104,7 @@ def _require_sequences(report: WorkspaceReport) -> None:
     """ValueError, with the notes, for a workspace without any sequence."""
     if not report.sequences:
         raise ValueError(
-            "; ".join(["--sequences: expected one that VOT can start on, found none", *report.notes])
+            "; ".join(["recordings: expected one that VOT can start on, found none", *report.notes])
         )
 
 
@@ -112,7 +112,7 @@ def check_python(python: str) -> str:
     """The interpreter's absolute path; ValueError if it can't run tricue's trackers for VOT."""
     found = shutil.which(python)
     if found is None:
-        raise ValueError(f"--python: expected an interpreter, found none at {python}")
+        raise ValueError(f"python: expected an interpreter, found none at {python}")
     path = str(Path(found).absolute())  # a virtual environment's Python is a link that must not be followed
     done = subprocess.run(
         [path, "-c", "import trax, tricue.cli.trax"], capture_output=True, text=True, check=False

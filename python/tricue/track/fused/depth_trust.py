@@ -97,7 +97,7 @@ def _wrong_unit(sample: Plane) -> str:
     if math.isnan(low):  # nothing is measured
         return ""
     found = f"expected meters, got {low:.4g} to {high:.4g}"
-    give = "tricue.Frame(depth_scale={0}) or --depth-scale {0} tells their unit"
+    give = "depth_scale={0} tells their unit"
     if low > MAX_METERS:
         return f"{found}, which look like millimeters; {give.format('0.001')}"
     if high < MIN_METERS:
