@@ -6,9 +6,12 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+import cv2
+import numpy as np
 import pytest
 import tricue
 from tricue.cli.option_names import by_options, naming_options
+from tricue.cli.program import main
 
 PACKAGE = Path(tricue.__file__).parent
 OF_COMMANDS = {"app/commands.py", "evaluation/report/setup.py", "papers/sabeti_color/skin_threshold.py"}
@@ -72,3 +75,15 @@ def test_arguments_of_one_command() -> None:
     with pytest.raises(ValueError, match=r"^--set: expected a parameter$"), naming_options(settings="--set"):
         raise ValueError("settings: expected a parameter")
     assert by_options("settings: expected a parameter") == "settings: expected a parameter"
+
+
+@pytest.mark.filterwarnings("default")
+def test_a_wrong_unit_names_the_option(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The warning of depth in a wrong unit names the option that mends it, not Python's argument."""
+    for index in range(3):
+        cv2.imwrite(str(tmp_path / f"{index}.png"), np.full((96, 128), 3000 + 10 * index, np.uint16))
+    options = ["--depth-scale", "1", "--tracker", "flow-depth", "--set", "cues=disparity"]
+    main(["track", str(tmp_path), "--box", "40,30,24,24", *options])
+    warning = capsys.readouterr().err
+    assert "warning: depth: its median is " in warning
+    assert "which looks like millimeters; pass --depth-scale 0.001\n" in warning

@@ -134,7 +134,7 @@ def _one_line_warnings(command: str) -> Iterator[None]:
         warning = filename, lineno, re.sub(r"\d+", "", str(message))
         if warning not in shown:
             shown.add(warning)
-            print(f"tricue {command}: warning: {message}", file=sys.stderr)
+            print(f"tricue {command}: warning: {by_options(str(message))}", file=sys.stderr)
 
     with warnings.catch_warnings():
         warnings.showwarning = show  # type: ignore[assignment]  # it takes all that it is given
