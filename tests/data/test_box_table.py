@@ -30,6 +30,11 @@ def read(folder: Path, text: str) -> Truth:
         "x,y,width,height\n1,2,3,4\n5,6,7,8\n\n",
         "\ufeffx; y; w; h\n1; 2; 3; 4\n5; 6; 7; 8\n",
         "# frame\th\tw\ty\tx\n1\t8\t7\t6\t5\n0.0\t4\t3\t2\t1\n",
+        "x1,y1,x2,y2\n1,2,4,6\n5,6,12,14\n",
+        "frame;xmin;xmax;ymin;ymax\n0;1;4;2;6\n1;5;12;6;14\n",
+        "X_min,Y_min,X_max,Y_max,label\n1,2,4,6,a\n5,6,12,14,a\n",
+        "Left,Top,Right,Bottom\n1,2,4,6\n5,6,12,14\n",
+        "x,y,w,h,x1,y1,x2,y2\n1,2,3,4,0,0,0,0\n5,6,7,8,0,0,0,0\n",
         'Frame,"X",Y,Width,Height,note\n0,1,2,3,4,"a, b"\n1,5,6,7,8,\n',
     ],
 )
@@ -93,9 +98,13 @@ def test_an_empty_table(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("1,2,3\n", "line 1: expected columns x, y, width, height, each once, got '1,2,3'"),
+        ("1,2,3\n", "line 1: expected columns x, y, width, height or x1, .*, each once, got '1,2,3'"),
         ("1,2,3,4,5,6\n", "line 1: expected columns"),
-        ("1o,2,3,4\n", "line 1: expected columns x, y, width, height, each once, got '1o,2,3,4'"),
+        ("1o,2,3,4\n", "line 1: expected columns x, y, width, height .* each once, got '1o,2,3,4'"),
+        ("x1,y1,x2\n1,2,3\n", "line 1: expected columns x, y, width, height or x1, y1, x2, y2, each once"),
+        ("x1,y1,x2,y2\n1,2,3,\n", "line 2: expected all of x1, y1, x2, y2 or none, got no y2"),
+        ("x1,y1,x2,y2\n1,2,3,far\n", "line 2: expected a number y2, got 'far'"),
+        ("x1,y1,x2,y2\n9,9,5,12\n", "line 2: expected a width and height of 0 or more, got '9,9,5,12'"),
         ("x,y,width\n1,2,3\n", "line 1: expected columns"),
         ("x,y,w,h,width\n1,2,3,4,5\n", "line 1: expected columns .* each once"),
         ("x,y,w,h\n1,2,3,4\n\n1,2,3,4\n", "line 3: expected 4 values, got ''"),
@@ -168,7 +177,7 @@ def test_which_table_is_found(tmp_path: Path) -> None:
     assert find_box_table(tmp_path, video) is None
     own.write_text("time,acceleration\n0,9.81\n")
     assert find_video_box_table(video) is None
-    for text in ("x,y,width\n", "1,2,3,4\n", "frame,x,y,w,h\n"):
+    for text in ("x,y,width\n", "1,2,3,4\n", "frame,x,y,w,h\n", "x1,y1,x2,y2\n"):
         own.write_text(text)
         assert find_video_box_table(video) == find_box_table(tmp_path, video) == own
     assert find_box_table(tmp_path) is None

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: MIT
 """True boxes in a CSV table: boxes.csv in a folder, or clip.csv beside the video clip.mp4.
 
-A header names the columns, as in the tables of ``tricue track --csv``. Without a header they are x, y, width,
-height, or the frame number followed by these.
+A header names the columns, as in the tables of ``tricue track --csv``, or the corners of the boxes. Without a
+header they are x, y, width, height, or the frame number followed by these.
 """
 
 import csv
 import math
 from array import array
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -20,16 +20,26 @@ from tricue.data.truth import MAX_FRAME_NUMBER, MAX_VALUE, Truth, check_sizes, l
 
 BOX_TABLE = "boxes.csv"
 _BOX_COLUMNS = ("x", "y", "width", "height")
+_CORNER_COLUMNS = (
+    ("x1", "y1", "x2", "y2"),
+    ("xmin", "ymin", "xmax", "ymax"),
+    ("left", "top", "right", "bottom"),
+)
+"""Names of a box's left, top, right and bottom edge, pixels."""
 _TRACKER_COLUMNS = ("status", "score")  # columns that tricue track --csv writes
 _POSITION_COLUMNS = ("x_m", "y_m", "z_m")
-_ABBREVIATIONS = {"w": "width", "h": "height"}
+_OTHER_NAMES = {"w": "width", "h": "height"}
+_OTHER_NAMES |= {f"{axis}_{end}": f"{axis}{end}" for axis in "xy" for end in ("min", "max")}
 _HEADERLESS_COLUMNS = {4: _BOX_COLUMNS, 5: ("frame", *_BOX_COLUMNS)}
 
 
 class _Row(NamedTuple):
-    """One line of a table: its values by column name, and its file and line for errors."""
+    """One line of a table: its values by column name, the columns of the box, and its file and line for
+    errors.
+    """
 
     cells: Mapping[str, str]
+    box_columns: Sequence[str]
     place: str
 
     def number(self, column: str) -> float:
@@ -45,12 +55,14 @@ class _Row(NamedTuple):
 
     def box(self) -> list[float]:
         """x, y, width, height. ValueError if only some of them are there, as in a truncated row."""
-        empty = [name for name in _BOX_COLUMNS if not self.cells[name]]
-        if 0 < len(empty) < len(_BOX_COLUMNS):
-            raise ValueError(f"{self.place}: expected all of x, y, width, height or none, got no {empty[0]}")
-        return check_sizes(
-            [self.number(name) for name in _BOX_COLUMNS], self.place, ",".join(self.cells.values())
-        )
+        names = self.box_columns
+        empty = [name for name in names if not self.cells[name]]
+        if 0 < len(empty) < len(names):
+            raise ValueError(f"{self.place}: expected all of {', '.join(names)} or none, got no {empty[0]}")
+        left, top, width, height = map(self.number, names)
+        if names in _CORNER_COLUMNS:
+            width, height = width - left, height - top
+        return check_sizes([left, top, width, height], self.place, ",".join(self.cells.values()))
 
 
 def read_box_table(path: str | Path) -> Truth:
@@ -85,7 +97,8 @@ def find_box_table(folder: Path, video: Path | None = None) -> Path | None:
 def find_video_box_table(video: Path) -> Path | None:
     """The table with a video's name beside it.
 
-    None if there is none, if its header lacks x or y, or if a tracker wrote it, whose boxes aren't true ones.
+    None if there is none, if its header names neither x and y nor corners, or if a tracker wrote it, whose
+    boxes aren't true ones.
     """
     path = video.with_suffix(".csv")
     if not path.is_file():
@@ -93,7 +106,8 @@ def find_video_box_table(video: Path) -> Path | None:
     names = _names(_first_cells(path))
     if names is None:
         return path
-    return path if {"x", "y"} <= set(names) and not set(_TRACKER_COLUMNS) <= set(names) else None
+    lists_boxes = {"x", "y"} <= set(names) or _box_columns(names)
+    return path if lists_boxes and not set(_TRACKER_COLUMNS) <= set(names) else None
 
 
 def _lists_videos(path: Path) -> bool:
@@ -106,20 +120,23 @@ def _lists_videos(path: Path) -> bool:
 
 def _rows(path: Path) -> Iterator[_Row]:
     columns: tuple[str, ...] = ()
+    of_box: tuple[str, ...] = ()
     for number, line in enumerate(lines_of(path), 1):
         cells, place = _cells(line), f"{path}, line {number}"
         if number == 1:
             names = _names(cells)
             columns = names or _HEADERLESS_COLUMNS.get(len(cells), ())
-            if not set(_BOX_COLUMNS) <= set(columns) or len(set(columns)) < len(columns):
+            of_box = _box_columns(columns)
+            if not of_box or len(set(columns)) < len(columns):
                 raise ValueError(
-                    f"{place}: expected columns x, y, width, height, each once, got {line.strip()!r:.60}"
+                    f"{place}: expected columns x, y, width, height or x1, y1, x2, y2, each once, "
+                    f"got {line.strip()!r:.60}"
                 )
             if names:
                 continue
         if len(cells) != len(columns):
             raise ValueError(f"{place}: expected {len(columns)} values, got {line.strip()!r:.60}")
-        yield _Row(dict(zip(columns, cells, strict=True)), place)
+        yield _Row(dict(zip(columns, cells, strict=True)), of_box, place)
 
 
 def _first_cells(path: Path) -> list[str]:
@@ -142,7 +159,13 @@ def _names(cells: list[str]) -> tuple[str, ...] | None:
     if all(not cell or _is_number(cell) for cell in cells):
         return None
     lower = (cell.lstrip("# ").lower() for cell in cells)
-    return tuple(_ABBREVIATIONS.get(name, name) for name in lower)
+    return tuple(_OTHER_NAMES.get(name, name) for name in lower)
+
+
+def _box_columns(columns: Sequence[str]) -> tuple[str, ...]:
+    """The columns of the box: x, y, width, height, or those of its corners; () without either."""
+    known = (_BOX_COLUMNS, *_CORNER_COLUMNS)
+    return next((names for names in known if set(names) <= set(columns)), ())
 
 
 def _is_number(text: str) -> bool:
