@@ -18,12 +18,13 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 import tricue
+from tricue import quiet_start
 from tricue.cli.option_names import by_options
 from tricue.cli.signals import clean_exits
 from tricue.errors import one_line
 
 USAGE = 2
-INTERRUPTED, CLOSED_PIPE = 130, 141
+INTERRUPTED, CLOSED_PIPE = quiet_start.INTERRUPTED, 141
 MAX_LISTED = 3  # of the arguments that aren't known
 
 # The help text of each command, implemented in the module of the same name.
@@ -86,8 +87,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             stream.reconfigure(errors="backslashreplace")
     words = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        options = parser(words[0] if words else "").parse_args(words)
-    except KeyboardInterrupt:  # importing the command takes a while
+        commands = parser(words[0] if words else "")
+        quiet_start.end()
+        options = commands.parse_args(words)
+    except KeyboardInterrupt:  # importing a tracker, or the command from Python, takes a while
         print("tricue: interrupted", file=sys.stderr)
         return INTERRUPTED
     try:
