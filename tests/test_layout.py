@@ -3,6 +3,7 @@
 
 import ast
 import re
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -293,3 +294,14 @@ def test_files_carry_their_license() -> None:
     ]
     texts = [file for file in sources if file.suffix in {".py", ".pyi", ".cpp", ".hpp"}]
     assert not [file for file in texts if "SPDX-License-Identifier: MIT" not in file.read_text()[:80]]
+
+
+def test_a_class_name_stands_for_one_thing():
+    """A name used for two different things becomes two names."""
+    classes = Counter(
+        node.name
+        for file in PACKAGE.rglob("*.py")
+        for node in ast.parse(file.read_text()).body
+        if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
+    )
+    assert [name for name, count in classes.items() if count > 1] == []

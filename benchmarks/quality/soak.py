@@ -95,7 +95,7 @@ def resident_megabytes() -> float:
 
 def soak(case: Case, updates: int) -> Soaked:
     """Run a tracker for so many updates."""
-    passes, run = Passes(case), Run(case, updates)
+    passes, run = Passes(case), SoakRun(case, updates)
     # Filled, so that the memory of the run itself is resident from the start.
     overlaps = np.full(updates // (len(passes.frames) - 1) + 1, np.nan)
     refused = restarted = 0
@@ -119,7 +119,7 @@ def soak(case: Case, updates: int) -> Soaked:
     return run.summary(refused, restarted, overlaps[np.isfinite(overlaps)])
 
 
-class Run:
+class SoakRun:
     """A tracker, and the results of its updates so far."""
 
     track: Track

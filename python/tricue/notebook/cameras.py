@@ -5,7 +5,8 @@ import math
 
 from tricue.camera.pose import Pose
 from tricue.camera.rig import Intrinsics, StereoRig
-from tricue.notebook.markup import Html, properties
+from tricue.evaluation.report.markup import Html
+from tricue.notebook.markup import properties
 
 DISTANCES = 1, 2, 4, 8
 """Distances in meters for which a rig's disparities are shown."""

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from tricue.camera.frame import Frame
 from tricue.draw.depth_pictures import depth_picture, depth_range
-from tricue.notebook.markup import Html, faint, picture, strong, text
+from tricue.evaluation.report.markup import Html
+from tricue.notebook.markup import faint, picture, strong, text
 
 MAX_SHOWN_WIDTH = 320  # pixels
 SCALE_SIZE = 12, 120  # pixels, of the depth scale

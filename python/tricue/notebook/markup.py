@@ -10,16 +10,12 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.evaluation.report.markup import Html
+
 _CELL = "text-align:left;vertical-align:top;padding:0.15em 0.9em 0.15em 0"
 _NUMBER = _CELL.replace("left", "right") + ";font-variant-numeric:tabular-nums"
 _CAPTION = "text-align:left;padding-bottom:0.3em"
 _FAINT = "opacity:0.7"  # of the page's text color
-
-
-class Html(str):
-    """Text that already is HTML; any other is escaped."""
-
-    __slots__ = ()
 
 
 def text(value: Any) -> Html:

@@ -3,7 +3,8 @@
 
 from dataclasses import fields
 
-from tricue.notebook.markup import Html, faint, strong, table
+from tricue.evaluation.report.markup import Html
+from tricue.notebook.markup import faint, strong, table
 from tricue.track.base.params import Params
 
 HEADS = ("name", "value", "default", "unit", "meaning", "source")

@@ -7,7 +7,8 @@ from tricue.evaluation import tables
 from tricue.evaluation.evaluate import Evaluation
 from tricue.evaluation.one_pass import Run
 from tricue.evaluation.report.columns import best, with_numbers
-from tricue.notebook.markup import Html, properties, strong, table, text
+from tricue.evaluation.report.markup import Html
+from tricue.notebook.markup import properties, strong, table, text
 from tricue.track.base.track import Status
 
 

@@ -5,7 +5,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
-from tricue.notebook.markup import Html, properties, table
+from tricue.evaluation.report.markup import Html
+from tricue.notebook.markup import properties, table
 from tricue.track.base.track import Status, Track
 
 # Okabe and Ito's colors for a dot beside the word, visible on white and on black.

@@ -6,16 +6,16 @@ from tricue.scenes.rendering import textures
 from tricue.scenes.rendering.depth_view import MountedCamera
 from tricue.scenes.rendering.ellipsoids import Ellipsoids
 from tricue.scenes.rendering.stereo_camera import (
-    Lamp,
     RayCamera,
     RayImage,
     TexturedEllipsoid,
     TexturedRectangle,
+    WhiteLamp,
     expose_lit,
 )
 
 RIG = StereoRig(Intrinsics.from_fov(160, 120, 55), 0.11)
-LAMP = Lamp(np.array([0.0, 0.0, -1.0]), 0.5)
+LAMP = WhiteLamp(np.array([0.0, 0.0, -1.0]), 0.5)
 
 
 def canvas_of(eye):
@@ -150,7 +150,7 @@ def test_the_nearer_surface_is_seen_whatever_the_order():
 
 def test_edges_are_where_the_outline_is():
     """A gray ellipsoid's pixels sum up to its outline's area in both images, to half a percent."""
-    flat = Lamp(np.array([0.0, 0, -1]), 1.0)
+    flat = WhiteLamp(np.array([0.0, 0, -1]), 1.0)
     for offset in (0.0, 0.0013, 0.0029):
         for eye in RayCamera.pair(RIG, 3):
             canvas = canvas_of(eye)
@@ -169,7 +169,7 @@ def test_light_falls_from_the_lamp():
     """A gray ball is brightest towards the lamp, and as dark as the ambient light on the other side."""
     eye, _ = RayCamera.pair(RIG, 1)
     canvas = canvas_of(eye)
-    lamp = Lamp(np.array([1.0, 0, -1]) / np.sqrt(2), 0.4)
+    lamp = WhiteLamp(np.array([1.0, 0, -1]) / np.sqrt(2), 0.4)
     (part,) = eye.draw_ellipsoids(canvas, [ellipsoid(center=(0, 0, 1.0), half=(0.2, 0.2, 0.2))], lamp)
     values = np.where(np.isfinite(part.depth), canvas.color[part.place][..., 0], np.nan)
     assert np.nanmax(values) == pytest.approx(200, rel=0.01)

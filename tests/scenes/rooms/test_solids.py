@@ -2,11 +2,11 @@
 import numpy as np
 import pytest
 from tricue.camera.rig import Intrinsics
-from tricue.scenes.rendering.stereo_camera import Lamp, RayCamera, RayImage
+from tricue.scenes.rendering.stereo_camera import RayCamera, RayImage, WhiteLamp
 from tricue.scenes.rooms.solids import Placement, make_box, make_can
 
 CAMERA = Intrinsics.from_fov(160, 120, 60.0)
-LAMP = Lamp(np.array([0.0, -1.0, 0.0]), 0.6)
+LAMP = WhiteLamp(np.array([0.0, -1.0, 0.0]), 0.6)
 GRAY = np.full((16, 16, 3), 128, np.float32)
 
 

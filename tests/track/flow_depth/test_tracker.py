@@ -14,10 +14,10 @@ from tricue.scenes import StressScene, WalkScene, stress_scene
 CAMERAS = {"pair": {}, "depth camera": {"depth": True}}
 LATE, BACK = 4, 8  # frames until an occlusion is detected, and until the target is TRACKED again
 
-Run = tuple[WalkScene, list[Track], list[np.ndarray]]
+WalkRun = tuple[WalkScene, list[Track], list[np.ndarray]]
 
 
-def run_of(scene: WalkScene | StressScene, frames: tuple[Frame, ...] | list[Frame], **parameters) -> Run:
+def run_of(scene: WalkScene | StressScene, frames: tuple[Frame, ...] | list[Frame], **parameters) -> WalkRun:
     """The tracks and masks of a scene's frames."""
     tracker = FlowDepthTracker(**{"rig": scene.rig, **parameters})
     tracks, masks = [tracker.init(frames[0], scene.boxes[0])], [tracker.mask]
@@ -28,11 +28,11 @@ def run_of(scene: WalkScene | StressScene, frames: tuple[Frame, ...] | list[Fram
 
 
 @pytest.fixture(scope="session")
-def ran(overtakings) -> Callable[..., Run]:
+def ran(overtakings) -> Callable[..., WalkRun]:
     """An overtaking followed with a pair or a depth camera."""
 
     @functools.cache
-    def run(camera: str, cues: tuple[str, ...] = ("flow", "disparity")) -> Run:
+    def run(camera: str, cues: tuple[str, ...] = ("flow", "disparity")) -> WalkRun:
         scene = overtakings(0, 55, **CAMERAS[camera])
         return run_of(scene, scene.frames, cues=cues)
 

@@ -22,7 +22,7 @@ RUNS = [(name, kind) for name in CHANNELS for kind in (*STILL, "hidden")]
 RUNS += [("rgbd", "leaving"), ("depth", "leaving")]
 
 
-class Run:
+class SceneRun:
     """A scene and the tracks of a tracker that knows its cameras."""
 
     def __init__(self, scene: StressScene, frames: list[Frame]) -> None:
@@ -57,9 +57,9 @@ class Run:
 
 
 @pytest.fixture(scope="module")
-def run(drawn, shoot) -> Callable[..., Run]:
+def run(drawn, shoot) -> Callable[..., SceneRun]:
     """What a tracker makes of a scene, by kind, channels and seed; each is run once."""
-    return cache(lambda kind, name, seed=0: Run(drawn(kind, seed), shoot(kind, name, seed)))
+    return cache(lambda kind, name, seed=0: SceneRun(drawn(kind, seed), shoot(kind, name, seed)))
 
 
 def failing(reason: str) -> pytest.MarkDecorator:
@@ -121,7 +121,7 @@ def test_covariances_are_tight_but_for_the_place_in_the_box(name, drawn, shoot, 
     large, standard deviations are at most five times the errors.
     """
     monkeypatch.setattr(fused, "lateral_variances", lambda *_: (0.0, 0.0))
-    runs = [Run(drawn(kind, 0), shoot(kind, name, 0)) for kind in STILL]
+    runs = [SceneRun(drawn(kind, 0), shoot(kind, name, 0)) for kind in STILL]
     normalized_errors = np.concatenate([run.normalized_errors[run.tracked] for run in runs])
     assert normalized_errors.mean() > 3 / 5**2
 

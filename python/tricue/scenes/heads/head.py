@@ -20,10 +20,10 @@ from tricue.scenes.rendering.ellipsoids import Ellipsoids
 from tricue.scenes.rendering.stereo_camera import (
     RAYS_PER_PIXEL,
     DrawnEllipsoid,
-    Lamp,
     RayCamera,
     RayImage,
     TexturedEllipsoid,
+    WhiteLamp,
     expose_lit,
 )
 from tricue.scenes.scene import StereoScene
@@ -169,7 +169,7 @@ class _StereoStage(NamedTuple):
 
     cameras: tuple[RayCamera, RayCamera]
     empty: tuple[RayImage, RayImage]
-    lamp: Lamp
+    lamp: WhiteLamp
     right_gain: float  # the right camera's gain divided by the left one's
 
     @classmethod
@@ -177,7 +177,7 @@ class _StereoStage(NamedTuple):
         cls, cameras: tuple[RayCamera, RayCamera], room: StereoRoom, rng: np.random.Generator
     ) -> "_StereoStage":
         direction = rng.uniform([-0.8, -1.0, -1.0], [0.8, -0.4, -0.5])
-        lamp = Lamp(direction / np.linalg.norm(direction), rng.uniform(0.45, 0.65))
+        lamp = WhiteLamp(direction / np.linalg.norm(direction), rng.uniform(0.45, 0.65))
         empty = tuple(render_room(camera, room, lamp) for camera in cameras)
         return cls(cameras, (empty[0], empty[1]), lamp, rng.uniform(0.95, 1.05))
 

@@ -11,11 +11,11 @@ from tricue.scenes.arrays import Array
 from tricue.scenes.rendering import textures
 from tricue.scenes.rendering.rectangles import make_rectangle_texture, make_upright_rectangle
 from tricue.scenes.rendering.stereo_camera import (
-    Lamp,
     RayCamera,
     RayImage,
     TexturedEllipsoid,
     TexturedRectangle,
+    WhiteLamp,
 )
 
 MIN_GAP_BEHIND_HEAD = 0.35  # meters between a thing and the head on one line of sight
@@ -60,7 +60,7 @@ def furnish_room(
     return StereoRoom(rectangles + skin_colored.rectangles, skin_colored.ellipsoids)
 
 
-def render_room(camera: RayCamera, room: StereoRoom, lamp: Lamp) -> RayImage:
+def render_room(camera: RayCamera, room: StereoRoom, lamp: WhiteLamp) -> RayImage:
     """Render the room for a camera."""
     shape = camera.intrinsics.height, camera.intrinsics.width
     canvas = RayImage(np.full((*shape, 3), 90, np.float32), np.full(shape, np.inf, np.float32))

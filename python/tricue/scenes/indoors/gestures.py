@@ -12,8 +12,8 @@ from tricue.camera.numbers import finite, positive_whole
 from tricue.scenes.arrays import Array, Mask, Picture
 from tricue.scenes.indoors.hand import FOREARM_PARTS, HandPose, build_hand
 from tricue.scenes.indoors.paint import HeadFrame, Paints
-from tricue.scenes.indoors.person import SHOULDERS, BodyPose, build_person, turned
-from tricue.scenes.indoors.picture import CAMERA, MIN_COVERAGE, Lamp, Layer, mask_of, render
+from tricue.scenes.indoors.person import SHOULDERS, UpperBodyPose, build_person, turned
+from tricue.scenes.indoors.picture import CAMERA, MIN_COVERAGE, ColoredLamp, Layer, mask_of, render
 from tricue.scenes.indoors.room import render_room
 from tricue.scenes.indoors.surface import Body, Integers
 from tricue.scenes.motion import sample_sway
@@ -33,7 +33,7 @@ class _Still(NamedTuple):
     """The person, the hand and the room, without motion."""
 
     paints: Paints
-    lamp: Lamp
+    lamp: ColoredLamp
     room: Picture
     size: float
 
@@ -104,7 +104,7 @@ def _start(seed: int, frames: int, noise: float) -> tuple[np.random.Generator, _
     if finite(noise, "noise", "levels of 255") < 0:
         raise ValueError(f"noise: expected levels of 255, 0 or more, got {noise!r}")
     rng = make_generator(seed)
-    lamp, looks, size = Lamp.sample(rng), Looks.sample(rng), float(rng.uniform(0.95, 1.05))
+    lamp, looks, size = ColoredLamp.sample(rng), Looks.sample(rng), float(rng.uniform(0.95, 1.05))
     paints = Paints.sample(looks, rng)
     return rng, _Still(paints, lamp, render_room(looks.skin, lamp, 1.5, rng), size)
 
@@ -118,7 +118,7 @@ def _layers(still: _Still, moves: _Moves, index: int) -> tuple[Layer, Layer, Mas
     """The person and the hand in a frame, and the pixels of head and hand if nothing hid them."""
     head, rotation = moves.heads[index], turned(*moves.turns[index])
     shoulders = head * [0.6, 0.5, 1.0] + SHOULDERS * still.size
-    cones, head_parts = build_person(BodyPose(head, rotation, shoulders, (0.05, 0.1)), still.size)
+    cones, head_parts = build_person(UpperBodyPose(head, rotation, shoulders, (0.05, 0.1)), still.size)
     yaw, pitch, roll = moves.tilts[index]
     palm = build_hand(HandPose(float(moves.spreads[index]), moves.bends[index]), still.size)
     # The hand's frame looks away from the camera, so half a turn less than a head's.

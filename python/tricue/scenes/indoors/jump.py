@@ -9,8 +9,8 @@ from tricue.camera.frame import Frame
 from tricue.camera.numbers import finite, positive_whole
 from tricue.scenes.arrays import Array
 from tricue.scenes.indoors.paint import HeadFrame, Paints
-from tricue.scenes.indoors.person import SHOULDERS, BodyPose, build_person, turned
-from tricue.scenes.indoors.picture import CAMERA, Lamp, mask_of, render
+from tricue.scenes.indoors.person import SHOULDERS, UpperBodyPose, build_person, turned
+from tricue.scenes.indoors.picture import CAMERA, ColoredLamp, mask_of, render
 from tricue.scenes.indoors.room import render_room
 from tricue.scenes.indoors.surface import Body
 from tricue.scenes.motion import sample_sway
@@ -48,7 +48,7 @@ def jump(seed: int = 0, frames: int = 90, *, noise: float = 2.0) -> Scene:
     if finite(noise, "noise", "levels of 255") < 0:
         raise ValueError(f"noise: expected levels of 255, 0 or more, got {noise!r}")
     rng = make_generator(seed)
-    lamp, looks, size = Lamp.sample(rng), Looks.sample(rng), float(rng.uniform(0.95, 1.05))
+    lamp, looks, size = ColoredLamp.sample(rng), Looks.sample(rng), float(rng.uniform(0.95, 1.05))
     paints = Paints.sample(looks, rng)
     room = render_room(looks.skin, lamp, 2.2, rng)
     moves = _sample_jumps(frames, rng)
@@ -58,7 +58,7 @@ def jump(seed: int = 0, frames: int = 90, *, noise: float = 2.0) -> Scene:
     for index, head in enumerate(moves.heads):
         rotation, arms = turned(*moves.turns[index]), float(moves.arms[index])
         shoulders = head + SHOULDERS * size
-        cones, head_parts = build_person(BodyPose(head, rotation, shoulders, (arms, 0.9 * arms)), size)
+        cones, head_parts = build_person(UpperBodyPose(head, rotation, shoulders, (arms, 0.9 * arms)), size)
         layer = render(Body(cones), paints, lamp, HeadFrame(head, rotation, size))
         box = box_of_mask(mask_of(layer, 0, head_parts))
         assert box is not None  # the jumps keep the head in the image

@@ -56,7 +56,7 @@ def turned(yaw: float, pitch: float = 0.0, roll: float = 0.0) -> Array:
     return np.asarray(about_z @ about_y @ about_x)
 
 
-class BodyPose(NamedTuple):
+class UpperBodyPose(NamedTuple):
     """A person's pose in a frame."""
 
     head: Array  # (3,) its center, meters
@@ -65,7 +65,7 @@ class BodyPose(NamedTuple):
     arms: tuple[float, float]  # radians, by which each arm is raised, in the image plane
 
 
-def build_person(pose: BodyPose, size: float = 1.0) -> tuple[Cones, int]:
+def build_person(pose: UpperBodyPose, size: float = 1.0) -> tuple[Cones, int]:
     """The person's cones, and how many of the first ones are the head."""
     head = _cones(_HEAD, np.zeros(3), HEAD_PAINT, size).moved(pose.rotation, pose.head)
     nape = pose.head + pose.rotation @ (np.array([0, 0.05, -0.025]) * size)

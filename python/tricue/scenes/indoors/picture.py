@@ -15,7 +15,7 @@ MIN_COVERAGE = 0.5  # of a pixel, to count as the body's
 BLUR_STEP = 0.7  # pixels between the exposures that a motion blur averages
 
 
-class Lamp(NamedTuple):
+class ColoredLamp(NamedTuple):
     """A lamp and ambient light, each with BGR gains."""
 
     direction: Array  # (3,) unit vector toward the lamp
@@ -23,7 +23,7 @@ class Lamp(NamedTuple):
     ambient: Array  # (3,)
 
     @classmethod
-    def sample(cls, rng: np.random.Generator) -> "Lamp":
+    def sample(cls, rng: np.random.Generator) -> "ColoredLamp":
         """A lamp above and in front of the scene, warmer or colder than the rest."""
         direction = rng.uniform([-0.8, -1.0, -1.0], [0.8, -0.5, -0.6])
         warmth = rng.uniform(-0.06, 0.10) * np.array([-1, 0, 1.0])
@@ -61,7 +61,7 @@ class Layer(NamedTuple):
 
 
 def render(
-    body: Body, paints: Paints, lamp: Lamp, head: HeadFrame | None = None, shadow: Body | None = None
+    body: Body, paints: Paints, lamp: ColoredLamp, head: HeadFrame | None = None, shadow: Body | None = None
 ) -> Layer:
     """Render a body as the camera sees it. shadow: another body that shades it from the lamp."""
     rows, columns = _window(body)
@@ -103,7 +103,7 @@ def render(
     return layer
 
 
-def _shade(normals: Picture, light: Picture, sky: Picture, lamp: Lamp) -> Picture:
+def _shade(normals: Picture, light: Picture, sky: Picture, lamp: ColoredLamp) -> Picture:
     """The gains (m, 3) by Lambert's law; the edge of the shadow is softened, as on skin and cloth."""
     toward = normals @ lamp.direction.astype(np.float32)
     soft = np.clip((toward + 0.15) / 1.15, 0, 1) * light
@@ -112,7 +112,7 @@ def _shade(normals: Picture, light: Picture, sky: Picture, lamp: Lamp) -> Pictur
     return np.asarray(gains, np.float32)
 
 
-def _sheen(normals: Picture, rays: Picture, light: Picture, lamp: Lamp) -> Picture:
+def _sheen(normals: Picture, rays: Picture, light: Picture, lamp: ColoredLamp) -> Picture:
     """The levels (m, 1) of the lamp's reflection on smooth skin."""
     half = lamp.direction.astype(np.float32) - rays
     half /= np.linalg.norm(half, axis=1, keepdims=True)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from tricue.scenes.arrays import Array, Picture
 from tricue.scenes.indoors.paint import sample_periodic
-from tricue.scenes.indoors.picture import CAMERA, Lamp, blur
+from tricue.scenes.indoors.picture import CAMERA, ColoredLamp, blur
 from tricue.scenes.indoors.surface import Integers
 from tricue.scenes.rendering import textures
 
@@ -57,7 +57,7 @@ class _List:
         return Things(low, high, colors, chosen, is_round)
 
 
-def render_room(skin: Array, lamp: Lamp, near: float, rng: np.random.Generator) -> Picture:
+def render_room(skin: Array, lamp: ColoredLamp, near: float, rng: np.random.Generator) -> Picture:
     """The room (H, W, 3) behind a person with this skin color (3,), who is up to ``near`` meters away."""
     things = _furnish(skin, near, rng)
     pictures = [

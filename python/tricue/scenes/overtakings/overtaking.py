@@ -28,7 +28,7 @@ from tricue.scenes.overtakings.truth import LazySequence, WalkGeometry
 from tricue.scenes.people.body import Person, rotation_about_y
 from tricue.scenes.people.pedestrian import Outfit, Pedestrian
 from tricue.scenes.rendering.depth_sensor import DEPTH_SENSORS
-from tricue.scenes.rendering.stereo_camera import RAYS_PER_PIXEL, Lamp, RayCamera, expose_lit
+from tricue.scenes.rendering.stereo_camera import RAYS_PER_PIXEL, RayCamera, WhiteLamp, expose_lit
 from tricue.scenes.scene import Events, WalkScene
 from tricue.scenes.seeds import make_generator
 
@@ -104,7 +104,7 @@ class _PanningStage(NamedTuple):
     cameras: tuple[RayCamera, RayCamera]
     hall: Hall
     people: list[Pedestrian]
-    lamp: Lamp  # level frame
+    lamp: WhiteLamp  # level frame
     geometry: WalkGeometry
     vergence: float = 0.0  # radians
 
@@ -117,7 +117,7 @@ class _PanningStage(NamedTuple):
         focal = cameras[0].intrinsics.fx
         people = [person.at_detail(at, focal) for person, at in zip(geometry.people, depths, strict=True)]
         direction = rng.uniform([-0.8, -1.0, -1.0], [0.8, -0.4, -0.5])
-        lamp = Lamp(direction / np.linalg.norm(direction), rng.uniform(0.5, 0.7))
+        lamp = WhiteLamp(direction / np.linalg.norm(direction), rng.uniform(0.5, 0.7))
         return cls(geometry.pan, cameras, geometry.hall.at_detail(focal), people, lamp, geometry)
 
     def render(self, camera: RayCamera, index: int) -> Picture:

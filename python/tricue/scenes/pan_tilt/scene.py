@@ -23,7 +23,7 @@ from tricue.scenes.overtakings.truth import FrameTruth, WalkGeometry
 from tricue.scenes.pan_tilt.head import HeadLimits
 from tricue.scenes.people.body import Person
 from tricue.scenes.people.pedestrian import Outfit, Pedestrian
-from tricue.scenes.rendering.stereo_camera import RAYS_PER_PIXEL, Lamp, RayCamera, expose_lit
+from tricue.scenes.rendering.stereo_camera import RAYS_PER_PIXEL, RayCamera, WhiteLamp, expose_lit
 from tricue.scenes.seeds import make_generator
 
 PAN_TILT_RATE = 15.0  # frames per second, as in the paper's system
@@ -71,7 +71,7 @@ class PanTiltScene:
     seed: int
     _hall: Hall
     _people: tuple[Pedestrian, ...]  # the target first
-    _lamp: Lamp
+    _lamp: WhiteLamp
     _height: float
 
     @property
@@ -144,7 +144,7 @@ def pan_tilt_scene(
         seed=seed,
         _hall=hall.at_detail(RAYS * camera.fx),
         _people=tuple(person.at_detail(at, RAYS * camera.fx) for person, at in people),
-        _lamp=Lamp(light / np.linalg.norm(light), rng.uniform(0.5, 0.7)),
+        _lamp=WhiteLamp(light / np.linalg.norm(light), rng.uniform(0.5, 0.7)),
         _height=height,
     )
 

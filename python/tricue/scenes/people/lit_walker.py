@@ -24,7 +24,7 @@ from tricue.scenes.rendering import textures, zbuffer
 from tricue.scenes.rendering.depth_view import MountedCamera
 from tricue.scenes.rendering.ellipsoids import Ellipsoids
 from tricue.scenes.rendering.rectangles import make_rectangle_texture, make_upright_rectangle
-from tricue.scenes.rendering.stereo_camera import Lamp, RayCamera, RayImage, TexturedRectangle
+from tricue.scenes.rendering.stereo_camera import RayCamera, RayImage, TexturedRectangle, WhiteLamp
 from tricue.scenes.scene import DepthScene
 from tricue.scenes.seeds import make_generator
 from tricue.scenes.sensor.low_light import LowLightSensor
@@ -131,7 +131,7 @@ class _Stage(NamedTuple):
     rays: RayCamera
     hall: RayImage
     walker: Pedestrian
-    lamp: Lamp  # camera frame
+    lamp: WhiteLamp  # camera frame
 
     @classmethod
     def sample(cls, frames: int, wall: float, rng: np.random.Generator) -> "_Stage":
@@ -150,7 +150,7 @@ class _Stage(NamedTuple):
         walker = Pedestrian.walk(person, outfit, path, height, RATE)
         walker = walker.at_detail((NEAREST + FARTHEST) / 2, rays.intrinsics.fx)
         direction = rng.uniform([-0.8, -1.0, -1.0], [0.8, -0.4, -0.5])
-        lamp = Lamp(view.rotation @ direction / np.linalg.norm(direction), rng.uniform(0.5, 0.7))
+        lamp = WhiteLamp(view.rotation @ direction / np.linalg.norm(direction), rng.uniform(0.5, 0.7))
         return cls(view, rays, _render_hall(view, rays, wall, rng), walker, lamp)
 
     def render(self, index: int) -> tuple[Picture, Array]:

@@ -41,8 +41,8 @@ class TexturedEllipsoid(NamedTuple):
     texture: Sequence[Picture]  # a pyramid; columns are longitude, rows latitude
 
 
-class Lamp(NamedTuple):
-    """Directional and ambient light; a surface facing the lamp has its texture's brightness."""
+class WhiteLamp(NamedTuple):
+    """Directional and ambient light, white; a surface facing the lamp has its texture's brightness."""
 
     direction: Array  # (3,) unit vector toward the lamp
     ambient: float  # share of ambient light, 0 to 1
@@ -122,7 +122,7 @@ class RayCamera(NamedTuple):
         canvas.write(color, z, seen, place)
 
     def draw_ellipsoids(
-        self, canvas: RayImage, ellipsoids: Sequence[TexturedEllipsoid], lamp: Lamp
+        self, canvas: RayImage, ellipsoids: Sequence[TexturedEllipsoid], lamp: WhiteLamp
     ) -> list[DrawnEllipsoid | None]:
         """Draw ellipsoids where they are nearer than what is there; None for each outside the image."""
         places = self._places(ellipsoids) if ellipsoids else []
@@ -132,7 +132,7 @@ class RayCamera(NamedTuple):
         ]
 
     def _draw_ellipsoid(
-        self, canvas: RayImage, ellipsoid: TexturedEllipsoid, place: tuple[slice, slice], lamp: Lamp
+        self, canvas: RayImage, ellipsoid: TexturedEllipsoid, place: tuple[slice, slice], lamp: WhiteLamp
     ) -> DrawnEllipsoid:
         x, y = self._rays(*place)
         # A ray's point z d on the unit sphere is q = z (unit d) - unit c; |q| = 1 gives its depth z.
@@ -246,7 +246,7 @@ def _first_hit(rays: Sequence[Picture], to_center: Array) -> Picture:
     return np.asarray(depth, np.float32)
 
 
-def _shade(q: Sequence[Picture], unit: Array, lamp: Lamp) -> Picture:
+def _shade(q: Sequence[Picture], unit: Array, lamp: WhiteLamp) -> Picture:
     """The brightness of each point by Lambert's law; its normal is along unit^T q."""
     gram, toward = unit @ unit.T, unit @ lamp.direction
     along = sum(q[i] * np.float32(toward[i]) for i in range(3))

@@ -4,7 +4,7 @@
 import numpy as np
 
 from tricue.scenes.arrays import Array
-from tricue.scenes.rendering.stereo_camera import Lamp
+from tricue.scenes.rendering.stereo_camera import WhiteLamp
 from tricue.scenes.rooms import looks
 from tricue.scenes.rooms.solids import Placement, Solid, make_box
 from tricue.scenes.rooms.things import TARGET_SHAPES, Thing, make_thing
@@ -54,7 +54,9 @@ def make_table(width: float, depth: float, rng: np.random.Generator) -> list[Thi
     return [Thing(top, plate, shiny), *(Thing(each, leg) for each in legs)]
 
 
-def scatter_things(count: int, free: Array, area: Array, lamp: Lamp, rng: np.random.Generator) -> list[Thing]:
+def scatter_things(
+    count: int, free: Array, area: Array, lamp: WhiteLamp, rng: np.random.Generator
+) -> list[Thing]:
     """Things on the plane y = 0: boxes, cans, figures, flat papers and thin rods.
 
     free: (n, 3) x, z and radius, meters, of the places that stay free. area: half the width and depth (2,) of
@@ -76,7 +78,7 @@ def scatter_things(count: int, free: Array, area: Array, lamp: Lamp, rng: np.ran
     return made
 
 
-def _make_clutter(lamp: Lamp, rng: np.random.Generator) -> Thing:
+def _make_clutter(lamp: WhiteLamp, rng: np.random.Generator) -> Thing:
     """A thing to stand beside the target."""
     kind = rng.random()
     if kind < 0.25:  # paper or a magazine

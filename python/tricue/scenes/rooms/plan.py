@@ -13,7 +13,7 @@ from tricue.scenes.motion import sample_path, sample_sway
 from tricue.scenes.people import walks
 from tricue.scenes.people.body import Person
 from tricue.scenes.people.pedestrian import Outfit, Pedestrian
-from tricue.scenes.rendering.stereo_camera import Lamp
+from tricue.scenes.rendering.stereo_camera import WhiteLamp
 from tricue.scenes.rooms import cameras
 from tricue.scenes.rooms.cameras import Viewpoint
 from tricue.scenes.rooms.furniture import TABLE_HEIGHT, make_shell, make_table, scatter_things
@@ -34,7 +34,7 @@ class RoomPlan:
     """What is in a room in each of N frames, in the world's frame."""
 
     rate: float
-    lamp: Lamp
+    lamp: WhiteLamp
     cameras: list[Placement]
     still: list[Thing]
     target: list[Solid]
@@ -54,7 +54,7 @@ class _Table:
 
     rng: np.random.Generator
     rate: float
-    lamp: Lamp
+    lamp: WhiteLamp
     thing: Thing
     place: Array  # (3,) of the target's base
     view: Viewpoint
@@ -97,7 +97,7 @@ def _set_table(
 ) -> _Table:
     """A random table. free: radius in meters around the target's place that stays free of other things."""
     direction = rng.uniform([-0.8, -1.0, -0.8], [0.8, -0.6, 0.0])
-    lamp = Lamp(direction / np.linalg.norm(direction), rng.uniform(0.5, 0.7))
+    lamp = WhiteLamp(direction / np.linalg.norm(direction), rng.uniform(0.5, 0.7))
     shape = TARGET_SHAPES[rng.integers(len(TARGET_SHAPES))]
     side = float(np.exp(rng.uniform(np.log(0.07), np.log(0.26))))
     thing = make_thing(shape, side, lamp, rng)
@@ -249,7 +249,7 @@ def walk_on_floor(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
     rate = float(rng.choice([4, 4, 15]))
     frames = round(rate * DURATIONS[rate])
     direction = rng.uniform([-0.8, -1.0, -0.8], [0.8, -0.6, 0.0])
-    lamp = Lamp(direction / np.linalg.norm(direction), rng.uniform(0.5, 0.7))
+    lamp = WhiteLamp(direction / np.linalg.norm(direction), rng.uniform(0.5, 0.7))
     height, back = rng.uniform(1.4, 2.6), rng.uniform(6.0, 7.5)
     area = walks.WalkableArea(1.8, back - 1.8, camera.width / camera.fx / 2, ROOM_SIDE)
     people = [_walker(area, frames, rate, rng) for _ in range(int(rng.integers(2, 5)))]

@@ -13,11 +13,11 @@ from tricue.scenes.arrays import Array, Picture
 from tricue.scenes.rendering.depth_view import MountedCamera
 from tricue.scenes.rendering.ellipsoids import OrientedEllipsoids
 from tricue.scenes.rendering.stereo_camera import (
-    Lamp,
     RayCamera,
     RayImage,
     TexturedEllipsoid,
     TexturedRectangle,
+    WhiteLamp,
 )
 from tricue.scenes.rendering.textures import build_pyramid
 
@@ -72,7 +72,7 @@ class Solid(NamedTuple):
         )
         return Solid(faces, self.balls.transformed(turn, pose.offset), self.skins)
 
-    def draw(self, camera: RayCamera, canvas: RayImage, lamp: Lamp) -> None:
+    def draw(self, camera: RayCamera, canvas: RayImage, lamp: WhiteLamp) -> None:
         """Draw the thing, given in the camera's frame, where it is nearer than what is there."""
         center = np.array([camera.offset, 0, 0])
         for face in self.faces:
@@ -138,7 +138,7 @@ def make_box(size: Array, pictures: Sequence[Picture]) -> Solid:
     )
 
 
-def make_can(radius: float, height: float, picture: Picture, lid: Picture, lamp: Lamp) -> Solid:
+def make_can(radius: float, height: float, picture: Picture, lid: Picture, lamp: WhiteLamp) -> Solid:
     """A can, meters, that stands on y = 0 at the origin. picture: wrapped around, its middle in front."""
     edges = np.linspace(0, picture.shape[1], CAN_SIDES + 1).round().astype(int)
     half, inner = radius * math.tan(math.pi / CAN_SIDES) * SEAM, radius

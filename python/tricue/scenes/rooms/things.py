@@ -8,7 +8,7 @@ import numpy as np
 from tricue.scenes.arrays import Array
 from tricue.scenes.rendering import textures
 from tricue.scenes.rendering.ellipsoids import OrientedEllipsoids
-from tricue.scenes.rendering.stereo_camera import Lamp
+from tricue.scenes.rendering.stereo_camera import WhiteLamp
 from tricue.scenes.rooms import looks
 from tricue.scenes.rooms.solids import Solid, make_box, make_can, make_figure
 
@@ -24,7 +24,7 @@ class Thing(NamedTuple):
     shiny: bool = False
 
 
-def make_thing(shape: str, side: float, lamp: Lamp, rng: np.random.Generator) -> Thing:
+def make_thing(shape: str, side: float, lamp: WhiteLamp, rng: np.random.Generator) -> Thing:
     """A random thing. shape: one of TARGET_SHAPES. side: √(width · height), meters."""
     shiny = bool(rng.random() < SHINY_SHARE)
     if shape == "can":

@@ -11,7 +11,7 @@ from tricue.track.color_particle.appearance import Appearance
 from tricue.track.color_particle.motion import EllipsePrediction
 from tricue.track.color_particle.rank_models import MIN_RANK_SPREAD, RankWindow
 from tricue.track.color_particle.skin_detection import NO_DETECTION, SkinDetection
-from tricue.track.color_particle.state import ParticleSet
+from tricue.track.color_particle.state import ColorParticleSet
 
 MIN_WEIGHT = 1e-300  # of a particle, to take the logarithm
 
@@ -44,7 +44,7 @@ def filter_step(
     noise: StepNoise,
     proposal: Proposal,
     searching: bool,
-) -> ParticleSet:
+) -> ColorParticleSet:
     """The particles (N, 4) of the next frame; a single kernel does it all if it supports the likelihood.
 
     searching: whether for a lost target.
@@ -55,7 +55,7 @@ def filter_step(
         step = k.rank_filter(
             *(image, particles, weights, *noise, *prediction, *detection, *measurement, MIN_RANK_SPREAD)
         )
-        return ParticleSet(*step[:5], RankWindow(*step[5:]))
+        return ColorParticleSet(*step[:5], RankWindow(*step[5:]))
     log_weights = np.zeros(len(weights))
     if noise.offset is None:
         log_weights = np.log(np.maximum(weights, MIN_WEIGHT))
@@ -70,7 +70,9 @@ def filter_step(
     posterior, _ = k.reweight(log_likelihood, moved, particles, drift, scale, *detected)
     ellipse, _, effective = k.summarize(moved, posterior)
     estimated = float(appearance.log_likelihood(k, image, ellipse[None], searching)[0])
-    return ParticleSet(moved, posterior, effective, ellipse, estimated, appearance.observe(k, image, ellipse))
+    return ColorParticleSet(
+        moved, posterior, effective, ellipse, estimated, appearance.observe(k, image, ellipse)
+    )
 
 
 def mix_sizes(noise: Floats, correlation: float) -> Floats:

@@ -14,7 +14,7 @@ import numpy as np
 from tricue.arrays import Floats, Image
 from tricue.kernels import Kernels
 from tricue.track.color_particle.appearance import Appearance
-from tricue.track.color_particle.state import ParticleSet
+from tricue.track.color_particle.state import ColorParticleSet
 
 WINDOWS, BLOCKS = 32, 32  # windows per frame, with the estimate; blocks of windows, used in turn
 NEAR, FAR = 0.05, 0.3  # standard deviations of the windows' positions, in target sides; in turn
@@ -84,8 +84,13 @@ def realign(
 
 
 def moved(
-    k: Kernels, image: Image, appearance: Appearance, particles: ParticleSet, ellipse: Floats, bounds: Floats
-) -> ParticleSet:
+    k: Kernels,
+    image: Image,
+    appearance: Appearance,
+    particles: ColorParticleSet,
+    ellipse: Floats,
+    bounds: Floats,
+) -> ColorParticleSet:
     """The particles, moved so that their estimate is another ellipse (4,); clipped to bounds (2, 4)."""
     shifted = np.clip(particles.particles + (ellipse - particles.ellipse), *bounds)
     log_likelihood = float(appearance.log_likelihood(k, image, ellipse[None])[0])

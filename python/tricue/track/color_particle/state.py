@@ -14,7 +14,7 @@ from tricue.track.color_particle.params import ColorParticleParams
 MIN_MISSED_FRAMES = 5  # consecutive, before the target is LOST
 
 
-class ParticleSet(NamedTuple):
+class ColorParticleSet(NamedTuple):
     """Weighted particles and their estimate.
 
     particles: (N, 4) ellipses x, y, minor, major, pixels. weights: (N,), which need not sum to 1.
@@ -38,7 +38,7 @@ class ColorParticleState(NamedTuple):
     appearance: Appearance
     skin_color: NDArray[np.uint8]  # (3,) the reference color of the skin classifier
     motion: EllipseMotion
-    particles: ParticleSet
+    particles: ColorParticleSet
     first: Appearance  # as it was learned from the first frame
     recognition: float  # in [0, 1], by the learned appearance; decides whether to learn
     score: float  # probability that it is the target, by the first frame's appearance

@@ -22,7 +22,7 @@ from tricue.track.color_particle.motion import EllipseMotion, EllipsePrediction,
 from tricue.track.color_particle.params import NEVER, ColorParticleParams
 from tricue.track.color_particle.realignment import GAIN_TO_FORGET, moved, realign
 from tricue.track.color_particle.skin_detection import detect_skin, draw_candidates, reference_color
-from tricue.track.color_particle.state import ColorParticleState, ParticleSet
+from tricue.track.color_particle.state import ColorParticleSet, ColorParticleState
 from tricue.track.head_detection.start_box import head_or_face_to_start_on
 
 MEAN_RATE = 0.05  # per frame, of the running means of the log-likelihood
@@ -118,7 +118,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, ColorParticleState])
             appearance=appearance,
             skin_color=reference_color(k, image, ellipse),
             motion=EllipseMotion.start(ellipse),
-            particles=ParticleSet(particles, weights, len(particles), window, log_likelihood, seen),
+            particles=ColorParticleSet(particles, weights, len(particles), window, log_likelihood, seen),
             first=appearance,
             recognition=appearance.recognition(k, seen),
             score=1.0,
@@ -187,7 +187,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, ColorParticleState])
         which: FilterStep,
         resample: bool = False,
         searching: bool = False,
-    ) -> ParticleSet:
+    ) -> ColorParticleSet:
         """One step of the particle filter. searching: for a lost target."""
         step = STEPS_PER_FRAME * state.frames + which
         offset = self._noise.uniform(step) if resample else None
@@ -195,8 +195,8 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, ColorParticleState])
         return filter_step(self._k, image, state.appearance, particles, weights, noise, proposal, searching)
 
     def _search_wide(
-        self, state: ColorParticleState, image: Image, narrow: ParticleSet, prediction: EllipsePrediction
-    ) -> ParticleSet:
+        self, state: ColorParticleState, image: Image, narrow: ColorParticleSet, prediction: EllipsePrediction
+    ) -> ColorParticleSet:
         """Search widely around the last ellipse, then closely around the best particle: for sudden motion."""
         spread = self.params.wide_search_spread * state.motion.side
         last = np.array(state.motion.ellipse)
@@ -239,7 +239,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, ColorParticleState])
         self,
         state: ColorParticleState,
         image: Image,
-        particles: ParticleSet,
+        particles: ColorParticleSet,
         motion: EllipseMotion,
         first_log_likelihood: float | None = None,
     ) -> ColorParticleState:
@@ -279,7 +279,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, ColorParticleState])
             missed_frames=0 if recognized else state.missed_frames + 1,
         )
 
-    def _update_lead(self, state: ColorParticleState, image: Image, particles: ParticleSet) -> float:
+    def _update_lead(self, state: ColorParticleState, image: Image, particles: ColorParticleSet) -> float:
         """The running mean of the lead, which is measured in some frames, and always while it is missed."""
         if not state.missed_frames and state.frames % LEAD_EVERY != LEAD_EVERY - 1:
             return state.lead
@@ -287,7 +287,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, ColorParticleState])
         return state.lead + LEAD_RATE * (lead - state.lead)
 
     def _recognizes(
-        self, state: ColorParticleState, particles: ParticleSet, recognition: float, score: float
+        self, state: ColorParticleState, particles: ColorParticleSet, recognition: float, score: float
     ) -> bool:
         """Whether the target is where the particles are."""
         p = self.params
@@ -300,7 +300,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, ColorParticleState])
             return False
         return not self._has_jumped(state, particles)
 
-    def _has_jumped(self, state: ColorParticleState, particles: ParticleSet) -> bool:
+    def _has_jumped(self, state: ColorParticleState, particles: ColorParticleSet) -> bool:
         """Whether the estimate is less likely than usual, and farther from the predicted place than a wide
         search usually goes.
         """

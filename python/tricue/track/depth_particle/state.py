@@ -14,7 +14,7 @@ from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.signature import Signature
 
 
-class ParticleSet(NamedTuple):
+class DepthParticleSet(NamedTuple):
     """Weighted particles and their estimate.
 
     particles: (N, 5) X, Y, Z, width, height, meters. weights: (N,) with sum 1. state: (5,) mean and
@@ -27,7 +27,7 @@ class ParticleSet(NamedTuple):
     covariance: Floats
 
     @classmethod
-    def at_state(cls, state: Floats, n: int) -> "ParticleSet":
+    def at_state(cls, state: Floats, n: int) -> "DepthParticleSet":
         """n particles with the same state (5,) and weight."""
         return cls(np.repeat(state[None], n, axis=0), np.full(n, 1 / n), state, np.zeros((5, 5)))
 
@@ -41,7 +41,7 @@ class DepthParticleState(NamedTuple):
     model: DepthModel
     motion: BodyMotion
     signature: Signature
-    particles: ParticleSet
+    particles: DepthParticleSet
     objects: Objects  # of the last frame
     others: NDArray[np.float32]  # (h, w) meters, the depth last seen in each pixel apart from the target
     score: float

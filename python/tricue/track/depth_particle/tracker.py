@@ -31,7 +31,7 @@ from tricue.track.depth_particle.occluder import find_occluder
 from tricue.track.depth_particle.others import region_in, remember_others
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.search import find_target
-from tricue.track.depth_particle.state import DepthParticleState, ParticleSet
+from tricue.track.depth_particle.state import DepthParticleSet, DepthParticleState
 
 REFINE_POSITION = (0.06, 0.05, 0.05)  # meters of X, Y, Z, standard deviation of the second sampling
 REFINE_SIZE = 0.05  # relative standard deviation of the size in the second sampling
@@ -51,7 +51,7 @@ Changes = dict[str, Any]  # new values of a state's fields, by name
 class FilteredTarget(NamedTuple):
     """The particles, the observation at their estimate, and the histogram (L,) of the depths there."""
 
-    particles: ParticleSet
+    particles: DepthParticleSet
     observed: DepthObservation
     histogram: Floats
 
@@ -147,7 +147,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, DepthParticleState])
             model=model,
             motion=BodyMotion.start(target.state, target.whole),
             signature=target.signature,
-            particles=ParticleSet.at_state(target.state, self.params.particles),
+            particles=DepthParticleSet.at_state(target.state, self.params.particles),
             objects=objects,
             others=remember_others(self._k, NOTHING_KNOWN, fg, target.state, self.params.histogram_reach),
             score=_score(observed),
@@ -226,7 +226,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, DepthParticleState])
             (size, self._size_deviation),
             measured,
         )
-        found = ParticleSet(particles, weights, mean, covariance)
+        found = DepthParticleSet(particles, weights, mean, covariance)
         return FilteredTarget(found, state.model.observation(observed), histogram)
 
     def _recognizes(
@@ -297,7 +297,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, DepthParticleState])
         kept = velocity_kept(VELOCITY_KEPT_OCCLUDED if occluded else VELOCITY_KEPT, seconds, COASTING_RATE)
         return state._replace(
             motion=state.motion.coast(expected, kept),
-            particles=ParticleSet.at_state(expected, p.particles),
+            particles=DepthParticleSet.at_state(expected, p.particles),
             score=0.0,
             missed_seconds=missed_seconds,
             occluded=occluded,
