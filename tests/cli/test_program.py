@@ -255,10 +255,10 @@ def test_warnings_are_shown_once_but_for_their_numbers(capsys: pytest.CaptureFix
     """Frames repeat a warning with other numbers; another one, though of the same line of code, is shown."""
     with _one_line_warnings("track"):
         warnings.simplefilter("default")
-        for text in ("frame 1 is dark", "frame 2 is dark", "frame 3 has no depth"):
+        for text in ("frame 1 is dark", "frame 2 is dark", "it is 819 m", "it is 810.5 m", "it is 1e+05 m"):
             warnings.warn(text, UserWarning, stacklevel=1)
     told = capsys.readouterr().err.splitlines()
-    assert told == [f"tricue track: warning: {text}" for text in ("frame 1 is dark", "frame 3 has no depth")]
+    assert told == [f"tricue track: warning: {text}" for text in ("frame 1 is dark", "it is 819 m")]
 
 
 def test_the_help_of_the_command_lists_its_options(capsys: pytest.CaptureFixture[str]) -> None:

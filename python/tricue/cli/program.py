@@ -25,6 +25,7 @@ from tricue.errors import one_line
 
 USAGE = 2
 INTERRUPTED, CLOSED_PIPE = quiet_start.INTERRUPTED, 141
+NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[+-]\d+)?")
 MAX_LISTED = 3  # of the arguments that aren't known
 
 # The help text of each command, implemented in the module of the same name.
@@ -134,7 +135,7 @@ def _one_line_warnings(command: str) -> Iterator[None]:
     shown: set[tuple[str, int, str]] = set()
 
     def show(message: Warning | str, _category: object, filename: str, lineno: int, *_: object) -> None:
-        warning = filename, lineno, re.sub(r"\d+", "", str(message))
+        warning = filename, lineno, NUMBER.sub("", str(message))
         if warning not in shown:
             shown.add(warning)
             print(f"tricue {command}: warning: {by_options(str(message))}", file=sys.stderr)
