@@ -106,7 +106,13 @@ BAD = [
     (["track"], "tricue track: the following arguments are required: INPUT"),
     (
         ["reproduce", "sabeti-fig9"],
-        "tricue reproduce: experiment: expected one of .*sabeti-fig1.*, got 'sabeti-fig9'",
+        "tricue reproduce: EXPERIMENT: expected one of .*sabeti-fig1.*, got 'sabeti-fig9'",
+    ),
+    (["reproduce", "sabeti-fig1", "--rate", "0.1"], "tricue reproduce: --rate: expected none, as only"),
+    (["reproduce", "sabeti-fig1", "--data", "a"], "tricue reproduce: --data: expected none, as only"),
+    (
+        ["reproduce", "sabeti-roc", "--rate", "3"],
+        "tricue reproduce: --rate: expected a share, 0 to 1, got 3.0",
     ),
     (["reproduce", "sabeti-fig1", "--seeds", "0"], "tricue reproduce: .*--seeds: expected a whole number"),
     (

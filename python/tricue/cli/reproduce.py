@@ -5,6 +5,7 @@ import argparse
 from pathlib import Path
 
 from tricue.cli.arguments import count
+from tricue.cli.option_names import naming_options
 from tricue.cli.progress import Progress
 
 EXAMPLES = """\
@@ -63,7 +64,7 @@ def run(options: argparse.Namespace) -> int:
     """Run the command and print the summary; return the exit code."""
     from tricue.papers.reproduce import run
 
-    with Progress() as progress:
+    with Progress() as progress, naming_options(experiment="EXPERIMENT", data="--data", rate="--rate"):
 
         def show(done: int, total: int) -> None:
             progress.total = total
