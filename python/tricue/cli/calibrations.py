@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Finds a tracker's intrinsics or stereo rig: in a file, from angles, or in a file beside the images."""
 
+import re
 import warnings
 from argparse import Namespace
 from collections.abc import Collection
@@ -185,7 +186,8 @@ def _intrinsics_from_angles(source: Source, fov: tuple[float, ...], option: str 
     try:
         return Intrinsics.from_fov(*source.size, *fov)
     except ValueError as error:
-        raise ValueError(f"{option}: {error}") from None
+        reason = re.sub("^(?:horizontal|vertical)_deg: ", "", str(error))
+        raise ValueError(f"{option}: {reason}") from None
 
 
 def _read_file(path: Path, source: Source, cameras: Collection[str]) -> Calibration:
