@@ -30,6 +30,8 @@ def read(folder: Path, text: str) -> Truth:
         "x,y,width,height\n1,2,3,4\n5,6,7,8\n\n",
         "\ufeffx; y; w; h\n1; 2; 3; 4\n5; 6; 7; 8\n",
         "# frame\th\tw\ty\tx\n1\t8\t7\t6\t5\n0.0\t4\t3\t2\t1\n",
+        " 1  2 3 4\n5 6 7 8 \n",
+        "frame x y w h\n0 1 2 3 4\n1 5 6 7 8\n",
         "x1,y1,x2,y2\n1,2,4,6\n5,6,12,14\n",
         "frame;xmin;xmax;ymin;ymax\n0;1;4;2;6\n1;5;12;6;14\n",
         "X_min,Y_min,X_max,Y_max,label\n1,2,4,6,a\n5,6,12,14,a\n",
@@ -109,6 +111,8 @@ def test_an_empty_table(tmp_path: Path) -> None:
         ("x,y,w,h,width\n1,2,3,4,5\n", "line 1: expected columns .* each once"),
         ("x,y,w,h\n1,2,3,4\n\n1,2,3,4\n", "line 3: expected 4 values, got ''"),
         ("x,y,w,h\n1,2,3\n", "line 2: expected 4 values, got '1,2,3'"),
+        ("frame;x;y;w;h\n0;1,5;2;3;4\n", "line 2: expected a number x, got '1,5'"),
+        ("1 2 3 4\n1 2 3\n", "line 2: expected 4 values, got '1 2 3'"),
         ("1,2,3,4\n1,2,3,4,5\n", "line 2: expected 4 values"),
         ("x,y,w,h\n1,two,3,4\n", "line 2: expected a number y, got 'two'"),
         ("1,2,3,4\n1,2,inf,4\n", "line 2: expected a number width, got 'inf'"),
@@ -177,7 +181,7 @@ def test_which_table_is_found(tmp_path: Path) -> None:
     assert find_box_table(tmp_path, video) is None
     own.write_text("time,acceleration\n0,9.81\n")
     assert find_video_box_table(video) is None
-    for text in ("x,y,width\n", "1,2,3,4\n", "frame,x,y,w,h\n", "x1,y1,x2,y2\n"):
+    for text in ("x,y,width\n", "1,2,3,4\n", "1 2 3 4\n", "frame,x,y,w,h\n", "x1,y1,x2,y2\n"):
         own.write_text(text)
         assert find_video_box_table(video) == find_box_table(tmp_path, video) == own
     assert find_box_table(tmp_path) is None

@@ -119,10 +119,13 @@ def _lists_videos(path: Path) -> bool:
 
 
 def _rows(path: Path) -> Iterator[_Row]:
+    delimiter: str | None = None
     columns: tuple[str, ...] = ()
     of_box: tuple[str, ...] = ()
     for number, line in enumerate(lines_of(path), 1):
-        cells, place = _cells(line), f"{path}, line {number}"
+        if number == 1:
+            delimiter = _delimiter(line)
+        cells, place = _cells(line, delimiter), f"{path}, line {number}"
         if number == 1:
             names = _names(cells)
             columns = names or _HEADERLESS_COLUMNS.get(len(cells), ())
@@ -142,12 +145,21 @@ def _rows(path: Path) -> Iterator[_Row]:
 def _first_cells(path: Path) -> list[str]:
     """The values of a table's first line."""
     with path.open(encoding="utf-8-sig", errors="replace") as file:
-        return _cells(file.readline(10_000))
+        line = file.readline(10_000)
+    return _cells(line, _delimiter(line))
 
 
-def _cells(line: str) -> list[str]:
-    """The values of a line, separated by commas, or, if there are none, by semicolons or tabs."""
-    delimiter = next((mark for mark in ",;\t" if mark in line), ",")
+def _delimiter(line: str) -> str | None:
+    """What separates the values of a table with this first line: semicolons, beside which commas are of
+    decimals, tabs or commas; None for blanks.
+    """
+    return next((mark for mark in ";\t," if mark in line), None)
+
+
+def _cells(line: str, delimiter: str | None) -> list[str]:
+    """The values of a line."""
+    if delimiter is None:
+        return line.split()
     try:
         return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter), [])]
     except csv.Error:  # a cell longer than csv's limit
