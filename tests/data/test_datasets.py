@@ -155,3 +155,9 @@ def test_a_list_of_videos_hides_no_sequence(tmp_path: Path) -> None:
     text(tmp_path / "a.csv")
     (tmp_path / "boxes.csv").write_text("a.mp4,1,2,30,40\nb.mp4,1,2,30,40\n")
     assert find_sequences(tmp_path) == [tmp_path / "a.mp4"]
+
+
+def test_a_missing_folder_is_told(tmp_path: Path) -> None:
+    """It proves that it is told in the words of :func:`tricue.open_source`, not of the system."""
+    with pytest.raises(FileNotFoundError, match=r"nowhere: there is no such file or folder$"):
+        find_sequences(tmp_path / "nowhere")

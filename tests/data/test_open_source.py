@@ -368,7 +368,9 @@ def test_topics_and_targets_of_no_folder(place: str) -> None:
     with pytest.raises(ValueError, match=r"^topics: expected with a recording .*; leave it out$") as told:
         open_source(place, topics={"color": "/a"})
     assert "word" not in str(told.value)
-    with pytest.raises(ValueError, match=r": expected target to be none, for it has one .* 'Car 1'$") as told:
+    with pytest.raises(
+        ValueError, match=r": expected no target, as it has only one, got 'Car 1'; leave it out$"
+    ) as told:
         open_source(place, target="Car 1")
     assert "word" not in str(told.value)
 

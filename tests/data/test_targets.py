@@ -116,11 +116,13 @@ def test_unknown_targets_are_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="expected target to be one of 'Car 7', 'Car 9', got 'Van 8'"):
         open_source(root, target="Van 8")
     alone = images(tmp_path / "alone", range(2))
-    with pytest.raises(ValueError, match="alone: expected target to be none, for it has one target, got '1'"):
+    with pytest.raises(
+        ValueError, match="alone: expected no target, as it has only one, got '1'; leave it out"
+    ):
         open_source(alone, target="1")
     recording = alone / "walk.bag"
     recording.touch()
-    with pytest.raises(ValueError, match=r"walk\.bag: expected target to be none, for it has one target"):
+    with pytest.raises(ValueError, match=r"walk\.bag: expected no target, as it has only one"):
         open_source(recording, target="1")
     assert list_targets(alone) == ()
 

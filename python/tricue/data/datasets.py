@@ -16,8 +16,11 @@ def find_sequences(root: str | Path) -> list[Path]:
     These are folders with true boxes or KITTI's labels, and video files with a table of boxes beside them.
     Folders inside a sequence aren't searched; others are searched once, however many links lead to them. No
     image is read, so malformed sequences are included; opening one says what is wrong with it.
+    FileNotFoundError for a root that doesn't exist.
     """
     root = Path(root)
+    if not root.exists():
+        raise FileNotFoundError(f"{root}: there is no such file or folder")
     if root.is_file():
         return [root] if _is_sequence_video(root) else []
     return natural_order(_below(root, set()))

@@ -153,8 +153,10 @@ def _truth_path(folder: Path, target: str | None) -> Path | None:
 def check_target(target: str, known: Sequence[str], place: str | Path) -> None:
     """Raise ValueError, which lists the known targets, if a place (a folder, a file, a camera) lacks one."""
     if target not in known:
-        listed = f"one of {', '.join(map(repr, known))}" if known else "none, for it has one target"
-        raise ValueError(f"{place}: expected target to be {listed}, got {target!r}")
+        if not known:
+            raise ValueError(f"{place}: expected no target, as it has only one, got {target!r}; leave it out")
+        listed = ", ".join(map(repr, known))
+        raise ValueError(f"{place}: expected target to be one of {listed}, got {target!r}")
 
 
 def read_box(line: str, place: str, count: int | None = None) -> tuple[float, ...]:
