@@ -131,8 +131,10 @@ def test_a_full_disk_is_told_with_the_page(folders, capsys):
     ("content", "message"),
     [
         (None, "there is no evaluation.json in it"),
-        ("{", "expected the tables of tricue evaluate"),
-        ('{"rows": []}', "expected the tables of tricue evaluate"),
+        ("{", "expected the tables of tricue evaluate, got a file that isn't JSON: Expecting"),
+        ("[1]", "expected the tables of tricue evaluate, found no rows of runs"),
+        ('{"rows": []}', "expected the tables of tricue evaluate, found no rows of runs"),
+        ('{"rows": [{"sequence": "a"}]}', "expected the tables of tricue evaluate, found no rows of runs"),
     ],
 )
 def test_what_is_no_evaluation_is_told(folders, tmp_path, content, message, capsys):

@@ -133,12 +133,19 @@ def _read(folder: Path) -> dict[str, Any]:
         raise ValueError(f"{folder}: expected a folder of tricue evaluate, there is none of that name")
     if not path.is_file():
         raise ValueError(f"{folder}: expected a folder of tricue evaluate, there is no {JSON} in it")
+    expected = f"{path}: expected the tables of tricue evaluate"
     try:
         content: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-        content["rows"][0]["sequence"]
-    except (ValueError, KeyError, IndexError, TypeError) as error:
-        raise ValueError(f"{path}: expected the tables of tricue evaluate, got {error!r}") from None
+    except ValueError as error:
+        raise ValueError(f"{expected}, got a file that isn't JSON: {error}") from None
+    rows = content.get("rows") if isinstance(content, dict) else None
+    if not isinstance(rows, list) or not rows or not all(map(_is_row, rows)):
+        raise ValueError(f"{expected}, found no rows of runs")
     return content
+
+
+def _is_row(row: Any) -> bool:
+    return isinstance(row, dict) and {"group", "sequence", "tracker"} <= row.keys()
 
 
 def _values(content: Mapping[str, Any], number: str) -> dict[tuple[str, str, str], dict[str, float]]:
