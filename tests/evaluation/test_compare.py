@@ -70,18 +70,19 @@ def test_too_few_recordings_for_many_lines(tmp_path, capsys):
 
 
 @pytest.mark.parametrize(
-    ("options", "code"),
+    ("options", "code", "reason"),
     [
-        ([], 0),
-        (["--fail-if-worse"], 1),
-        (["--fail-under", "-0.2"], 0),
-        (["--fail-under", "-0.08"], 1),
+        ([], 0, ""),
+        (["--fail-if-worse"], 1, "failed: fused, one-pass: worse\n"),
+        (["--fail-under", "-0.2"], 0, ""),
+        (["--fail-under", "-0.08"], 1, "failed: fused, one-pass: a mean gain of -0.085, under -0.08\n"),
     ],
 )
-def test_the_exit_code_is_asked_for(folders, options, code, capsys):
-    """Without options a comparison is no failure, however bad."""
+def test_the_exit_code_is_asked_for(folders, options, code, reason, capsys):
+    """Without options a comparison is no failure, however bad; one is told with its reason."""
     assert main(["compare", *map(str, folders), *options]) == code
-    printed = capsys.readouterr().out
+    printed, error = capsys.readouterr()
+    assert error == reason
     assert "| fused " in printed
     assert "worse" in printed
     assert "lost most: s7 0.500 to 0.380" in printed

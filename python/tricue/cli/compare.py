@@ -2,6 +2,8 @@
 """``tricue compare OLD NEW``: two folders of tricue evaluate, and what got worse."""
 
 import argparse
+import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 from tricue.cli.arguments import number
@@ -56,10 +58,20 @@ def run(options: argparse.Namespace) -> int:
             print(f"{change.tracker}, {change.protocol}, lost most: {listed}")
     if options.report:
         print(f"wrote {write_compare_page(found, options.old, options.new, options.report)}")
-    failed = options.fail_if_worse and any(each.verdict == "worse" for each in found.changes)
-    if options.fail_under is not None:
-        failed = failed or any(each.gain < options.fail_under for each in found.changes)
-    return WORSE if failed else 0
+    failures = [*_failures(found, options)]
+    for failure in failures:
+        print(f"failed: {failure}", file=sys.stderr)
+    return WORSE if failures else 0
+
+
+def _failures(found: Comparison, options: argparse.Namespace) -> Iterator[str]:
+    """Why the exit code is 1."""
+    for each in found.changes:
+        if options.fail_if_worse and each.verdict == "worse":
+            yield f"{each.tracker}, {each.protocol}: worse"
+        elif options.fail_under is not None and each.gain < options.fail_under:
+            gain = signed(each.gain, 3)
+            yield f"{each.tracker}, {each.protocol}: a mean gain of {gain}, under {options.fail_under:g}"
 
 
 def table(found: Comparison) -> str:
