@@ -249,6 +249,14 @@ def test_a_missing_extra_is_told_before_anything_runs(
     assert not list(tmp_path.rglob("*.json"))
 
 
+def test_a_table_that_cannot_be_written_is_told_before_anything_runs(dataset, tmp_path, capsys):
+    """Not after hours of runs."""
+    words = ["evaluate", str(dataset), "--output", str(tmp_path / "out"), "--latex", str(tmp_path)]
+    assert main(words) == 2
+    assert capsys.readouterr().err == f"tricue evaluate: {tmp_path}: Is a directory\n"
+    assert not list(tmp_path.rglob("*.json"))
+
+
 OWN = """
 import os, time
 from pathlib import Path

@@ -13,6 +13,7 @@ from tricue.cli.arguments import any_tracker_names, count, seconds, words
 from tricue.cli.option_names import by_options, naming_options
 from tricue.cli.progress import Progress
 from tricue.cli.settings import read_settings, third_party_settings
+from tricue.draw.writable import check_writable
 from tricue.evaluation import baselines, tables
 from tricue.evaluation.attributes.measure import measure_all
 from tricue.evaluation.dataset import ReadOptions
@@ -175,6 +176,8 @@ def run(options: argparse.Namespace) -> int:
     svg.require()  # fail now, not after hours
     if options.raw is not None:
         check_folder(options.raw)
+    if options.latex is not None:
+        check_writable(options.latex)
     with naming_options(formats="--figures"):
         check_formats(options.figures)
     folder: Path = options.output
