@@ -320,6 +320,8 @@ class Video:
             ) from None
         capture = cv2.VideoCapture(self._name)
         if not capture.isOpened():
+            if self._is_remote:
+                raise ValueError(f"{self.place}: expected a video, none can be opened; is the address right?")
             raise ValueError(f"{self.place}: expected a video, this file can't be opened as one")
         return capture
 
