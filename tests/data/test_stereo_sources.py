@@ -204,6 +204,16 @@ class LevelCamera:
         pass
 
 
+def test_one_camera_is_no_pair(tmp_path: Path) -> None:
+    """It proves that the left images aren't taken as the right ones, too, by whatever name."""
+    left = images(tmp_path / "a", 10)
+    for right in (left, str(left), tmp_path / "a" / ".." / "a"):
+        with pytest.raises(ValueError, match=r"^right=.*a: expected other images than the left camera's"):
+            open_source(left, right=right)
+    with pytest.raises(ValueError, match=r"^right=rtsp://host/x: expected other images"):
+        open_source("rtsp://me:word@host/x", right="rtsp://me:word@host/x")
+
+
 def test_two_cameras(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """It proves that two cameras are a pair, with a word on their times; a camera and a folder are none."""
     monkeypatch.setattr(cv2, "VideoCapture", LevelCamera)

@@ -72,6 +72,8 @@ def open_source(
     place = _checked(place, "place")
     if depth_scale is not None and depth is None:
         _refuse_scale_of_device(place)
+    if right is not None:
+        _refuse_same(place, _checked(right, "right"))
     source = _opened(place, depth_scale, target, topics, timeout)
     shown = without_password(str(place))
     try:
@@ -164,6 +166,14 @@ def _refuse_target(target: str | None, place: str | Path) -> None:
     """ValueError if a target is named for a place that has only one."""
     if target is not None:
         check_target(target, (), place)
+
+
+def _refuse_same(left: str | Path, right: str | Path) -> None:
+    """ValueError if the right camera's images are the left one's: all would be infinitely far away."""
+    paths = Path(left), Path(right)
+    if left == right or (all(path.exists() for path in paths) and paths[0].samefile(paths[1])):
+        shown = without_password(str(right))
+        raise ValueError(f"right={shown}: expected other images than the left camera's, got the same")
 
 
 def live_device(place: str) -> Device | None:
