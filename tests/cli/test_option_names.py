@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 import pytest
 import tricue
-from tricue.cli.option_names import by_options, naming_options
+from tricue.cli.option_names import ADVICE, by_options, naming_options
 from tricue.cli.program import main
 
 PACKAGE = Path(tricue.__file__).parent
@@ -40,6 +40,16 @@ def test_no_message_of_the_library_names_an_option() -> None:
     assert named == {("data/recordings/recording.py", ": expected unpacked files; zstd -d --rm ")}
 
 
+@pytest.mark.parametrize("advice", ADVICE)
+def test_what_messages_advise_is_still_in_the_library(advice: str) -> None:
+    """Another wording there would leave the command line without its options."""
+    files = (file for file in PACKAGE.rglob("*.py") if "cli" not in file.relative_to(PACKAGE).parts)
+    told = by_options(advice)
+    assert any(advice in text for file in files for text in texts(file))
+    assert "--" in told
+    assert by_options(told) == told
+
+
 @pytest.mark.parametrize(
     ("message", "told"),
     [
@@ -59,6 +69,10 @@ def test_no_message_of_the_library_names_an_option() -> None:
         ("a: expected color beside depth=d, found", "a: expected color beside --depth d, found"),
         ("fps=15: expected with images", "--fps 15: expected with images"),
         ("port=80: the port is in use", "--port 80: the port is in use"),
+        (
+            "baseline: 60 m is wide; is it in meters?",
+            "baseline: 60 m is wide; is the calibration in meters (--unit)?",
+        ),
         ("depth: expected as many images", "depth: expected as many images"),
         ("/data/depth_scale/a.png: no", "/data/depth_scale/a.png: no"),
         ("my-depth_scale.toml: no", "my-depth_scale.toml: no"),

@@ -13,13 +13,14 @@ _SCALE = re.compile(r"(?<![\w/.-])depth_scale=(?=[\w.])")
 _TOPICS = re.compile(r"(?<![\w/.-])topics=\{([^}]*)\}")
 _TOPIC = re.compile(r"'([^']*)': '([^']*)'")
 _NAME = re.compile(r"(?<![\w/.-])(?:(depth_scale|time_limit)\b(?![/.-])|topics=)")
-_CALLS = {
+ADVICE = {
     "rectify the raw images by tricue.camera.rectification.Rectification": "give the raw images and "
     "--calibration FILE --rectify",
     "(tricue.camera.registration.Registration)": "(tricue.camera.registration.Registration, or "
     "--calibration FILE)",
+    "m is wide; is it in meters?": "m is wide; is the calibration in meters (--unit)?",
 }
-"""What the command line has in place of calls that messages advise."""
+"""What the command line has in place of, or beside, what messages advise."""
 
 
 def by_options(text: str, **options: str) -> str:
@@ -33,8 +34,8 @@ def by_options(text: str, **options: str) -> str:
     text = _SCALE.sub("--depth-scale ", text)
     text = _TOPICS.sub(lambda found: f"--topics {','.join(map('='.join, _TOPIC.findall(found[1])))}", text)
     text = _NAME.sub(lambda found: f"--{(found[1] or 'topics').replace('_', '-')}", text)
-    for call, option in _CALLS.items():
-        text = text.replace(call, option)
+    for advice, option in ADVICE.items():
+        text = text.replace(advice, option)
     return text
 
 
