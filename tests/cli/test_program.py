@@ -123,6 +123,7 @@ BAD = [
     (["info", ""], "tricue info: an argument is empty; is a shell variable unset?"),
     (["evaluate", "{walk}", "--output", ""], "tricue evaluate: an argument is empty"),
     (["track", "{walk}", "--box", "1,2,3,4", "--csv="], "tricue track: argument --csv: it is empty"),
+    (["--verbose", "info", "a.mp4"], r"tricue: unrecognized arguments: --verbose; see tricue --help"),
     (["fly"], "tricue: argument COMMAND: invalid choice: 'fly'"),
     ([], "tricue: the following arguments are required: COMMAND"),
 ]

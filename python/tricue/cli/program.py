@@ -88,7 +88,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             stream.reconfigure(errors="backslashreplace")
     words = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        commands = parser(words[0] if words else "")
+        commands = parser(next((word for word in words if not word.startswith("-")), ""))
         quiet_start.end()
         options = commands.parse_args(words)
     except KeyboardInterrupt:  # importing a tracker, or the command from Python, takes a while
