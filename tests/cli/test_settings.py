@@ -36,7 +36,7 @@ def test_settings_are_numbers_words_or_tuples() -> None:
 @pytest.mark.parametrize("setting", ["particles", "=3", "two words=3"])
 def test_other_settings_are_refused(setting: str) -> None:
     """It proves that what isn't name=value is an error that shows it."""
-    with pytest.raises(ValueError, match=r"^--set: expected name=value, got "):
+    with pytest.raises(ValueError, match=rf"^--set: expected name=value, got '{setting}'$"):
         parse_settings([setting])
 
 

@@ -78,9 +78,9 @@ def papers() -> tuple[str, ...]:
 def parse_settings(settings: Sequence[str]) -> dict[str, Any]:
     """Keywords from strings name=value; values are numbers, true, false, tuples such as 16,20, or text."""
     pairs = [setting.partition("=") for setting in settings]
-    for name, equals, _ in pairs:
+    for setting, (name, equals, _) in zip(settings, pairs, strict=True):
         if not (equals and name.isidentifier()):
-            raise ValueError(f"--set: expected name=value, got {name + equals!r}")
+            raise ValueError(f"--set: expected name=value, got {setting!r}")
     return {name: _literal(text.strip()) for name, _, text in pairs}
 
 
