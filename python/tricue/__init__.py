@@ -4,10 +4,8 @@
 import importlib
 from typing import TYPE_CHECKING, Any
 
-from tricue import quiet_start
 from tricue.doctor.called import is_called as doctor_is_called
 
-quiet_start.begin()
 if not doctor_is_called():  # it has to run, and say what is wrong, even if none of this can be imported
     try:
         importlib.import_module("tricue._core")

@@ -18,13 +18,12 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 import tricue
-from tricue import quiet_start
 from tricue.cli.option_names import by_options
 from tricue.cli.signals import clean_exits
 from tricue.errors import one_line
 
 USAGE = 2
-INTERRUPTED, CLOSED_PIPE = quiet_start.INTERRUPTED, 141
+INTERRUPTED, CLOSED_PIPE = 130, 141
 NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[+-]\d+)?")
 MAX_LISTED = 3  # of the arguments that aren't known
 
@@ -88,10 +87,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
             stream.reconfigure(errors="backslashreplace")
     words = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        commands = parser(next((word for word in words if not word.startswith("-")), ""))
-        quiet_start.end()
-        options = commands.parse_args(words)
-    except KeyboardInterrupt:  # importing a tracker, or the command from Python, takes a while
+        command = next((word for word in words if not word.startswith("-")), "")
+        options = parser(command).parse_args(words)
+    except KeyboardInterrupt:  # importing the command takes a while
         print("tricue: interrupted", file=sys.stderr)
         return INTERRUPTED
     try:

@@ -75,7 +75,7 @@ def test_times():
 def test_errors_end_with_a_line(walk, tmp_path, capsys):
     """A folder without sequences, and an unknown target."""
     for words, error in (
-        ([str(tmp_path / "nowhere")], "No such file"),
+        ([str(tmp_path / "nowhere")], "there is no such file"),
         ([str(walk), "--only", "walker"], "expected some of walk, got 'walker'"),
     ):
         with pytest.raises(SystemExit):
