@@ -114,12 +114,15 @@ BINDING = """
 """
 
 
-def build(folder: Path, header: str) -> subprocess.CompletedProcess[str]:
+GROUPED = 'm.def("shift", shift_arrays, py::arg("values"), py::arg("range"), docs::shift);\n'
+
+
+def build(folder: Path, header: str, binding: str = BINDING) -> subprocess.CompletedProcess[str]:
     """Run the tool on a tree with one kernel, as the build does."""
     (folder / "cpp" / "fuse").mkdir(parents=True)
     (folder / "python" / "bindings").mkdir(parents=True)
     (folder / "cpp" / "fuse" / "shift.hpp").write_text(header)
-    (folder / "python" / "bindings" / "fuse.cpp").write_text(BINDING)
+    (folder / "python" / "bindings" / "fuse.cpp").write_text(binding)
     return run(str(TOOL), "--root", str(folder), "--header", str(folder / "kernel_docs.hpp"))
 
 
@@ -131,6 +134,27 @@ def test_struct_fields_become_parameters(tmp_path: Path) -> None:
     assert 'shift = R"doc(Adds an offset.\n' in text
     assert "Args:\n    values: float64 (N,)\n    low, high: of the values, meters\n" in text
     assert "Raises:\n    ValueError: on no values)doc" in text
+
+
+def test_structs_become_tuples(tmp_path: Path) -> None:
+    """A struct that the binding takes whole is a tuple, described field by field."""
+    found = build(tmp_path, WHOLE, GROUPED)
+    assert found.returncode == 0, found.stderr
+    text = (tmp_path / "kernel_docs.hpp").read_text()
+    wanted = "    range: a tuple (low, high):\n        - low, high: of the values, meters\n"
+    assert f"Args:\n    values: float64 (N,)\n{wanted}\nReturns:" in text
+
+
+@pytest.mark.parametrize("name", KERNELS)
+def test_tuples_have_the_parts_that_are_described(name: str) -> None:
+    """The signature, which is the binding's, has as many types in a tuple as the text has names."""
+    described = dict(re.findall(r"(?m)^    (\w+): a tuple \((.*(?:\n {8}.*)*?)\):$", contract(name)))
+    annotations = {each.arg: each.annotation for each in STUB[name].args.args}
+    for parameter, names in described.items():
+        annotation = annotations[parameter]
+        assert isinstance(annotation, ast.Subscript)
+        assert isinstance(annotation.slice, ast.Tuple)
+        assert len(annotation.slice.elts) == len(names.split(",")), parameter
 
 
 @pytest.mark.parametrize(

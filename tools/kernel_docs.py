@@ -3,8 +3,9 @@
 --markdown writes docs/kernels.md, and --check fails if docs/kernels.md is out of date.
 
 A contract is the `///` comment before a kernel's declaration. Each parameter that the binding names is
-described there by `@param name`, or, if it is a field of a struct that the kernel takes, by that field's
-comment. `@returns` describes the result; without it, the fields of the returned struct do.
+described there by `@param name`. A struct that the kernel takes is a tuple in Python, described by the
+comments of its fields; so is a single field that the binding takes by itself. `@returns` describes the
+result; without it, the fields of the returned struct do.
 """
 
 import argparse
@@ -12,7 +13,7 @@ import difflib
 import re
 import sys
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
@@ -38,10 +39,17 @@ class ContractError(Exception):
 
 
 class Entry(NamedTuple):
-    """The description of one or several names: parameters or results."""
+    """The description of one or several names: parameters or results. parts: of a tuple, one by one."""
 
     names: tuple[str, ...]
     text: str
+    parts: "tuple[Entry, ...]" = ()
+
+    @classmethod
+    def of_tuple(cls, name: str, parts: "list[Entry]") -> "Entry":
+        """The description of a parameter that is a tuple."""
+        each = ", ".join(name for part in parts for name in part.names)
+        return cls((name,), f"a tuple ({each}):", tuple(parts))
 
 
 @dataclass
@@ -168,12 +176,22 @@ def read_contract(cpp: Path, binding: Binding, structs: dict[str, list[Entry]]) 
     contract = Contract(
         binding.name, header.parent.relative_to(cpp), binding.signature, comment.body, source=""
     )
-    taken = [entry for name in re.findall(r"\w+", found[3]) for entry in structs.get(name, [])]
+    taken = list(_taken(found[3], structs, binding.parameters))
     try:
         _fill(contract, comment.tags, list(binding.parameters), taken, structs.get(found[2], []))
     except ContractError as error:
         raise ContractError(f"{where}: {error}") from None
     return contract
+
+
+def _taken(parameters: str, structs: dict[str, list[Entry]], wanted: Container[str]) -> Iterator[Entry]:
+    """What the structs among a declaration's parameters describe: a tuple, or else fields of their own."""
+    for struct, name in re.findall(r"(\w+)>*&? (\w+)(?= = |,|$)", " ".join(parameters.split())):
+        fields = structs.get(struct, [])
+        if fields and name in wanted and not any(each in wanted for entry in fields for each in entry.names):
+            yield Entry.of_tuple(name, fields)
+        else:
+            yield from fields
 
 
 def _fill(
@@ -196,7 +214,7 @@ def _fill(
             raise ContractError(f"parameter {name} is described neither by @param nor by a struct's field")
         if len(entries) > 1:
             raise ContractError(f"parameter {name} is described more than once: it needs one @param")
-        kept = Entry(tuple(other for other in entries[0].names if other in wanted), entries[0].text)
+        kept = entries[0]._replace(names=tuple(other for other in entries[0].names if other in wanted))
         if kept not in contract.parameters:
             contract.parameters.append(kept)
     texts = [text for tag, text in tags if tag == "returns"]
@@ -259,16 +277,21 @@ def docstring(contract: Contract) -> str:
             text.append(wrap(" ".join(lines), "", "  " if kind == "item" else ""))
         else:
             text.extend(lines)
-    text += ["", "Args:"]
-    text += [wrap(f"{', '.join(names)}: {words}", " " * 4, " " * 8) for names, words in contract.parameters]
-    text += ["", "Returns:"]
-    for names, words in contract.returns:
-        text.append(wrap(f"{', '.join(names)}: {words}" if names else words, " " * 4, " " * 8))
+    text += ["", "Args:", *_entries(contract.parameters)]
+    text += ["", "Returns:", *_entries(contract.returns)]
     if contract.raises:
         text += ["", "Raises:", *(wrap(words, " " * 4, " " * 8) for words in contract.raises)]
     if contract.source:
         text += ["", wrap(f"Source: {contract.source}")]
     return "\n".join(text)
+
+
+def _entries(entries: Sequence[Entry], indent: str = " " * 4, mark: str = "") -> Iterator[str]:
+    """The lines of a docstring's section; those of a tuple's parts are items of a list."""
+    for names, words, parts in entries:
+        text = f"{', '.join(names)}: {words}" if names else words
+        yield wrap(mark + text, indent, indent + " " * (len(mark) or 4))
+        yield from _entries(parts, indent + " " * 4, "- ")
 
 
 def cpp_header(contracts: list[Contract]) -> str:
@@ -308,9 +331,9 @@ def _section(contract: Contract) -> str:
         else:
             text.append(wrap(escape(" ".join(lines)), "", "  " if kind == "item" else "", 120))
     text += ["", "Arguments:", ""]
-    text += [_bullet(entry) for entry in contract.parameters]
+    text += _bullets(contract.parameters)
     text += ["", "Returns:", ""]
-    text += [_bullet(entry) for entry in contract.returns]
+    text += _bullets(contract.returns)
     for words in contract.raises:
         kind, _, why = words.partition(": ")
         text += ["", wrap(f"Raises `{kind}` {escape(why)}.", width=120)]
@@ -329,9 +352,12 @@ def _code(signature: str) -> list[str]:
     return [f"{name}(", *(f"    {part}," for part in rest.split(", ")), ")"]
 
 
-def _bullet(entry: Entry) -> str:
-    names = ", ".join(f"`{name}`" for name in entry.names)
-    return wrap(f"{names}: {escape(entry.text)}" if names else escape(entry.text), "- ", "  ", 120)
+def _bullets(entries: Sequence[Entry], indent: str = "") -> Iterator[str]:
+    for names, words, parts in entries:
+        named = ", ".join(f"`{name}`" for name in names)
+        text = f"{named}: {escape(words)}" if names else escape(words)
+        yield wrap(text, f"{indent}- ", f"{indent}  ", 120)
+        yield from _bullets(parts, indent + "  ")
 
 
 def write(file: Path, text: str) -> None:

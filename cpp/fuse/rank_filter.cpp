@@ -41,11 +41,11 @@ void add_logarithms(VectorRef weights, Vector& log_likelihood) {
 
 /// The noise of both semi-axes mixed, with the same rounding as a matrix product.
 States mixed(const EllipseNoise& noise, Eigen::Index N) {
-    require_shape(noise.noise, N, 4, "noise");
+    require_shape(noise.white, N, 4, "white");
     const double common = noise.correlation;
     if (!(std::abs(common) <= 1.0)) refuse("correlation", "a number in [-1, 1]", common);
     const double own = std::sqrt(1.0 - common * common);
-    States numbers = noise.noise;
+    States numbers = noise.white;
     for (Eigen::Index i = 0; i < N; ++i) numbers(i, 3) = std::fma(numbers(i, 3), own, numbers(i, 2) * common);
     return numbers;
 }
@@ -55,11 +55,11 @@ States mixed(const EllipseNoise& noise, Eigen::Index N) {
 FilteredEllipses rank_filter(const ImageView& image, const WeightedEllipses& last, const EllipseNoise& noise,
                              const Dynamics& dynamics, const Bounds& bounds, const Detection& detection,
                              const EllipsePattern& pattern, const ColorAppearance& appearance,
-                             const LikelihoodWeights& weights, double flat) {
+                             const LikelihoodFactors& factors, double flat) {
     require_valid(last);
     const States before = chosen(last);
     States moved = propose(before, dynamics, mixed(noise, before.rows()), detection, bounds);
-    RankLikelihood likelihood(image, pattern, appearance, weights);
+    RankLikelihood likelihood(image, pattern, appearance, factors);
     Vector log_likelihood = likelihood.log_likelihood(moved);
     if (!last.offset) add_logarithms(last.weights, log_likelihood);
     Reweighted posterior = reweight(log_likelihood, moved, before, dynamics, detection);

@@ -20,7 +20,7 @@ struct WeightedEllipses {
 
 /// The noise that moves particles.
 struct EllipseNoise {
-    StatesRef noise;  ///< float64 (N, 4): independent standard normal numbers
+    StatesRef white;  ///< float64 (N, 4): independent standard normal numbers
     double
         correlation;  ///< of both semi-axes' noise, made by mixing the minor one's into the major one's, in [-1, 1]
 };
@@ -43,12 +43,15 @@ struct FilteredEllipses {
 /// particles stay in the cache between these steps.
 ///
 /// @param image uint8 (H, W, 3) BGR, at least one pixel, 2 GB at most
+/// @param dynamics (drift, scale), four numbers each, as in propose
+/// @param bounds (lower, upper), four numbers each, as in propose
+/// @param detection (mean, root, share): two numbers, the three of the root's lower triangle by rows, and the share, as in propose
 /// @param flat as in rank_window
 /// @throws std::invalid_argument as the kernels that it combines, and on a correlation outside [-1, 1]
 /// Source: Sabeti, Parvizi, Wu 2008, section III, equations (2), (30), (31).
 FilteredEllipses rank_filter(const ImageView& image, const WeightedEllipses& last, const EllipseNoise& noise,
                              const Dynamics& dynamics, const Bounds& bounds, const Detection& detection,
                              const EllipsePattern& pattern, const ColorAppearance& appearance,
-                             const LikelihoodWeights& weights, double flat);
+                             const LikelihoodFactors& factors, double flat);
 
 }  // namespace tricue

@@ -15,6 +15,7 @@
 #include "cues/color/sample_ellipses.hpp"
 #include "cues/color/section_distance.hpp"
 #include "kernel_docs.hpp"
+#include "rank_arguments.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -48,36 +49,30 @@ Array<double> rank_distance_arrays(const Bytes& pixels, const Array<float>& mode
 }
 
 Array<double> rank_likelihood_arrays(const Bytes& image, const Array<double>& ellipses,
-                                     const Array<double>& inside, const Array<double>& around,
-                                     const Array<float>& models, const Array<double>& shares, bool nearest,
-                                     const Array<float>& table, double sharpness, double contrast_weight) {
+                                     const PatternTuple& pattern, const AppearanceTuple& appearance,
+                                     const FactorsTuple& factors) {
     const auto view = color_image(image, "image");
     const auto each = states(ellipses, "ellipses");
-    const EllipsePattern pattern{states(inside, "inside"), states(around, "around")};
-    const auto places = pattern.inside.rows();
-    const ColorAppearance appearance{rank_maps(models, places), vector(shares, "shares"), nearest,
-                                     color_cube(table)};
-    const LikelihoodWeights weights{sharpness, contrast_weight};
-    return give(unlocked(each.rows() * places,
-                         [&] { return rank_likelihood(view, each, pattern, appearance, weights); }));
+    const EllipsePattern places = ellipse_pattern(pattern);
+    const auto n = places.inside.rows();
+    const ColorAppearance target = color_appearance(appearance, n);
+    const LikelihoodFactors nats = likelihood_factors(factors);
+    return give(unlocked(each.rows() * n, [&] { return rank_likelihood(view, each, places, target, nats); }));
 }
 
-std::tuple<Array<double>, double, double> rank_search_arrays(
-    const Bytes& image, const Array<double>& ellipse, const Array<double>& offsets,
-    const Array<double>& inside, const Array<double>& around, const Array<float>& models,
-    const Array<double>& shares, bool nearest, const Array<float>& table, double sharpness,
-    double contrast_weight) {
+std::tuple<Array<double>, double, double> rank_search_arrays(const Bytes& image, const Array<double>& ellipse,
+                                                             const Array<double>& offsets,
+                                                             const PatternTuple& pattern,
+                                                             const AppearanceTuple& appearance,
+                                                             const FactorsTuple& factors) {
     const auto view = color_image(image, "image");
     const auto where = vector(ellipse, "ellipse");
     const auto windows = states(offsets, "offsets");
-    const EllipsePattern pattern{states(inside, "inside"), states(around, "around")};
-    const auto places = pattern.inside.rows();
-    const ColorAppearance appearance{rank_maps(models, places), vector(shares, "shares"), nearest,
-                                     color_cube(table)};
-    const LikelihoodWeights weights{sharpness, contrast_weight};
-    const auto work = work_of(windows.rows() + 1, places + pattern.around.rows());
-    auto found =
-        unlocked(work, [&] { return rank_search(view, where, windows, pattern, appearance, weights); });
+    const EllipsePattern places = ellipse_pattern(pattern);
+    const ColorAppearance target = color_appearance(appearance, places.inside.rows());
+    const auto work = work_of(windows.rows() + 1, places.inside.rows() + places.around.rows());
+    const LikelihoodFactors nats = likelihood_factors(factors);
+    auto found = unlocked(work, [&] { return rank_search(view, where, windows, places, target, nats); });
     return {give(std::move(found.ellipse)), found.log_likelihood, found.log_likelihood_here};
 }
 
@@ -103,15 +98,14 @@ Array<float> learn_ranks_arrays(const Array<float>& models, const Array<float>& 
 }
 
 std::tuple<Array<float>, Array<float>, Array<float>> learn_contrast_arrays(
-    const Bytes& image, const Array<double>& ellipse, const Array<double>& inside,
-    const Array<double>& around, const Array<float>& target, const Array<float>& surround, double rate,
-    double rare) {
+    const Bytes& image, const Array<double>& ellipse, const PatternTuple& pattern, const Array<float>& target,
+    const Array<float>& surround, double rate, double rare) {
     const auto view = color_image(image, "image");
     const auto where = vector(ellipse, "ellipse");
-    const EllipsePattern pattern{states(inside, "inside"), states(around, "around")};
+    const EllipsePattern places = ellipse_pattern(pattern);
     const auto known = color_cube(target, "target"), other = color_cube(surround, "surround");
-    auto [own, round, rule] = unlocked(
-        known.size(), [&] { return learn_contrast(view, where, pattern, known, other, rate, rare); });
+    auto [own, round, rule] =
+        unlocked(known.size(), [&] { return learn_contrast(view, where, places, known, other, rate, rare); });
     const std::vector<py::ssize_t> cube(3, known.cols());
     return {give(std::move(own), cube), give(std::move(round), cube), give(std::move(rule), cube)};
 }
@@ -156,18 +150,15 @@ void define_color(py::module_& m) {
     m.def("sample_ellipses", sample_ellipses_arrays, py::arg("image"), py::arg("ellipses"),
           py::arg("pattern"), docs::sample_ellipses);
     m.def("color_ranks", color_ranks_arrays, py::arg("samples"), docs::color_ranks);
-    m.def("learn_contrast", learn_contrast_arrays, py::arg("image"), py::arg("ellipse"), py::arg("inside"),
-          py::arg("around"), py::arg("target"), py::arg("surround"), py::arg("rate"), py::arg("rare"),
-          docs::learn_contrast);
+    m.def("learn_contrast", learn_contrast_arrays, py::arg("image"), py::arg("ellipse"), py::arg("pattern"),
+          py::arg("target"), py::arg("surround"), py::arg("rate"), py::arg("rare"), docs::learn_contrast);
     m.def("learn_ranks", learn_ranks_arrays, py::arg("models"), py::arg("ranks"), py::arg("rate"),
           docs::learn_ranks);
     m.def("rank_distance", rank_distance_arrays, py::arg("samples"), py::arg("models"), docs::rank_distance);
-    m.def("rank_likelihood", rank_likelihood_arrays, py::arg("image"), py::arg("ellipses"), py::arg("inside"),
-          py::arg("around"), py::arg("models"), py::arg("shares"), py::arg("nearest"), py::arg("table"),
-          py::arg("sharpness"), py::arg("contrast_weight"), docs::rank_likelihood);
+    m.def("rank_likelihood", rank_likelihood_arrays, py::arg("image"), py::arg("ellipses"),
+          py::arg("pattern"), py::arg("appearance"), py::arg("factors"), docs::rank_likelihood);
     m.def("rank_search", rank_search_arrays, py::arg("image"), py::arg("ellipse"), py::arg("offsets"),
-          py::arg("inside"), py::arg("around"), py::arg("models"), py::arg("shares"), py::arg("nearest"),
-          py::arg("table"), py::arg("sharpness"), py::arg("contrast_weight"), docs::rank_search);
+          py::arg("pattern"), py::arg("appearance"), py::arg("factors"), docs::rank_search);
     m.def("rank_window", rank_window_arrays, py::arg("image"), py::arg("ellipse"), py::arg("pattern"),
           py::arg("models"), py::arg("flat"), docs::rank_window);
     m.def("joint_histogram", joint_histogram_arrays, py::arg("samples"), py::arg("bins"),

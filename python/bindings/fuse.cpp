@@ -12,6 +12,7 @@
 #include "fuse/reweight.hpp"
 #include "fuse/summarize.hpp"
 #include "kernel_docs.hpp"
+#include "rank_arguments.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -55,55 +56,60 @@ std::tuple<Array<double>, Array<double>, double> summarize_arrays(const Array<do
     return {give(std::move(result.mean)), give(std::move(result.covariance)), result.effective};
 }
 
-using Pair = std::tuple<double, double>;
-using Triangle = std::tuple<double, double, double>;
-using Four = std::tuple<double, double, double, double>;
+using Pair = Tuple<double, double>;
+using Triangle = Tuple<double, double, double>;
+using Four = Tuple<double, double, double, double>;
 
 /// A tuple's numbers, one after the other.
-template <typename Tuple>
-Vector numbers(const Tuple& tuple) {
-    Vector each(std::tuple_size_v<Tuple>);
+template <typename... Numbers>
+Vector numbers(const Tuple<Numbers...>& tuple, const char* name) {
+    Vector each(sizeof...(Numbers));
     Eigen::Index place = 0;
-    std::apply([&](auto... number) { ((each[place++] = number), ...); }, tuple);
+    std::apply([&](auto... number) { ((each[place++] = number), ...); }, unpack(tuple, name));
     return each;
 }
 
 /// The lower triangle of a matrix, by rows.
 States lower_triangle(const Triangle& triangle) {
-    const auto [first, cross, second] = triangle;
+    const auto [first, cross, second] = unpack(triangle, "root");
     States matrix(2, 2);
     matrix << first, 0.0, cross, second;
     return matrix;
 }
 
 std::tuple<Array<double>, Array<double>, double, Array<double>, double, Array<float>, Array<double>>
-rank_filter_arrays(const Array<std::uint8_t>& image, const Array<double>& particles,
-                   const Array<double>& weights, std::optional<double> offset, const Array<double>& noise,
-                   double correlation, const Four& drift, const Four& scale, const Four& lower,
-                   const Four& upper, const Pair& mean, const Triangle& root, double share,
-                   const Array<double>& inside, const Array<double>& around, const Array<float>& models,
-                   const Array<double>& shares, bool nearest, const Array<float>& table, double sharpness,
-                   double contrast_weight, double flat) {
+rank_filter_arrays(const Array<std::uint8_t>& image,
+                   const Tuple<Array<double>, Array<double>, std::optional<double>>& last,
+                   const Tuple<Array<double>, double>& noise, const Tuple<Four, Four>& dynamics,
+                   const Tuple<Four, Four>& bounds, const Tuple<Pair, Triangle, double>& detection,
+                   const PatternTuple& pattern, const AppearanceTuple& appearance,
+                   const FactorsTuple& factors, double flat) {
     const auto view = color_image(image, "image");
-    const WeightedEllipses last{states(particles, "particles"), vector(weights, "weights"), offset};
-    const EllipseNoise draws{states(noise, "noise"), correlation};
-    const Vector moves[] = {numbers(drift), numbers(scale), numbers(lower), numbers(upper), numbers(mean)};
+    const auto [particles, weights, offset] = unpack(last, "last");
+    const WeightedEllipses before{states(particles, "particles"), vector(weights, "weights"), offset};
+    const auto [white, correlation] = unpack(noise, "noise");
+    const EllipseNoise draws{states(white, "white"), correlation};
+    const auto [drift, scale] = unpack(dynamics, "dynamics");
+    const auto [lower, upper] = unpack(bounds, "bounds");
+    const auto [mean, root, share] = unpack(detection, "detection");
+    const Vector moves[] = {numbers(drift, "drift"), numbers(scale, "scale"), numbers(lower, "lower"),
+                            numbers(upper, "upper"), numbers(mean, "mean")};
     const States factor = lower_triangle(root);
-    const Detection detection{moves[4], factor, share};
-    const EllipsePattern pattern{states(inside, "inside"), states(around, "around")};
-    const auto places = pattern.inside.rows();
-    const ColorAppearance appearance{rank_maps(models, places), vector(shares, "shares"), nearest,
-                                     color_cube(table)};
-    auto result = unlocked(last.particles.rows() * places, [&] {
-        return rank_filter(view, last, draws, {moves[0], moves[1]}, {moves[2], moves[3]}, detection, pattern,
-                           appearance, {sharpness, contrast_weight}, flat);
+    const Detection detected{moves[4], factor, share};
+    const EllipsePattern places = ellipse_pattern(pattern);
+    const auto n = places.inside.rows();
+    const ColorAppearance target = color_appearance(appearance, n);
+    const LikelihoodFactors nats = likelihood_factors(factors);
+    auto result = unlocked(before.particles.rows() * n, [&] {
+        return rank_filter(view, before, draws, {moves[0], moves[1]}, {moves[2], moves[3]}, detected, places,
+                           target, nats, flat);
     });
     return {give(std::move(result.particles)),
             give(std::move(result.weights)),
             result.effective,
             give(std::move(result.ellipse)),
             result.log_likelihood,
-            give(std::move(result.ranks), {3, places}),
+            give(std::move(result.ranks), {3, n}),
             give(std::move(result.correlations))};
 }
 
@@ -123,12 +129,9 @@ void define_fuse(py::module_& m) {
     m.def("propose", propose_arrays, py::arg("particles"), py::arg("drift"), py::arg("scale"),
           py::arg("noise"), py::arg("mean"), py::arg("root"), py::arg("share"), py::arg("lower"),
           py::arg("upper"), docs::propose);
-    m.def("rank_filter", rank_filter_arrays, py::arg("image"), py::arg("particles"), py::arg("weights"),
-          py::arg("offset"), py::arg("noise"), py::arg("correlation"), py::arg("drift"), py::arg("scale"),
-          py::arg("lower"), py::arg("upper"), py::arg("mean"), py::arg("root"), py::arg("share"),
-          py::arg("inside"), py::arg("around"), py::arg("models"), py::arg("shares"), py::arg("nearest"),
-          py::arg("table"), py::arg("sharpness"), py::arg("contrast_weight"), py::arg("flat"),
-          docs::rank_filter);
+    m.def("rank_filter", rank_filter_arrays, py::arg("image"), py::arg("last"), py::arg("noise"),
+          py::arg("dynamics"), py::arg("bounds"), py::arg("detection"), py::arg("pattern"),
+          py::arg("appearance"), py::arg("factors"), py::arg("flat"), docs::rank_filter);
     m.def("rectangle_prior", rectangle_prior_arrays, py::arg("states"), py::arg("size"), py::arg("spread"),
           py::arg("state"), py::arg("deviation"), py::arg("max_cost"), docs::rectangle_prior);
     m.def("reweight", reweight_arrays, py::arg("log_likelihood"), py::arg("proposed"), py::arg("previous"),

@@ -1626,8 +1626,7 @@ def kalman_update(
 def learn_contrast(
     image: numpy.typing.NDArray[numpy.uint8],
     ellipse: numpy.typing.NDArray[numpy.float64],
-    inside: numpy.typing.NDArray[numpy.float64],
-    around: numpy.typing.NDArray[numpy.float64],
+    pattern: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
     target: numpy.typing.NDArray[numpy.float32],
     surround: numpy.typing.NDArray[numpy.float32],
     rate: float,
@@ -1648,8 +1647,10 @@ def learn_contrast(
     Args:
         image: uint8 (H, W, 3) BGR, at least one pixel, 2 GB at most
         ellipse: float64 (4,): center x, y, semi-axes along x and y, pixels, finite
-        inside: float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in sample_ellipses
-        around: float64 (m, 2): places (u, v) around it
+        pattern: a tuple (inside, around):
+            - inside: float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in
+              sample_ellipses
+            - around: float64 (m, 2): places (u, v) around it
         target: float32 (B, B, B), B a power of two up to 64: the target's histogram so far; zeros at
             first, with a rate of 1
         surround: float32 (B, B, B): the surround's histogram so far
@@ -2327,26 +2328,19 @@ def rank_distance(
 
 def rank_filter(
     image: numpy.typing.NDArray[numpy.uint8],
-    particles: numpy.typing.NDArray[numpy.float64],
-    weights: numpy.typing.NDArray[numpy.float64],
-    offset: float | None,
-    noise: numpy.typing.NDArray[numpy.float64],
-    correlation: float,
-    drift: tuple[float, float, float, float],
-    scale: tuple[float, float, float, float],
-    lower: tuple[float, float, float, float],
-    upper: tuple[float, float, float, float],
-    mean: tuple[float, float],
-    root: tuple[float, float, float],
-    share: float,
-    inside: numpy.typing.NDArray[numpy.float64],
-    around: numpy.typing.NDArray[numpy.float64],
-    models: numpy.typing.NDArray[numpy.float32],
-    shares: numpy.typing.NDArray[numpy.float64],
-    nearest: bool,
-    table: numpy.typing.NDArray[numpy.float32],
-    sharpness: float,
-    contrast_weight: float,
+    last: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float | None],
+    noise: tuple[numpy.typing.NDArray[numpy.float64], float],
+    dynamics: tuple[tuple[float, float, float, float], tuple[float, float, float, float]],
+    bounds: tuple[tuple[float, float, float, float], tuple[float, float, float, float]],
+    detection: tuple[tuple[float, float], tuple[float, float, float], float],
+    pattern: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+    appearance: tuple[
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float64],
+        bool,
+        numpy.typing.NDArray[numpy.float32],
+    ],
+    factors: tuple[float, float],
     flat: float,
 ) -> tuple[
     numpy.typing.NDArray[numpy.float64],
@@ -2368,31 +2362,32 @@ def rank_filter(
 
     Args:
         image: uint8 (H, W, 3) BGR, at least one pixel, 2 GB at most
-        particles: float64 (N, 4): ellipses, as in rank_likelihood, N at least 1
-        weights: float64 (N,), finite, none negative, not all 0; need not sum to 1
-        offset: offset of resample's comb, in [0, 1); None: particles aren't resampled, and their
-            weights count
-        noise: float64 (N, 4): independent standard normal numbers
-        correlation: of both semi-axes' noise, made by mixing the minor one's into the major one's, in
-            [-1, 1]
-        drift: float64 (D,): displacement in a frame, in the units of the state, finite
-        scale: float64 (D,): standard deviations, none negative; those of a detection's K numbers above
-            0 where a density is needed
-        lower: float64 (D,): lower bounds of a state, may be infinite
-        upper: float64 (D,): upper bounds, not below the lower ones, may be infinite
-        mean: float64 (K,): mean of the detection, K at least 1, at most D
-        root: float64 (K, K): Cholesky factor of its covariance, lower triangle, diagonal above 0;
-            numbers above the diagonal are not read
-        share: share of the particles that is drawn from it, in [0, 1); at 0 mean and root are not read
-        inside: float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in sample_ellipses
-        around: float64 (m, 2): places (u, v) around it
-        models: float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1; in
-            C++ M rows of 3 n
-        shares: float64 (M,): weight of each map in the mean distance, finite
-        nearest: whether to take the least distance; shares then only have to be valid
-        table: float32 (B, B, B), B a power of two up to 64: P(target | color)
-        sharpness: nats, finite
-        contrast_weight: nats, finite
+        last: a tuple (particles, weights, offset):
+            - particles: float64 (N, 4): ellipses, as in rank_likelihood, N at least 1
+            - weights: float64 (N,), finite, none negative, not all 0; need not sum to 1
+            - offset: offset of resample's comb, in [0, 1); None: particles aren't resampled, and their
+              weights count
+        noise: a tuple (white, correlation):
+            - white: float64 (N, 4): independent standard normal numbers
+            - correlation: of both semi-axes' noise, made by mixing the minor one's into the major
+              one's, in [-1, 1]
+        dynamics: (drift, scale), four numbers each, as in propose
+        bounds: (lower, upper), four numbers each, as in propose
+        detection: (mean, root, share): two numbers, the three of the root's lower triangle by rows, and
+            the share, as in propose
+        pattern: a tuple (inside, around):
+            - inside: float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in
+              sample_ellipses
+            - around: float64 (m, 2): places (u, v) around it
+        appearance: a tuple (models, shares, nearest, table):
+            - models: float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1;
+              in C++ M rows of 3 n
+            - shares: float64 (M,): weight of each map in the mean distance, finite
+            - nearest: whether to take the least distance; shares then only have to be valid
+            - table: float32 (B, B, B), B a power of two up to 64: P(target | color)
+        factors: a tuple (sharpness, contrast_weight):
+            - sharpness: nats, finite
+            - contrast_weight: nats, finite
         flat: as in rank_window
 
     Returns:
@@ -2413,14 +2408,14 @@ def rank_filter(
 def rank_likelihood(
     image: numpy.typing.NDArray[numpy.uint8],
     ellipses: numpy.typing.NDArray[numpy.float64],
-    inside: numpy.typing.NDArray[numpy.float64],
-    around: numpy.typing.NDArray[numpy.float64],
-    models: numpy.typing.NDArray[numpy.float32],
-    shares: numpy.typing.NDArray[numpy.float64],
-    nearest: bool,
-    table: numpy.typing.NDArray[numpy.float32],
-    sharpness: float,
-    contrast_weight: float,
+    pattern: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+    appearance: tuple[
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float64],
+        bool,
+        numpy.typing.NDArray[numpy.float32],
+    ],
+    factors: tuple[float, float],
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     The measurement of the color particle tracker in one pass: log p(y | x) = −sharpness d² +
@@ -2434,15 +2429,19 @@ def rank_likelihood(
     Args:
         image: uint8 (H, W, 3) BGR, at least one pixel, 2 GB at most
         ellipses: float64 (N, 4): center x, y, semi-axes along x (minor) and y (major), pixels, finite
-        inside: float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in sample_ellipses
-        around: float64 (m, 2): places (u, v) around it
-        models: float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1; in
-            C++ M rows of 3 n
-        shares: float64 (M,): weight of each map in the mean distance, finite
-        nearest: whether to take the least distance; shares then only have to be valid
-        table: float32 (B, B, B), B a power of two up to 64: P(target | color)
-        sharpness: nats, finite
-        contrast_weight: nats, finite
+        pattern: a tuple (inside, around):
+            - inside: float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in
+              sample_ellipses
+            - around: float64 (m, 2): places (u, v) around it
+        appearance: a tuple (models, shares, nearest, table):
+            - models: float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1;
+              in C++ M rows of 3 n
+            - shares: float64 (M,): weight of each map in the mean distance, finite
+            - nearest: whether to take the least distance; shares then only have to be valid
+            - table: float32 (B, B, B), B a power of two up to 64: P(target | color)
+        factors: a tuple (sharpness, contrast_weight):
+            - sharpness: nats, finite
+            - contrast_weight: nats, finite
 
     Returns:
         float64 (N,)
@@ -2458,14 +2457,14 @@ def rank_search(
     image: numpy.typing.NDArray[numpy.uint8],
     ellipse: numpy.typing.NDArray[numpy.float64],
     offsets: numpy.typing.NDArray[numpy.float64],
-    inside: numpy.typing.NDArray[numpy.float64],
-    around: numpy.typing.NDArray[numpy.float64],
-    models: numpy.typing.NDArray[numpy.float32],
-    shares: numpy.typing.NDArray[numpy.float64],
-    nearest: bool,
-    table: numpy.typing.NDArray[numpy.float32],
-    sharpness: float,
-    contrast_weight: float,
+    pattern: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+    appearance: tuple[
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float64],
+        bool,
+        numpy.typing.NDArray[numpy.float32],
+    ],
+    factors: tuple[float, float],
 ) -> tuple[numpy.typing.NDArray[numpy.float64], float, float]:
     """
     Searches around an ellipse for the most likely window, by rank_likelihood.
@@ -2478,15 +2477,19 @@ def rank_search(
         image: uint8 (H, W, 3) BGR, at least one pixel, 2 GB at most
         ellipse: float64 (4,): center x, y, semi-axes along x (minor) and y (major), pixels, finite
         offsets: float64 (K, 4): finite
-        inside: float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in sample_ellipses
-        around: float64 (m, 2): places (u, v) around it
-        models: float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1; in
-            C++ M rows of 3 n
-        shares: float64 (M,): weight of each map in the mean distance, finite
-        nearest: whether to take the least distance; shares then only have to be valid
-        table: float32 (B, B, B), B a power of two up to 64: P(target | color)
-        sharpness: nats, finite
-        contrast_weight: nats, finite
+        pattern: a tuple (inside, around):
+            - inside: float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in
+              sample_ellipses
+            - around: float64 (m, 2): places (u, v) around it
+        appearance: a tuple (models, shares, nearest, table):
+            - models: float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1;
+              in C++ M rows of 3 n
+            - shares: float64 (M,): weight of each map in the mean distance, finite
+            - nearest: whether to take the least distance; shares then only have to be valid
+            - table: float32 (B, B, B), B a power of two up to 64: P(target | color)
+        factors: a tuple (sharpness, contrast_weight):
+            - sharpness: nats, finite
+            - contrast_weight: nats, finite
 
     Returns:
         ellipse: float64 (4,): center x, y, semi-axes along x and y, pixels
@@ -3970,8 +3973,7 @@ class Kernels(Protocol):
         self,
         image: numpy.typing.NDArray[numpy.uint8],
         ellipse: numpy.typing.NDArray[numpy.float64],
-        inside: numpy.typing.NDArray[numpy.float64],
-        around: numpy.typing.NDArray[numpy.float64],
+        pattern: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
         target: numpy.typing.NDArray[numpy.float32],
         surround: numpy.typing.NDArray[numpy.float32],
         rate: float,
@@ -4184,26 +4186,19 @@ class Kernels(Protocol):
     def rank_filter(
         self,
         image: numpy.typing.NDArray[numpy.uint8],
-        particles: numpy.typing.NDArray[numpy.float64],
-        weights: numpy.typing.NDArray[numpy.float64],
-        offset: float | None,
-        noise: numpy.typing.NDArray[numpy.float64],
-        correlation: float,
-        drift: tuple[float, float, float, float],
-        scale: tuple[float, float, float, float],
-        lower: tuple[float, float, float, float],
-        upper: tuple[float, float, float, float],
-        mean: tuple[float, float],
-        root: tuple[float, float, float],
-        share: float,
-        inside: numpy.typing.NDArray[numpy.float64],
-        around: numpy.typing.NDArray[numpy.float64],
-        models: numpy.typing.NDArray[numpy.float32],
-        shares: numpy.typing.NDArray[numpy.float64],
-        nearest: bool,
-        table: numpy.typing.NDArray[numpy.float32],
-        sharpness: float,
-        contrast_weight: float,
+        last: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float | None],
+        noise: tuple[numpy.typing.NDArray[numpy.float64], float],
+        dynamics: tuple[tuple[float, float, float, float], tuple[float, float, float, float]],
+        bounds: tuple[tuple[float, float, float, float], tuple[float, float, float, float]],
+        detection: tuple[tuple[float, float], tuple[float, float, float], float],
+        pattern: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+        appearance: tuple[
+            numpy.typing.NDArray[numpy.float32],
+            numpy.typing.NDArray[numpy.float64],
+            bool,
+            numpy.typing.NDArray[numpy.float32],
+        ],
+        factors: tuple[float, float],
         flat: float,
     ) -> tuple[
         numpy.typing.NDArray[numpy.float64],
@@ -4218,28 +4213,28 @@ class Kernels(Protocol):
         self,
         image: numpy.typing.NDArray[numpy.uint8],
         ellipses: numpy.typing.NDArray[numpy.float64],
-        inside: numpy.typing.NDArray[numpy.float64],
-        around: numpy.typing.NDArray[numpy.float64],
-        models: numpy.typing.NDArray[numpy.float32],
-        shares: numpy.typing.NDArray[numpy.float64],
-        nearest: bool,
-        table: numpy.typing.NDArray[numpy.float32],
-        sharpness: float,
-        contrast_weight: float,
+        pattern: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+        appearance: tuple[
+            numpy.typing.NDArray[numpy.float32],
+            numpy.typing.NDArray[numpy.float64],
+            bool,
+            numpy.typing.NDArray[numpy.float32],
+        ],
+        factors: tuple[float, float],
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def rank_search(
         self,
         image: numpy.typing.NDArray[numpy.uint8],
         ellipse: numpy.typing.NDArray[numpy.float64],
         offsets: numpy.typing.NDArray[numpy.float64],
-        inside: numpy.typing.NDArray[numpy.float64],
-        around: numpy.typing.NDArray[numpy.float64],
-        models: numpy.typing.NDArray[numpy.float32],
-        shares: numpy.typing.NDArray[numpy.float64],
-        nearest: bool,
-        table: numpy.typing.NDArray[numpy.float32],
-        sharpness: float,
-        contrast_weight: float,
+        pattern: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+        appearance: tuple[
+            numpy.typing.NDArray[numpy.float32],
+            numpy.typing.NDArray[numpy.float64],
+            bool,
+            numpy.typing.NDArray[numpy.float32],
+        ],
+        factors: tuple[float, float],
     ) -> tuple[numpy.typing.NDArray[numpy.float64], float, float]: ...
     def rank_sections(
         self, samples: numpy.typing.NDArray[numpy.uint8], sections: int

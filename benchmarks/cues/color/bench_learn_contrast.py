@@ -20,8 +20,7 @@ Cube = NDArray[np.float32]
 def script(
     image: Image,
     ellipse: Floats,
-    inside: Floats,
-    around: Floats,
+    pattern: tuple[Floats, Floats],
     target: Cube,
     surround: Cube,
     rate: float,
@@ -29,8 +28,8 @@ def script(
 ) -> list[Cube]:
     """The baseline: indices, calcHist and NumPy."""
     learned = []
-    for pattern, old in ((inside, target), (around, surround)):
-        columns, rows = (ellipse[:2] + ellipse[2:] * pattern).astype(int).T
+    for places, old in zip(pattern, (target, surround), strict=True):
+        columns, rows = (ellipse[:2] + ellipse[2:] * places).astype(int).T
         samples = image[rows, columns][None]
         seen = cv2.calcHist([samples], [0, 1, 2], None, 3 * [len(old)], 3 * [0, 256]) / samples.shape[1]
         learned.append(old + np.float32(rate) * (seen - old))
@@ -51,8 +50,8 @@ def bench_learn_contrast(benchmark: Any, learn_contrast: Callable[..., Any], fra
     """All learn the same, except for samples that rounding moves to the next pixel."""
     rng = np.random.default_rng(0)
     target, surround = (cube / cube.sum() for cube in rng.random((2, 16, 16, 16), np.float32))
-    ellipse, patterns = np.array([160.0, 120, 25, 31]), (ring(600, 0.0, 1.0), ring(600, 1.15, 2.0))
-    arguments = (frame, ellipse, *patterns, target, surround, 0.06, 1e-4)
+    ellipse, pattern = np.array([160.0, 120, 25, 31]), (ring(600, 0.0, 1.0), ring(600, 1.15, 2.0))
+    arguments = (frame, ellipse, pattern, target, surround, 0.06, 1e-4)
     expected = reference.learn_contrast(*arguments)
     learned = benchmark(learn_contrast, *arguments)
     for found, other in zip(learned[:2], expected[:2], strict=True):

@@ -20,23 +20,21 @@ Singles = NDArray[np.float32]
 def script(
     image: Image,
     ellipses: Floats,
-    inside: Floats,
-    around: Floats,
-    maps: Singles,
-    shares: Floats,
-    nearest: bool,
-    table: Singles,
-    sharpness: float,
-    contrast_weight: float,
+    pattern: tuple[Floats, Floats],
+    appearance: tuple[Singles, Floats, bool, Singles],
+    factors: tuple[float, float],
 ) -> Floats:
     """The baseline: remap reads the pixels, calcHist and cumsum rank them, a table is indexed."""
+    inside, _ = pattern
+    maps, shares, _, table = appearance
+    sharpness, contrast_weight = factors
     cells = (image >> 4).astype(np.int32)
     likely = table[cells[..., 0], cells[..., 1], cells[..., 2]]
     means = []
-    for pattern in (inside, around):
-        places = (ellipses[:, None, :2] + ellipses[:, None, 2:] * pattern - 0.5).astype(np.float32)
+    for offsets in pattern:
+        places = (ellipses[:, None, :2] + ellipses[:, None, 2:] * offsets - 0.5).astype(np.float32)
         means.append(cv2.remap(likely, places, None, cv2.INTER_NEAREST).mean(axis=1))
-        if pattern is inside:
+        if offsets is inside:
             samples = cv2.remap(image, places, None, cv2.INTER_NEAREST, borderMode=cv2.BORDER_REPLICATE)
     n = len(inside)
     distances = np.empty((len(ellipses), len(maps)))
@@ -63,10 +61,9 @@ def bench_rank_likelihood(benchmark: Any, rank_likelihood: Callable[..., Any], f
     """The twins agree; the script rounds places to 1/32 pixel, which moves a few samples by a pixel."""
     rng = np.random.default_rng(0)
     ellipses = rng.normal([160, 120, 25, 31], [20, 20, 1, 1], (100, 4))
-    inside, around = grid(12, 8), ring(40, 1.3, 1.8)
     maps, table = rng.random((2, 3, 96), np.float32), rng.random((16, 16, 16), np.float32)
-    shares = np.array([0.6, 0.4])
-    arguments = (frame, ellipses, inside, around, maps, shares, False, table, 110.0, 8.0)
+    pattern, appearance = (grid(12, 8), ring(40, 1.3, 1.8)), (maps, np.array([0.6, 0.4]), False, table)
+    arguments = frame, ellipses, pattern, appearance, (110.0, 8.0)
     log_likelihood = benchmark(rank_likelihood, *arguments)
     near = 0.02 * (2 * 110 + 2 * 8) if rank_likelihood is script else 1e-11
     assert_allclose(log_likelihood, reference.rank_likelihood(*arguments), rtol=0, atol=near)

@@ -36,8 +36,8 @@ def bench_rank_search(benchmark: Any, rank_search: Callable[..., Any], frame: Im
     rng = np.random.default_rng(0)
     offsets = np.hstack([rng.normal(0, 0.4, (31, 2)), np.exp(rng.normal(0, 0.05, (31, 2)))])
     maps, table = rng.random((2, 3, 96), np.float32), rng.random((16, 16, 16), np.float32)
-    look = grid(12, 8), ring(40, 1.3, 1.8), maps, np.array([0.6, 0.4]), False, table, 110.0, 8.0
-    arguments = frame, np.array([160.0, 120.0, 25.0, 31.0]), offsets, *look
+    pattern, appearance = (grid(12, 8), ring(40, 1.3, 1.8)), (maps, np.array([0.6, 0.4]), False, table)
+    arguments = frame, np.array([160.0, 120.0, 25.0, 31.0]), offsets, pattern, appearance, (110.0, 8.0)
     _, highest, here = benchmark(rank_search, *arguments)
     _, expected, expected_here = reference.rank_search(*arguments)
     near = 0.02 * (2 * 110 + 2 * 8) if rank_search is script else 1e-11

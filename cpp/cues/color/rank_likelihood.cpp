@@ -59,13 +59,13 @@ double combined(const double* distances, const ColorAppearance& appearance) {
     return mean;
 }
 
-void require_valid(const ColorAppearance& appearance, const LikelihoodWeights& weights) {
+void require_valid(const ColorAppearance& appearance, const LikelihoodFactors& factors) {
     if (appearance.models.rows() < 1) refuse("models", "at least one rank map", "none");
     require_size(appearance.shares, appearance.models.rows(), "shares");
     require_finite(appearance.shares, "shares");
-    if (!std::isfinite(weights.sharpness)) refuse("sharpness", "a finite number", weights.sharpness);
-    if (!std::isfinite(weights.contrast_weight))
-        refuse("contrast_weight", "a finite number", weights.contrast_weight);
+    if (!std::isfinite(factors.sharpness)) refuse("sharpness", "a finite number", factors.sharpness);
+    if (!std::isfinite(factors.contrast_weight))
+        refuse("contrast_weight", "a finite number", factors.contrast_weight);
 }
 
 }  // namespace
@@ -74,23 +74,23 @@ struct RankLikelihood::Parts {
     Reader inside, around;
     RankMaps maps;
     const ColorAppearance& appearance;
-    LikelihoodWeights weights;
+    LikelihoodFactors factors;
     int bits;
     Vector distances;
     std::vector<std::uint8_t> planes;
 };
 
 RankLikelihood::RankLikelihood(const ImageView& image, const EllipsePattern& pattern,
-                               const ColorAppearance& appearance, const LikelihoodWeights& weights) {
+                               const ColorAppearance& appearance, const LikelihoodFactors& factors) {
     constexpr std::ptrdiff_t kBatch = EllipseSampler::kBatch;
     Reader inside(image, pattern.inside, "inside"), around(image, pattern.around, "around");
-    require_valid(appearance, weights);
+    require_valid(appearance, factors);
     RankMaps maps(appearance.models, pattern.inside.rows());
     const int bits = bits_of_cube(appearance.table, "table");
     Vector distances(kBatch * maps.size());
     std::vector<std::uint8_t> planes(static_cast<std::size_t>(3 * pattern.inside.rows() * kBatch));
     parts_ = std::make_unique<Parts>(Parts{std::move(inside), std::move(around), std::move(maps), appearance,
-                                           weights, bits, std::move(distances), std::move(planes)});
+                                           factors, bits, std::move(distances), std::move(planes)});
 }
 
 RankLikelihood::~RankLikelihood() = default;
@@ -98,7 +98,7 @@ RankLikelihood::~RankLikelihood() = default;
 Vector RankLikelihood::log_likelihood(StatesRef ellipses) {
     require_shape(ellipses, ellipses.rows(), 4, "ellipses");
     require_finite(ellipses, "ellipses");
-    auto& [inside, around, maps, appearance, weights, bits, distances, planes] = *parts_;
+    auto& [inside, around, maps, appearance, factors, bits, distances, planes] = *parts_;
     const Eigen::Index N = ellipses.rows(), M = maps.size();
     const std::ptrdiff_t n = inside.sampler().size();
     constexpr std::ptrdiff_t kBatch = EllipseSampler::kBatch;
@@ -115,7 +115,7 @@ Vector RankLikelihood::log_likelihood(StatesRef ellipses) {
             const double contrast =
                 inside.mean(i, appearance.table.data()) - around.mean(i, appearance.table.data());
             log_likelihood[first + i] =
-                weights.contrast_weight * contrast - weights.sharpness * distance * distance;
+                factors.contrast_weight * contrast - factors.sharpness * distance * distance;
         }
     }
     return log_likelihood;
@@ -127,9 +127,9 @@ RankWindow RankLikelihood::first_window(double flat) const {
 }
 
 Vector rank_likelihood(const ImageView& image, StatesRef ellipses, const EllipsePattern& pattern,
-                       const ColorAppearance& appearance, const LikelihoodWeights& weights) {
+                       const ColorAppearance& appearance, const LikelihoodFactors& factors) {
     require_shape(ellipses, ellipses.rows(), 4, "ellipses");
-    return RankLikelihood(image, pattern, appearance, weights).log_likelihood(ellipses);
+    return RankLikelihood(image, pattern, appearance, factors).log_likelihood(ellipses);
 }
 
 }  // namespace tricue

@@ -26,7 +26,7 @@ struct ColorAppearance {
 };
 
 /// How much a distance and a contrast count.
-struct LikelihoodWeights {
+struct LikelihoodFactors {
     double sharpness;        ///< nats, finite
     double contrast_weight;  ///< nats, finite
 };
@@ -36,7 +36,7 @@ class RankLikelihood {
 public:
     /// @throws std::invalid_argument as rank_likelihood
     RankLikelihood(const ImageView& image, const EllipsePattern& pattern, const ColorAppearance& appearance,
-                   const LikelihoodWeights& weights);
+                   const LikelihoodFactors& factors);
     ~RankLikelihood();
 
     Vector log_likelihood(StatesRef ellipses);
@@ -61,6 +61,6 @@ private:
 /// @throws std::invalid_argument as the kernels that it combines, on a pattern without places, or without maps
 /// Source: orders of corresponding pixels, Sabeti, Parvizi, Wu 2008, section III.B; the contrast is ours.
 Vector rank_likelihood(const ImageView& image, StatesRef ellipses, const EllipsePattern& pattern,
-                       const ColorAppearance& appearance, const LikelihoodWeights& weights);
+                       const ColorAppearance& appearance, const LikelihoodFactors& factors);
 
 }  // namespace tricue

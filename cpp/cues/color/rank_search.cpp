@@ -23,13 +23,13 @@ States windows_around(VectorRef ellipse, StatesRef offsets) {
 
 FoundEllipse rank_search(const ImageView& image, VectorRef ellipse, StatesRef offsets,
                          const EllipsePattern& pattern, const ColorAppearance& appearance,
-                         const LikelihoodWeights& weights) {
+                         const LikelihoodFactors& factors) {
     require_size(ellipse, 4, "ellipse");
     require_finite(ellipse, "ellipse");
     require_shape(offsets, offsets.rows(), 4, "offsets");
     require_finite(offsets, "offsets");
     const States windows = windows_around(ellipse, offsets);
-    const Vector log_likelihood = rank_likelihood(image, windows, pattern, appearance, weights);
+    const Vector log_likelihood = rank_likelihood(image, windows, pattern, appearance, factors);
     Eigen::Index best = 0;
     const double highest = log_likelihood.maxCoeff(&best);
     return {windows.row(best).transpose(), highest, log_likelihood[0]};

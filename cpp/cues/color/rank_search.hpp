@@ -26,6 +26,6 @@ struct FoundEllipse {
 /// Source: ours
 FoundEllipse rank_search(const ImageView& image, VectorRef ellipse, StatesRef offsets,
                          const EllipsePattern& pattern, const ColorAppearance& appearance,
-                         const LikelihoodWeights& weights);
+                         const LikelihoodFactors& factors);
 
 }  // namespace tricue

@@ -12,10 +12,15 @@ from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
+from tests.kernel_arguments import Place, argument, with_argument
+
 EPS = float(np.finfo(np.float64).eps)
 
 
 SHARPNESS, CONTRAST_WEIGHT = 110.0, 8.0
+IMAGE, ELLIPSES, PATTERN, APPEARANCE, FACTORS = range(5)
+INSIDE, AROUND = (PATTERN, 0), (PATTERN, 1)
+MODELS, SHARES, NEAREST, TABLE = ((APPEARANCE, part) for part in range(4))
 
 
 def case(seed: int, ellipses: int = 5, n: int = 30, m: int = 7, models: int = 2, side: int = 16) -> list[Any]:
@@ -30,14 +35,9 @@ def case(seed: int, ellipses: int = 5, n: int = 30, m: int = 7, models: int = 2,
     return [
         image,
         np.concatenate([places, sizes], axis=1),
-        inside,
-        around,
-        maps,
-        shares,
-        bool(rng.integers(2)),
-        table,
-        SHARPNESS,
-        CONTRAST_WEIGHT,
+        (inside, around),
+        (maps, shares, bool(rng.integers(2)), table),
+        (SHARPNESS, CONTRAST_WEIGHT),
     ]
 
 
@@ -77,10 +77,9 @@ def test_odd_images(view: Any) -> None:
 def test_joins_the_kernels_that_it_stands_for(kernels: Kernels, nearest: bool) -> None:
     """It is sample_ellipses, rank_distance and the mean of color_lookup, for 1, 8, 9 and 100 ellipses."""
     for count in (1, 8, 9, 100):
-        arguments = case(count, count)
-        arguments[6] = nearest
-        image, ellipses, inside, around, maps, shares, _, table, *_ = arguments
-        within, without = (kernels.sample_ellipses(image, ellipses, each) for each in (inside, around))
+        arguments = with_argument(case(count, count), NEAREST, nearest)
+        image, ellipses, pattern, (maps, shares, _, table), _ = arguments
+        within, without = (kernels.sample_ellipses(image, ellipses, each) for each in pattern)
         distances = kernels.rank_distance(within, maps)
         distance = np.minimum(*distances.T) if nearest else (shares * distances).sum(axis=1)
         means = [kernels.color_lookup(each, table).mean(axis=1, dtype=float) for each in (within, without)]
@@ -102,9 +101,8 @@ def test_a_target_of_its_own_color(kernels: Kernels) -> None:
     circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     ellipses = np.array([[40.5, 40.5, 13, 13], [70, 40.5, 13, 13]])
     maps = np.full((1, 3, 20), 0.5, np.float32)  # of a single color, as the disk: its distance is 0
-    log_likelihood = kernels.rank_likelihood(
-        image, ellipses, 0.9 * circle, 1.5 * circle, maps, np.ones(1), False, table, 100.0, 3.0
-    )
+    pattern, appearance = (0.9 * circle, 1.5 * circle), (maps, np.ones(1), False, table)
+    log_likelihood = kernels.rank_likelihood(image, ellipses, pattern, appearance, (100.0, 3.0))
     assert log_likelihood[0] == 3
     assert log_likelihood[1] <= 0
 
@@ -117,48 +115,47 @@ def test_light_does_not_change_the_order(seed: int) -> None:
     curves = [np.sort(rng.choice(256, 128, replace=False)) for _ in range(3)]
     lit = np.stack([curve[image[..., c] // 2] for c, curve in enumerate(curves)], axis=-1).astype(np.uint8)
     for k in (_core, reference):
-        assert_array_equal(k.rank_likelihood(lit, *others, 0.0), k.rank_likelihood(image // 2, *others, 0.0))
+        ranks_alone = *others, (SHARPNESS, 0.0)
+        assert_array_equal(k.rank_likelihood(lit, *ranks_alone), k.rank_likelihood(image // 2, *ranks_alone))
 
 
-BAD: list[tuple[int, Any, str]] = [
-    (0, np.zeros((0, 4, 3), np.uint8), "image: expected at least one pixel, got none"),
-    (1, np.full((2, 4), np.nan), "ellipses: expected finite numbers, got nan"),
-    (1, np.zeros((2, 5)), "ellipses: expected shape"),
-    (2, np.zeros((30, 3)), "inside: expected shape"),
-    (3, np.zeros((0, 2)), "around: expected at least one place, got none"),
-    (3, np.full((2, 2), np.inf), "around: expected finite numbers, got inf"),
-    (4, np.full((2, 3, 30), 1.5, np.float32), r"models: expected ranks in \[0, 1\], got 1.5"),
-    (4, np.zeros((2, 3, 29), np.float32), "models: expected"),
-    (4, np.zeros((0, 3, 30), np.float32), "models: expected at least one rank map, got none"),
-    (5, np.ones(3), "shares: expected"),
-    (5, np.array([np.nan, 1]), "shares: expected finite numbers, got nan"),
-    (7, np.zeros((3, 3, 3), np.float32), r"table: expected shape \(B, B, B\), B a power of two"),
-    (8, np.nan, "sharpness: expected a finite number, got nan"),
-    (9, np.inf, "contrast_weight: expected a finite number, got inf"),
+BAD: list[tuple[Place, Any, str]] = [
+    (IMAGE, np.zeros((0, 4, 3), np.uint8), "image: expected at least one pixel, got none"),
+    (ELLIPSES, np.full((2, 4), np.nan), "ellipses: expected finite numbers, got nan"),
+    (ELLIPSES, np.zeros((2, 5)), "ellipses: expected shape"),
+    (INSIDE, np.zeros((30, 3)), "inside: expected shape"),
+    (AROUND, np.zeros((0, 2)), "around: expected at least one place, got none"),
+    (AROUND, np.full((2, 2), np.inf), "around: expected finite numbers, got inf"),
+    (MODELS, np.full((2, 3, 30), 1.5, np.float32), r"models: expected ranks in \[0, 1\], got 1.5"),
+    (MODELS, np.zeros((2, 3, 29), np.float32), "models: expected"),
+    (MODELS, np.zeros((0, 3, 30), np.float32), "models: expected at least one rank map, got none"),
+    (SHARES, np.ones(3), "shares: expected"),
+    (SHARES, np.array([np.nan, 1]), "shares: expected finite numbers, got nan"),
+    (TABLE, np.zeros((3, 3, 3), np.float32), r"table: expected shape \(B, B, B\), B a power of two"),
+    ((FACTORS, 0), np.nan, "sharpness: expected a finite number, got nan"),
+    ((FACTORS, 1), np.inf, "contrast_weight: expected a finite number, got inf"),
 ]
 
 
 @pytest.mark.parametrize(("place", "value", "message"), BAD)
-def test_refuses(kernels: Kernels, place: int, value: Any, message: str) -> None:
+def test_refuses(kernels: Kernels, place: Place, value: Any, message: str) -> None:
     """Wrong values and shapes are named."""
-    arguments = case(0)
-    arguments[place] = value
     with pytest.raises(ValueError, match=message):
-        kernels.rank_likelihood(*arguments)
+        kernels.rank_likelihood(*with_argument(case(0), place, value))
 
 
 def test_refuses_to_rank_nothing(kernels: Kernels) -> None:
     """Without places inside there is no order."""
-    arguments = case(0)
-    arguments[2], arguments[4] = np.zeros((0, 2)), np.zeros((2, 3, 0), np.float32)
+    arguments = with_argument(case(0), INSIDE, np.zeros((0, 2)))
+    arguments = with_argument(arguments, MODELS, np.zeros((2, 3, 0), np.float32))
     with pytest.raises(ValueError, match="inside: expected at least one place, got none"):
         kernels.rank_likelihood(*arguments)
 
 
-@pytest.mark.parametrize("place", [0, 1, 2, 3, 4, 5, 7])
-def test_native_refuses_other_types(place: int) -> None:
-    """No argument is converted."""
+@pytest.mark.parametrize("place", [IMAGE, ELLIPSES, INSIDE, AROUND, MODELS, SHARES, TABLE])
+def test_native_refuses_other_types(place: Place) -> None:
+    """No array is converted."""
     arguments = case(0)
-    arguments[place] = arguments[place].astype(np.float16)
+    other = argument(arguments, place).astype(np.float16)
     with pytest.raises(TypeError, match="float16"):
-        _core.rank_likelihood(*arguments)
+        _core.rank_likelihood(*with_argument(arguments, place, other))

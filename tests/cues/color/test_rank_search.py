@@ -13,9 +13,12 @@ from tricue import _core, reference
 from tricue.kernels import Kernels
 from tricue.track.base.ellipse_pattern import grid, ring
 
+from tests.kernel_arguments import Place, argument, with_argument
+
 EPS = float(np.finfo(np.float64).eps)
 SHARPNESS, CONTRAST_WEIGHT = 110.0, 8.0
-IMAGE, ELLIPSE, OFFSETS, INSIDE, SHARES = 0, 1, 2, 3, 6
+IMAGE, ELLIPSE, OFFSETS, PATTERN, APPEARANCE = range(5)
+INSIDE, SHARES = (PATTERN, 0), (APPEARANCE, 1)
 
 
 def case(seed: int, windows: int = 12, nearest: bool = False) -> list[Any]:
@@ -24,10 +27,10 @@ def case(seed: int, windows: int = 12, nearest: bool = False) -> list[Any]:
     image = rng.integers(0, 256, (40, 60, 3)).astype(np.uint8)
     ellipse = rng.uniform([20, 15, 4, 4], [40, 25, 12, 15])
     offsets = np.concatenate([rng.normal(0, 0.5, (windows, 2)), rng.uniform(0.8, 1.2, (windows, 2))], axis=1)
-    inside, around = grid(5, 4), ring(9, 1.3, 1.8)
+    pattern = grid(5, 4), ring(9, 1.3, 1.8)
     maps, table = rng.random((2, 3, 20), np.float32), rng.random((4, 4, 4), np.float32)
-    look = [inside, around, maps, np.array([0.7, 0.3]), nearest, table, SHARPNESS, CONTRAST_WEIGHT]
-    return [image, ellipse, offsets, *look]
+    appearance = maps, np.array([0.7, 0.3]), nearest, table
+    return [image, ellipse, offsets, pattern, appearance, (SHARPNESS, CONTRAST_WEIGHT)]
 
 
 def rounding(n: int = 20, m: int = 9) -> float:
@@ -66,7 +69,8 @@ def test_goes_to_the_target(kernels: Kernels) -> None:
     table = np.zeros((2, 2, 2), np.float32)
     table[0, 0, 1] = 1
     flat = np.full((1, 3, 40), 0.5, np.float32)  # the ranks of a single color
-    look = ring(40, 0.1, 0.9), ring(40, 1.1, 1.5), flat, np.ones(1), False, table, 100.0, 3.0
+    pattern, appearance = (ring(40, 0.1, 0.9), ring(40, 1.1, 1.5)), (flat, np.ones(1), False, table)
+    look = pattern, appearance, (100.0, 3.0)
     steps = np.array([(u, v, s, s) for u in (-1, 0, 1) for v in (-1, 0, 1) for s in (1, 1.5)])
     found, highest, here = kernels.rank_search(image, np.array([60.0, 50.0, 10.0, 10.0]), steps, *look)
     assert_array_equal(found, [70, 40, 15, 15])
@@ -83,7 +87,7 @@ def test_takes_the_first_of_equal_windows(kernels: Kernels) -> None:
     assert highest == here
 
 
-BAD: list[tuple[int, Any, str]] = [
+BAD: list[tuple[Place, Any, str]] = [
     (IMAGE, np.zeros((0, 4, 3), np.uint8), "image: expected at least one pixel, got none"),
     (ELLIPSE, np.zeros(3), "ellipse: expected shape"),
     (ELLIPSE, np.array([1, 2, np.nan, 4]), "ellipse: expected finite numbers, got nan"),
@@ -97,18 +101,20 @@ BAD: list[tuple[int, Any, str]] = [
 
 @pytest.mark.parametrize(("place", "value", "message"), BAD)
 @pytest.mark.filterwarnings("ignore:overflow")
-def test_refuses(kernels: Kernels, place: int, value: Any, message: str) -> None:
+def test_refuses(kernels: Kernels, place: Place, value: Any, message: str) -> None:
     """Wrong values and shapes are named."""
-    arguments = case(0)
-    arguments[place] = value
     with pytest.raises(ValueError, match=message):
-        kernels.rank_search(*arguments)
+        kernels.rank_search(*with_argument(case(0), place, value))
 
 
-@pytest.mark.parametrize("place", [0, 1, 2, 3, 4, 5, 6, 8])
-def test_native_refuses_other_types(place: int) -> None:
-    """No argument is converted."""
+ARRAYS: list[Place] = [IMAGE, ELLIPSE, OFFSETS, (PATTERN, 0), (PATTERN, 1)]
+ARRAYS += [(APPEARANCE, 0), (APPEARANCE, 1), (APPEARANCE, 3)]
+
+
+@pytest.mark.parametrize("place", ARRAYS)
+def test_native_refuses_other_types(place: Place) -> None:
+    """No array is converted."""
     arguments = case(0)
-    arguments[place] = arguments[place].astype(np.float16)
+    other = argument(arguments, place).astype(np.float16)
     with pytest.raises(TypeError, match="float16"):
-        _core.rank_search(*arguments)
+        _core.rank_search(*with_argument(arguments, place, other))

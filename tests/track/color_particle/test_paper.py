@@ -71,10 +71,10 @@ def test_skin_of_the_whole_image_gives_the_gaussian():
 
 def test_only_pixels_in_the_ellipse_are_sampled():
     """The window's grid covers the ellipse, pi/4 of its box, and nothing outside of it."""
-    radii = np.hypot(*Appearance.create(PAPER).grid.T)
+    radii = np.hypot(*Appearance.create(PAPER).pattern.inside.T)
     assert radii.max() <= 1
     assert len(radii) == pytest.approx(np.pi / 4 * 64 * 48, rel=0.01)
-    assert len(Appearance.create(Params()).grid) == 12 * 8  # the default takes the box
+    assert len(Appearance.create(Params()).pattern.inside) == 12 * 8  # the default takes the box
 
 
 def test_the_model_is_that_of_the_previous_frame(small):

@@ -6,7 +6,12 @@ from numpy.typing import NDArray
 
 from tricue.reference.base.arrays import Floats, Singles
 from tricue.reference.base.checks import refuse, require_shape, require_weights
-from tricue.reference.cues.color.rank_likelihood import rank_likelihood
+from tricue.reference.cues.color.rank_likelihood import (
+    ColorAppearance,
+    Factors,
+    Pattern,
+    rank_likelihood,
+)
 from tricue.reference.cues.color.rank_window import rank_window
 from tricue.reference.fuse.propose import propose
 from tricue.reference.fuse.resample import resample
@@ -20,29 +25,18 @@ MIN_WEIGHT = 1e-300  # lower bound of a weight before its logarithm is taken
 
 def rank_filter(
     image: NDArray[np.uint8],
-    particles: Floats,
-    weights: Floats,
-    offset: float | None,
-    noise: Floats,
-    correlation: float,
-    drift: Four,
-    scale: Four,
-    lower: Four,
-    upper: Four,
-    mean: tuple[float, float],
-    root: tuple[float, float, float],
-    share: float,
-    inside: Floats,
-    around: Floats,
-    models: Singles,
-    shares: Floats,
-    nearest: bool,
-    table: Singles,
-    sharpness: float,
-    contrast_weight: float,
+    last: tuple[Floats, Floats, float | None],
+    noise: tuple[Floats, float],
+    dynamics: tuple[Four, Four],
+    bounds: tuple[Four, Four],
+    detection: tuple[tuple[float, float], tuple[float, float, float], float],
+    pattern: Pattern,
+    appearance: ColorAppearance,
+    factors: Factors,
     flat: float,
 ) -> tuple[Floats, Floats, float, Floats, float, Singles, Floats]:
     """Calls the twins of its parts, one after the other."""
+    particles, weights, offset = last
     _check(particles, weights)
     log_weights = np.zeros(len(weights))
     if offset is None:
@@ -50,25 +44,25 @@ def rank_filter(
         log_weights = np.log(np.maximum(weights, MIN_WEIGHT))
     else:
         particles = particles[resample(weights, offset)]
-    look = (inside, around, models, shares, nearest, table, sharpness, contrast_weight)
-    moves, limits = (np.array(drift), np.array(scale)), (np.array(lower), np.array(upper))
-    first, cross, second = root
-    gaussian = np.array(mean), np.array([[first, 0.0], [cross, second]])
-    moved = propose(particles, *moves, _mixed(noise, correlation), *gaussian, share, *limits)
-    log_likelihood = rank_likelihood(image, moved, *look) + log_weights
-    posterior, _ = reweight(log_likelihood, moved, particles, *moves, *gaussian, share)
+    (drift, scale), limits = map(np.array, dynamics), map(np.array, bounds)
+    mean, (first, cross, second), share = detection
+    gaussian = np.array(mean), np.array([[first, 0.0], [cross, second]]), share
+    moved = propose(particles, drift, scale, _mixed(*noise, len(particles)), *gaussian, *limits)
+    log_likelihood = rank_likelihood(image, moved, pattern, appearance, factors) + log_weights
+    posterior, _ = reweight(log_likelihood, moved, particles, drift, scale, *gaussian)
     ellipse, _, effective = summarize(moved, posterior)
-    its_own = float(rank_likelihood(image, ellipse[None], *look)[0])
-    return moved, posterior, effective, ellipse, its_own, *rank_window(image, ellipse, inside, models, flat)
+    its_own = float(rank_likelihood(image, ellipse[None], pattern, appearance, factors)[0])
+    window = rank_window(image, ellipse, pattern[0], appearance[0], flat)
+    return moved, posterior, effective, ellipse, its_own, *window
 
 
-def _mixed(noise: Floats, correlation: float) -> Floats:
-    require_shape("noise", noise, (len(noise), 4))
+def _mixed(white: Floats, correlation: float, count: int) -> Floats:
+    require_shape("white", white, (count, 4))
     if not abs(correlation) <= 1:
         refuse("correlation", "a number in [-1, 1]", float(correlation))
     mixing = np.eye(4)
     mixing[2:, 3] = correlation, np.sqrt(1 - correlation**2)
-    return np.asarray(noise @ mixing)
+    return np.asarray(white @ mixing)
 
 
 def _check(particles: Floats, weights: Floats) -> None:

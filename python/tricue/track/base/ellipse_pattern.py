@@ -1,10 +1,19 @@
 # SPDX-License-Identifier: MIT
 """Sampling patterns inside and around an ellipse: points (u, v) in units of its semi-axes, center (0, 0)."""
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
 GOLDEN_ANGLE = np.pi * (3 - np.sqrt(5))
+
+
+class EllipsePattern(NamedTuple):
+    """Where an ellipse, (n, 2), and its surround, (m, 2), are sampled."""
+
+    inside: NDArray[np.float64]
+    around: NDArray[np.float64]
 
 
 def grid(rows: int, columns: int, extent: float = 1.0) -> NDArray[np.float64]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from tricue.arrays import Floats, Image, Singles
 from tricue.kernels import Kernels
-from tricue.track.base.ellipse_pattern import ring
+from tricue.track.base.ellipse_pattern import EllipsePattern, ring
 from tricue.track.color_particle.color_contrast import ColorContrast
 from tricue.track.color_particle.color_models import Gaussian, Histogram, Lookup, Region
 from tricue.track.color_particle.observation_model import ObservationModel, WindowSamples, window_grid
@@ -41,17 +41,24 @@ def _pattern_beside() -> Floats:
 BESIDE = _pattern_beside()
 
 
-class RankMeasurement(NamedTuple):
-    """Arguments that ``rank_likelihood`` and ``rank_filter`` share, in their order."""
+class ColorAppearance(NamedTuple):
+    """What the target looks like, for the kernels: its rank maps and their weights, and its colors."""
 
-    inside: Floats  # (n, 2) sample positions in the window, semi-axes
-    around: Floats  # (m, 2) sample positions around it, semi-axes
     maps: Singles
     weights: Floats
     nearest: bool  # whether the most similar of the maps counts alone
     table: Singles
-    sharpness: float
-    contrast_weight: float
+
+
+class RankMeasurement(NamedTuple):
+    """Arguments that ``rank_likelihood``, ``rank_search`` and ``rank_filter`` share, in their order.
+
+    factors: of the squared distance of ranks, and of the color contrast, in the log-likelihood, nats.
+    """
+
+    pattern: EllipsePattern
+    appearance: ColorAppearance
+    factors: tuple[float, float]
 
 
 class Appearance(NamedTuple):
@@ -59,8 +66,7 @@ class Appearance(NamedTuple):
 
     model: ObservationModel
     contrast: ColorContrast | None
-    grid: Floats  # (n, 2) sample positions in the window, semi-axes
-    ring: Floats  # (m, 2) sample positions around it, semi-axes
+    pattern: EllipsePattern  # where the window and its surround are sampled
     linear: bool  # whether the likelihood is the printed (18)
     sharpness: float
 
@@ -71,22 +77,19 @@ class Appearance(NamedTuple):
         return cls(
             model,
             ColorContrast(p.color_weight) if p.color_weight > 0 else None,
-            window_grid(p),
-            ring(p.ring_samples, *p.ring),
+            EllipsePattern(window_grid(p), ring(p.ring_samples, *p.ring)),
             p.likelihood == "linear",
             model.sharpness if p.sharpness is None else p.sharpness,
         )
 
     def sample(self, k: Kernels, image: Image, ellipses: Floats) -> WindowSamples:
         """Sample the windows of ellipses (N, 4)."""
-        return WindowSamples(
-            k.sample_ellipses(image, ellipses, self.grid), k.sample_ellipses(image, ellipses, self.ring)
-        )
+        return WindowSamples(*(k.sample_ellipses(image, ellipses, places) for places in self.pattern))
 
     def observe(self, k: Kernels, image: Image, ellipse: Floats) -> Any:
         """What the model learns and recognizes in the window of an ellipse (4,)."""
         if isinstance(self.model, RankSpatial):
-            return self.model.observe(k, image, ellipse, self.grid)
+            return self.model.observe(k, image, ellipse, self.pattern.inside)
         return self.sample(k, image, ellipse[None])
 
     @property
@@ -99,16 +102,8 @@ class Appearance(NamedTuple):
         model, contrast = self.model, self.contrast
         if contrast is None or self.linear or not isinstance(model, RankSpatial):
             return None
-        return RankMeasurement(
-            self.grid,
-            self.ring,
-            model.maps,
-            model.weights,
-            searching,
-            contrast.table,
-            self.sharpness,
-            contrast.weight,
-        )
+        target = ColorAppearance(model.maps, model.weights, searching, contrast.table)
+        return RankMeasurement(self.pattern, target, (self.sharpness, contrast.weight))
 
     def log_likelihood(self, k: Kernels, image: Image, ellipses: Floats, searching: bool = False) -> Floats:
         """(N,) log p(y | x), nats: equation (18), or its exponential form, times the color contrast term."""
@@ -161,7 +156,7 @@ class Appearance(NamedTuple):
         """Blend the window of an ellipse (4,) into both models; rates of 1 initialize them."""
         contrast = self.contrast and self.contrast.learn(k, image, ellipse, color_rate)
         model = self.model.learn(k, seen, rate)
-        return Appearance(model, contrast, self.grid, self.ring, self.linear, self.sharpness)
+        return Appearance(model, contrast, self.pattern, self.linear, self.sharpness)
 
 
 def probability(log_likelihood: float, lead: float) -> float:

@@ -12,14 +12,13 @@ import numpy as np
 
 from tricue.arrays import Floats, Image, Singles
 from tricue.kernels import Kernels
-from tricue.track.base.ellipse_pattern import ring
+from tricue.track.base.ellipse_pattern import EllipsePattern, ring
 from tricue.track.color_particle.observation_model import Samples
 
 CONTRAST_BINS = 16  # per channel
 EMPTY_HISTOGRAM: Singles = np.zeros((CONTRAST_BINS, CONTRAST_BINS, CONTRAST_BINS), np.float32)
 CONTRAST_SAMPLES = 600  # learned inside the target, and the same number around it
-TARGET_PATTERN = ring(CONTRAST_SAMPLES, 0.0, 1.0)
-SURROUND_PATTERN = ring(CONTRAST_SAMPLES, 1.15, 2.0)
+PATTERN = EllipsePattern(ring(CONTRAST_SAMPLES, 0.0, 1.0), ring(CONTRAST_SAMPLES, 1.15, 2.0))
 MIN_CELL_SHARE = 1e-4  # of the samples; cells with fewer are uninformative
 
 
@@ -42,8 +41,8 @@ class ColorContrast(NamedTuple):
         """
         if rate < 1 and not self.skipped:
             return ColorContrast(self.weight, self.target, self.surround, self.table, skipped=True)
-        patterns, histograms = (TARGET_PATTERN, SURROUND_PATTERN), (self.target, self.surround)
-        tables = k.learn_contrast(image, ellipse, *patterns, *histograms, min(2 * rate, 1.0), MIN_CELL_SHARE)
+        rate = min(2 * rate, 1.0)
+        tables = k.learn_contrast(image, ellipse, PATTERN, self.target, self.surround, rate, MIN_CELL_SHARE)
         return ColorContrast(self.weight, *tables)
 
     def log_likelihood(self, k: Kernels, inside: Samples, around: Samples) -> Floats:

@@ -53,7 +53,14 @@ def filter_step(
     measurement = appearance.rank_measurement(searching)
     if measurement is not None:
         step = k.rank_filter(
-            *(image, particles, weights, *noise, *prediction, *detection, *measurement, MIN_RANK_SPREAD)
+            image,
+            (particles, weights, noise.offset),
+            (noise.white, noise.correlation),
+            prediction[:2],
+            prediction[2:],
+            detection,
+            *measurement,
+            MIN_RANK_SPREAD,
         )
         return ColorParticleSet(*step[:5], RankWindow(*step[5:]))
     log_weights = np.zeros(len(weights))

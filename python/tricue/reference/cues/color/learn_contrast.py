@@ -15,18 +15,17 @@ UNSEEN = 0.0  # P(target) of a color that neither target nor surround has
 def learn_contrast(
     image: NDArray[np.uint8],
     ellipse: Floats,
-    inside: Floats,
-    around: Floats,
+    pattern: tuple[Floats, Floats],
     target: Cube,
     surround: Cube,
     rate: float,
     rare: float,
 ) -> tuple[Cube, Cube, Cube]:
-    """Samples both patterns, and calls learn_histograms."""
+    """Samples the ellipse and its surround, and calls learn_histograms."""
     require_shape("ellipse", ellipse, (4,))
     require_finite("ellipse", ellipse)
-    for name, pattern in (("inside", inside), ("around", around)):
-        require_shape(name, pattern, (len(pattern), 2))
-        require_finite(name, pattern)
-    within, without = (sample_ellipses(image, ellipse[None], pattern) for pattern in (inside, around))
+    for name, places in zip(("inside", "around"), pattern, strict=True):
+        require_shape(name, places, (len(places), 2))
+        require_finite(name, places)
+    within, without = (sample_ellipses(image, ellipse[None], places) for places in pattern)
     return learn_histograms(within, without, target, surround, rate, rare, UNSEEN)

@@ -6,21 +6,16 @@ from numpy.typing import NDArray
 
 from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import require_finite, require_shape
-from tricue.reference.cues.color.rank_likelihood import rank_likelihood
+from tricue.reference.cues.color.rank_likelihood import ColorAppearance, Factors, Pattern, rank_likelihood
 
 
 def rank_search(
     image: NDArray[np.uint8],
     ellipse: Floats,
     offsets: Floats,
-    inside: Floats,
-    around: Floats,
-    models: NDArray[np.float32],
-    shares: Floats,
-    nearest: bool,
-    table: NDArray[np.float32],
-    sharpness: float,
-    contrast_weight: float,
+    pattern: Pattern,
+    appearance: ColorAppearance,
+    factors: Factors,
 ) -> tuple[Floats, float, float]:
     """Calls rank_likelihood for all windows, and takes its maximum."""
     require_shape("ellipse", ellipse, (4,))
@@ -30,7 +25,6 @@ def rank_search(
     center, axes = ellipse[:2], ellipse[2:]
     moved = np.concatenate([center + axes * offsets[:, :2], axes * offsets[:, 2:]], axis=1)
     windows = np.concatenate([ellipse[None], moved])
-    look = (inside, around, models, shares, nearest, table, sharpness, contrast_weight)
-    log_likelihood = rank_likelihood(image, windows, *look)
+    log_likelihood = rank_likelihood(image, windows, pattern, appearance, factors)
     best = int(np.argmax(log_likelihood))
     return windows[best], float(log_likelihood[best]), float(log_likelihood[0])
