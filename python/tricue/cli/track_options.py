@@ -53,8 +53,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
         "--tracker",
         type=tracker_name,
         metavar="NAME",
-        help=f"{', '.join(names())} or module:Class; default {DEFAULT_TRACKER}, or {depth_tracker()} "
-        "for depth without a box to start on",
+        help=f"{', '.join(names())}, module:Class or file.py:Class; default {DEFAULT_TRACKER}, "
+        f"or {depth_tracker()} for depth without a box to start on",
     )
     start = command.add_mutually_exclusive_group()
     start.add_argument(

@@ -124,6 +124,7 @@ def test_a_package_offers_trackers(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize(
     ("name", "message"),
     [
+        ("mine.py", "name: expected one of .*, module:Class or file.py:Class, got 'mine.py'"),
         ("no_such_module:Tracker", "no_such_module:Tracker: there is no module no_such_module"),
         ("fractions:Nothing", "fractions:Nothing: the module fractions has no Nothing"),
         ("./mine:Mine", "./mine:Mine: expected module:Class or path/to/file.py:Class"),

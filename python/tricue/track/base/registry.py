@@ -94,7 +94,8 @@ def location(name: str, argument: str = "name") -> str:
     where = _BUILT_IN.get(name) or (installed[name].value if name in installed else name)
     if not isinstance(where, str) or ":" not in where:
         raise ValueError(
-            f"{argument}: expected one of {', '.join(map(repr, names()))} or module:Class, got {name!r}"
+            f"{argument}: expected one of {', '.join(map(repr, names()))}, module:Class or file.py:Class, "
+            f"got {name!r}"
         )
     return where
 
