@@ -129,6 +129,27 @@ BAD = [
 ]
 
 
+# With all outputs that are a file, and what else the command needs.
+FILES = [
+    *(["track", "v.mp4", f"--{name}"] for name in ("output", "csv", "json", "mot", "coco", "plot")),
+    ["calibrate", "skin-threshold", "skin", "--output"],
+    ["compare", "old", "new", "--report"],
+    ["evaluate", "sequences", "--latex"],
+]
+
+
+@pytest.mark.parametrize("words", FILES)
+def test_a_folder_is_no_output_file(
+    words: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A name that ends in a slash, of a folder that may not exist, is an error that names the option."""
+    with pytest.raises(SystemExit, match="2"):
+        main([*words, f"{tmp_path}/out/"])
+    error = f"tricue {words[0]}.*: argument {words[-1]}: expected a file's name, got the folder '.*/out/'"
+    assert re.match(error, capsys.readouterr().err)
+    assert not [*tmp_path.iterdir()]
+
+
 @pytest.mark.parametrize(("arguments", "message"), BAD)
 def test_bad_arguments_are_one_line(
     sequence: Path, drift_tracker: str, capsys: pytest.CaptureFixture[str], arguments: list[str], message: str

@@ -3,6 +3,7 @@
 
 import argparse
 import math
+import os
 import re
 import sys
 from pathlib import Path
@@ -62,6 +63,13 @@ def share(text: str) -> float:
     if not 0 <= number <= 1:
         raise argparse.ArgumentTypeError(f"expected a share, 0 to 1, got {text!r}")
     return number
+
+
+def output_file(text: str) -> Path:
+    """The path of a file to write; not that of a folder, of which Path would drop the slash at the end."""
+    if text.endswith(("/", os.sep)):
+        raise argparse.ArgumentTypeError(f"expected a file's name, got the folder {text!r}")
+    return Path(text)
 
 
 def words(text: str) -> list[str]:

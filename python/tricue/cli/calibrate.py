@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from tricue.camera import toml
-from tricue.cli.arguments import box, meters, share
+from tricue.cli.arguments import box, meters, output_file, share
 from tricue.cli.calibrations import find_calibration
 from tricue.cli.output_files import check_not_read
 from tricue.data.color_samples import read_color_samples
@@ -83,7 +83,9 @@ def add_options(command: argparse.ArgumentParser) -> None:
         kind.add_argument(
             "--params", type=Path, metavar="FILE", help="parameters to measure with and to keep, TOML"
         )
-        kind.add_argument("--output", type=Path, required=True, metavar="FILE", help="parameters, TOML")
+        kind.add_argument(
+            "--output", type=output_file, required=True, metavar="FILE", help="parameters, TOML"
+        )
 
 
 def run(options: argparse.Namespace) -> int:

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from tricue.cli.arguments import number
+from tricue.cli.arguments import number, output_file
 from tricue.evaluation.compare import Comparison, compare_folders
 from tricue.evaluation.differences import BETTER, signed
 from tricue.evaluation.report.compare_page import write_compare_page
@@ -33,7 +33,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
         default="auc",
         help="the column of rows.csv that is compared, default %(default)s",
     )
-    command.add_argument("--report", type=Path, metavar="FILE", help="also write an HTML page")
+    command.add_argument("--report", type=output_file, metavar="FILE", help="also write an HTML page")
     command.add_argument(
         "--fail-if-worse", action="store_true", help="exit code 1 if a tracker is shown to be worse"
     )

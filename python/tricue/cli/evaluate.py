@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from tricue.cli.arguments import any_tracker_names, count, seconds, words
+from tricue.cli.arguments import any_tracker_names, count, output_file, seconds, words
 from tricue.cli.option_names import by_options, naming_options
 from tricue.cli.progress import Progress
 from tricue.cli.settings import read_settings, third_party_settings
@@ -124,7 +124,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
         action="store_true",
         help="measure the sequences' attributes, and group results by them",
     )
-    command.add_argument("--latex", type=Path, metavar="FILE", help="also write the tables as LaTeX")
+    command.add_argument("--latex", type=output_file, metavar="FILE", help="also write the tables as LaTeX")
     command.add_argument(
         "--figures",
         type=words,

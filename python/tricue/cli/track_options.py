@@ -10,6 +10,7 @@ from tricue.cli.arguments import (
     angles,
     count,
     frame_number,
+    output_file,
     seconds,
     start_box,
     tracker_name,
@@ -87,7 +88,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
         help="angles of view to assume; positions are then marked as assumed",
     )
     command.add_argument(
-        "--output", type=Path, metavar="FILE", help="overlay video, .mp4, .mkv, .webm or .avi"
+        "--output", type=output_file, metavar="FILE", help="overlay video, .mp4, .mkv, .webm or .avi"
     )
     command.add_argument(
         "--trail",
@@ -97,19 +98,21 @@ def add_options(command: argparse.ArgumentParser) -> None:
         metavar="SECONDS",
         help="draw the path of the last seconds, by default %(const)g, into --output",
     )
-    command.add_argument("--csv", type=Path, metavar="FILE", help="a line per frame")
+    command.add_argument("--csv", type=output_file, metavar="FILE", help="a line per frame")
     command.add_argument(
         "--json",
-        type=Path,
+        type=output_file,
         metavar="FILE",
         help="the same, with the tracker and its parameters; -: one object per line, on standard output",
     )
-    command.add_argument("--mot", type=Path, metavar="FILE", help="the tracks in MOTChallenge's text format")
     command.add_argument(
-        "--coco", type=Path, metavar="FILE", help="the tracks in COCO's JSON format for video"
+        "--mot", type=output_file, metavar="FILE", help="the tracks in MOTChallenge's text format"
     )
     command.add_argument(
-        "--plot", type=Path, metavar="FILE", help="the path seen from above, in meters, .png"
+        "--coco", type=output_file, metavar="FILE", help="the tracks in COCO's JSON format for video"
+    )
+    command.add_argument(
+        "--plot", type=output_file, metavar="FILE", help="the path seen from above, in meters, .png"
     )
     command.add_argument(
         "--workers",
