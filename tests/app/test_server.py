@@ -338,13 +338,15 @@ def test_error_in_telling_is_told(client: TestClient, monkeypatch: pytest.Monkey
 
 
 def test_errors_reach_the_page(client: TestClient, serving: Serving) -> None:
-    """What goes wrong in a thread is told to the page, once."""
+    """What goes wrong in a thread is told to the page, once, and in its user's words, as is a bad command."""
+    serving.word = "in words: {}".format
+    assert do(client, "delete", target=7)["error"].startswith("in words: target: expected")
     with live(client) as socket:
         serving.session.errors.append("something broke")
         seen = []
         while not seen or seen[-1]["type"] != "error":
             seen.append(socket.receive_json())
-        assert seen[-1]["error"] == "something broke"
+        assert seen[-1]["error"] == "in words: something broke"
 
 
 def test_boxes_alone(video: Path, session_of: Callable[..., Session]) -> None:

@@ -368,4 +368,6 @@ def test_sizes_that_differ_are_advised_on(two_cameras: Path, capsys: pytest.Capt
     assert main(["track", str(two_cameras), *MM, box_option(seen_by(COLOR, 0))]) == 2
     error = capsys.readouterr().err
     assert "frame.depth: expected shape (120, 160), got (60, 80)" in error
-    assert "--calibration FILE in TOML, with the tables depth and color, registers it" in error
+    assert error.endswith(
+        "pixels: --calibration FILE in TOML, with the tables depth and color, registers it\n"
+    )

@@ -8,7 +8,8 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
-from tricue import Intrinsics, StereoRig
+from numpy.typing import NDArray
+from tricue import Frame, FusedTracker, Intrinsics, StereoRig
 from tricue.app import serve
 from tricue.cli.program import main
 from tricue.data.open_source import open_source
@@ -150,6 +151,35 @@ def test_a_camera_is_opened_with_its_calibration(
     assert isinstance(opened.cameras["intrinsics"], Intrinsics)
     assert opened.source.name == "images"
     capsys.readouterr()
+
+
+@pytest.mark.filterwarnings("ignore:depth. its median is about 3000 m")
+@pytest.mark.parametrize(
+    ("color", "depth", "told"),
+    [
+        (
+            None,
+            np.full((60, 80), 3000.0),
+            "millimeters; --depth-scale 0.001 tells their unit; end tricue open",
+        ),
+        (
+            np.full((120, 160, 3), 90, np.uint8),
+            np.full((60, 80), 3.0),
+            "--calibration FILE in TOML, with the tables depth and color, registers it; end tricue open",
+        ),
+    ],
+)
+def test_the_page_tells_options(
+    tmp_path: Path, handed: Handed, color: Any, depth: NDArray[np.float64], told: str
+) -> None:
+    """An error of a tracker names the options to start with again; in Python it names arguments."""
+    assert main(["open", str(write_images(tmp_path / "images"))]) == 0
+    with pytest.raises(ValueError, match=r"^frame.depth: expected") as raised:
+        FusedTracker().init(Frame(color, depth), (20, 20, 20, 20))
+    shown = handed.keywords["word"](f"Target 1, fused, frame 0: {raised.value}")
+    assert shown.startswith("Target 1, fused, frame 0: frame.depth: expected ")
+    assert shown.endswith(f"{told} and start it again with that")
+    assert handed.keywords["word"]("Target 1: bad frame 7") == "Target 1: bad frame 7"
 
 
 def test_topics_of_a_recording(tmp_path: Path, handed: Handed) -> None:

@@ -100,7 +100,7 @@ class _Page:
         errors = self.serving.session.errors[self.errors :]
         self.errors += len(errors)
         for error in errors:
-            await tell(self.socket, {"type": "error", "error": error})
+            await tell(self.socket, {"type": "error", "error": self.serving.word(error)})
 
 
 def state(serving: Serving) -> dict[str, Any]:

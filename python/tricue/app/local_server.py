@@ -23,11 +23,15 @@ CLOSING_TIME = 2  # seconds for open connections to finish at the end
 
 @dataclass(kw_only=True)
 class Served:
-    """What is served: its token, a folder for temporary files, and a function that stops it."""
+    """What is served: its token, a folder for temporary files, and a function that stops it.
+
+    word: puts an error into the words of whoever reads the page.
+    """
 
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
     folder: Path = field(default_factory=lambda: Path(tempfile.gettempdir()))
     finish: Callable[[], None] = lambda: None
+    word: Callable[[str], str] = str
 
 
 def serve_until_ended(

@@ -33,11 +33,13 @@ def serve_project(
     seed: int = 0,
     notes: tuple[str, ...] = (),
     say: Callable[[str], None] = print,
+    word: Callable[[str], str] = str,
 ) -> None:
     """Serve a recording's project until Ctrl-C; if it is already served, open that page and return.
 
     port: None for DEFAULT_PORT, or a free one if that is in use. cameras: the trackers' keywords intrinsics
-    or rig. tracker: the default for new targets. say: gets the lines for the user.
+    or rig. tracker: the default for new targets. say: gets the lines for the user. word: puts an error into
+    the words of whoever reads the page.
     OSError if the port is in use.
     """
     path = project_path(place)
@@ -56,7 +58,7 @@ def serve_project(
         with _saved(Session(recording, place, path, cameras, seed)) as session:
             if tracker:
                 session.check_tracker(tracker)
-            serving = Serving(session, tracker=tracker, notes=notes)
+            serving = Serving(session, tracker=tracker, notes=notes, word=word)
             serve_until_ended(serving, make_app(serving), port, browser, say, announce)
 
 

@@ -54,7 +54,7 @@ def _still(serving: Serving, number: int, channel: str | None) -> bytes:
 
 
 async def _do(serving: Serving, request: Request) -> Response:
-    return await answer(request, lambda command: do(serving, command))
+    return await answer(request, lambda command: do(serving, command), serving.word)
 
 
 async def _export(serving: Serving, request: Request) -> Response:

@@ -123,8 +123,12 @@ def bound(handler: Callable[..., Any], serving: Any) -> Callable[..., Any]:
     return handle
 
 
-async def answer(request: Request, do: Callable[[dict[str, Any]], dict[str, Any] | None]) -> Response:
-    """A command's result as a JSON object; status 400 with one line of text if it fails."""
+async def answer(
+    request: Request,
+    do: Callable[[dict[str, Any]], dict[str, Any] | None],
+    word: Callable[[str], str],
+) -> Response:
+    """A command's result as a JSON object; status 400 with one line of text, put into words, if it fails."""
     try:
         body = await request.body()
         if len(body) > MAX_COMMAND:
@@ -134,7 +138,7 @@ async def answer(request: Request, do: Callable[[dict[str, Any]], dict[str, Any]
             raise ValueError("expected a command as a JSON object")
         found = await run_in_threadpool(do, command)
     except (OSError, ValueError, TypeError, RuntimeError, ImportError) as error:
-        return as_json({"error": one_line(error)}, 400)
+        return as_json({"error": word(one_line(error))}, 400)
     return as_json(found or {})
 
 

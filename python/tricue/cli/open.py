@@ -10,7 +10,7 @@ from tricue.cli.arguments import add_topics, seed, tracker_name
 from tricue.cli.calibrations import find_calibration
 from tricue.cli.option_names import by_options, naming_options
 from tricue.cli.source_options import add_source_options, open_input
-from tricue.cli.starts import DEFAULT_TRACKER, depth_tracker
+from tricue.cli.starts import DEFAULT_TRACKER, by_calibration, depth_tracker
 from tricue.data.open_source import Source, live_device
 from tricue.track.base.registry import traits
 
@@ -69,6 +69,7 @@ def run(options: argparse.Namespace) -> int:
         seed=options.seed,
         notes=notes,
         say=lambda text: print(text, flush=True),
+        word=_for_page,
     )
     return 0
 
@@ -92,8 +93,15 @@ def _serve_camera(options: argparse.Namespace, name: str) -> int:
         tracker=options.tracker or "",
         seed=options.seed,
         say=lambda text: print(text, flush=True),
+        word=_for_page,
     )
     return 0
+
+
+def _for_page(error: str) -> str:
+    """An error with options in place of Python's arguments; as the page can't set them, how to."""
+    told = by_options(by_calibration(error))
+    return told if told == error else f"{told}; end tricue open and start it again with that"
 
 
 def _calibrated(

@@ -14,7 +14,6 @@ from tricue.errors import (
     BoxNeededError,
     MissingChannelError,
     NoDepthInBoxError,
-    UnregisteredDepthError,
 )
 from tricue.kernels import Kernels, load
 from tricue.track.base.registry import names, traits
@@ -23,6 +22,7 @@ from tricue.track.head_detection.start_box import find_head_or_face
 
 DEFAULT_TRACKER = "fused"  # if no tracker is chosen
 _PARAMETER, _WORD = re.compile(r"\b(\w+)=\(('\w+',? ?(?:'\w+',? ?)*)\)"), re.compile(r"\w+")
+_REGISTRATION = re.compile(r"tricue\.camera\.registration\.Registration brings it .* views are the same")
 BOX_HINT, FACE_HINT = "give --box x,y,width,height", "--detect face"
 
 
@@ -71,8 +71,6 @@ def start_hint(error: ValueError, source: Source, tracker: Tracker) -> str:
         return ""
     if isinstance(error, BoxError):
         return f"; {BOX_HINT}" if tracker.traits.detects else f"; {BOX_HINT} or {FACE_HINT}"
-    if isinstance(error, UnregisteredDepthError):
-        return "; --calibration FILE in TOML, with the tables depth and color, registers it"
     if isinstance(error, MissingChannelError):
         return {
             "depth": "; ".join(("", "give its depth images with --depth FOLDER", *source.notes)),
@@ -84,7 +82,14 @@ def start_hint(error: ValueError, source: Source, tracker: Tracker) -> str:
 
 def in_options(text: str) -> str:
     """A tracker's message with parameters as in the command line: --set cues=flow for cues=('flow',)."""
+    text = by_calibration(text)
     return _PARAMETER.sub(lambda found: f"--set {found[1]}={','.join(_WORD.findall(found[2]))}", text)
+
+
+def by_calibration(text: str) -> str:
+    """A tracker's message with --calibration in place of what registers depth in Python."""
+    option = "--calibration FILE in TOML, with the tables depth and color, registers it"
+    return _REGISTRATION.sub(option, text)
 
 
 def _face(frame: Frame, k: Kernels, rig: StereoRig | None, camera: Intrinsics | None) -> Box | None:

@@ -126,9 +126,12 @@ def test_bad_command_is_one_line(
     studio.shows()
 
 
-def test_errors_and_outages_are_told(client: TestClient, studio: Studio) -> None:
-    """What goes wrong in a tracker, and how the camera does, reach the page."""
+def test_errors_and_outages_are_told(studio: Studio) -> None:
+    """What goes wrong in a tracker, and how the camera does, reach the page, in its user's words."""
+    serving = LiveServing(studio.session, word="in words: {}".format)
     studio.begin()
+    client = TestClient(make_live_app(serving), f"{HOST}/{serving.token}/")
+    assert do(client, "delete", target=7)["error"].startswith("in words: target: expected")
     with live(client) as socket:
         studio.session.errors.append("something broke")
         seen: dict[str, Any] = {}
@@ -137,5 +140,5 @@ def test_errors_and_outages_are_told(client: TestClient, studio: Studio) -> None
             if message.get("text"):
                 content = json.loads(message["text"])
                 seen[content["type"]] = content
-        assert seen["error"]["error"] == "something broke"
+        assert seen["error"]["error"] == "in words: something broke"
         assert (seen["health"]["dropped"], seen["health"]["trouble"]) == (0, "")

@@ -21,18 +21,19 @@ def serve_camera(
     tracker: str = "",
     seed: int = 0,
     say: Callable[[str], None] = print,
+    word: Callable[[str], str] = str,
 ) -> None:
     """Serve a camera until Ctrl-C. The page is served at once, even before the camera is open.
 
     Recordings go to the working folder, if it can be written to.
 
     open_: opens it, in a thread. name: shown in the page. port: None for the default one, or a free one if
-    that is in use. tracker: the default for new targets. say: gets the lines for the user. OSError if the
-    port is in use.
+    that is in use. tracker: the default for new targets. say: gets the lines for the user. word: puts an
+    error into the words of whoever reads the page. OSError if the port is in use.
     """
     place = Path.cwd()
     if not os.access(place, os.W_OK):
         place = data_folder()
     with closing(LiveSession(open_, name, place, seed, say)) as session:
-        serving = LiveServing(session, tracker=tracker)
+        serving = LiveServing(session, tracker=tracker, word=word)
         serve_until_ended(serving, make_live_app(serving), port, browser, say, lambda _: session.start())

@@ -87,7 +87,7 @@ async def _do(serving: LiveServing, request: Request) -> Response:
             raise ValueError(f"do: expected one of {', '.join(COMMANDS)}, got {name!r:.40}")
         return COMMANDS[name](serving.session, **command)
 
-    return await answer(request, do)
+    return await answer(request, do, serving.word)
 
 
 def _add(session: LiveSession, frame: Any, box: Any, tracker: Any) -> dict[str, Any]:
@@ -160,7 +160,7 @@ class _Page:
             await tell(self.socket, {"type": "state", **now})
         errors, self.errors = session.errors[self.errors :], len(session.errors)
         for error in errors:
-            await tell(self.socket, {"type": "error", "error": error})
+            await tell(self.socket, {"type": "error", "error": self.serving.word(error)})
         recorder = session.recorder
         health = {
             **session.health._asdict(),
