@@ -298,6 +298,18 @@ def test_bad_inputs_are_named(tmp_path: Path, make: Callable[[Path], Path], mess
         levels(open_source(make(tmp_path)))
 
 
+def test_a_hint_looks_one_folder_deep(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that the error of a folder without images doesn't search all that is below, as of a disk."""
+    deep = tmp_path / "a" / "b" / "c"
+    deep.mkdir(parents=True)
+    looked: list[Path] = []
+    whole = Path.iterdir
+    monkeypatch.setattr(Path, "iterdir", lambda path: looked.append(path) or whole(path))
+    with pytest.raises(ValueError, match=r"found neither images nor a video$"):
+        open_source(tmp_path)
+    assert set(looked) == {tmp_path, tmp_path / "a"}
+
+
 @pytest.mark.parametrize("suffix", [".webp", ".png", ".tif"])
 def test_an_animation_in_an_image_file_is_told(tmp_path: Path, suffix: str) -> None:
     """It proves that several pictures in one file aren't called one picture, as one alone is."""

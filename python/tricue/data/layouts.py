@@ -35,6 +35,10 @@ class Layout(NamedTuple):
     kitti_cameras: tuple[int, int] = KITTI_COLOR_CAMERAS
 
 
+class _EmptyFolderError(ValueError):
+    """A folder has neither images nor a video."""
+
+
 def read_layout(folder: Path, scale: float | None, target: str | None = None) -> Layout:
     """The folder's channels and truth.
 
@@ -44,7 +48,12 @@ def read_layout(folder: Path, scale: float | None, target: str | None = None) ->
     """
     if target is not None:
         check_target(target, _list_all_targets(folder), folder)
-    layout = _detect_layout(folder, scale, target)
+    try:
+        layout = _detect_layout(folder, scale, target)
+    except _EmptyFolderError as error:
+        if below := _sequence_below(folder):
+            raise ValueError(f"{error}; name a folder in it, such as {below}") from None
+        raise
     if layout.truth is not None:
         return layout
     color = layout.channels.get("color")
@@ -180,12 +189,10 @@ def _video(folder: Path, optional: bool) -> Video | None:
         return Video(found[0])
     if optional and not found:
         return None
+    expected = f"{folder}: expected a folder of images or a sequence"
     if found:
-        got = f"{len(found)} videos; name one of them"
-    else:
-        below = _sequence_below(folder)
-        got = "neither images nor a video" + (f"; name a folder in it, such as {below}" if below else "")
-    raise ValueError(f"{folder}: expected a folder of images or a sequence, found {got}")
+        raise ValueError(f"{expected}, found {len(found)} videos; name one of them")
+    raise _EmptyFolderError(f"{expected}, found neither images nor a video")
 
 
 def _sequence_below(folder: Path) -> Path | None:
