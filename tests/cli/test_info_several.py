@@ -34,6 +34,19 @@ def test_a_folder_of_sequences(tmp_path: Path, capsys: pytest.CaptureFixture[str
     assert found[0]["boxes"] == 2
 
 
+def test_progress_of_a_search(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It proves that the search of a large folder, and the reading of what it finds, aren't silent."""
+    monkeypatch.setattr("tricue.cli.progress._PLAIN_EVERY", 0.0)
+    vot(tmp_path / "a" / "walk")
+    assert main(["info", str(tmp_path)]) == 0
+    captured = capsys.readouterr()
+    searched = "".join(f"{count}  folders searched for sequences\n" for count in (1, 2, 3))
+    assert captured.err == f"{searched}1/1  sequences read\n"
+    assert captured.out.startswith("a/walk: ")
+
+
 @pytest.mark.parametrize(
     "option", [("--fps", "15"), ("--target", "Car 0"), ("--calibration", "c.yml"), ("--unit", "1")]
 )

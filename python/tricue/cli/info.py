@@ -69,7 +69,7 @@ def run(options: argparse.Namespace) -> int:
         source = _open(options)
     except ValueError:
         root = Path(options.place)
-        below = [path for path in find_sequences(root) if path != root] if root.is_dir() else []
+        below = _sequences_below(root) if root.is_dir() else []
         if not below:
             raise
         _refuse_options_of_one(root, options)
@@ -95,6 +95,13 @@ def _open(options: argparse.Namespace) -> Source:
     if any(isinstance(stream, LiveStream) for stream in source.channels.values()):
         raise ValueError(f"{source.name}: expected a recording, of which the frames can be counted")
     return source
+
+
+def _sequences_below(root: Path) -> list[Path]:
+    """The sequences in a folder, with progress, as the search of a whole disk takes minutes."""
+    with Progress() as progress:
+        found = find_sequences(root, partial(progress, note="folders searched for sequences"))
+    return [path for path in found if path != root]
 
 
 def _read_videos(source: Source) -> None:
@@ -216,7 +223,11 @@ def _refuse_options_of_one(root: Path, options: argparse.Namespace) -> None:
 
 def _list(root: Path, places: list[Path], options: argparse.Namespace) -> int:
     """Print a line per sequence; ValueError at the end if some can't be opened."""
-    found = [_summarize(root, place, options.depth_scale) for place in places]
+    found = []
+    with Progress(len(places)) as progress:
+        for place in places:
+            found.append(_summarize(root, place, options.depth_scale))
+            progress(len(found), "sequences read")
     _print({"sequences": found}, map(_summary_line, found), options.json)
     if bad := sum("error" in each for each in found):
         raise ValueError(f"{root}: {bad} of {len(found)} sequences can't be opened")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Finds sequences with true boxes in a folder, by file names alone."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from tricue.data import kitti, princeton, tum
@@ -10,32 +10,33 @@ from tricue.data.files import is_video, may_be_video, natural_order
 from tricue.data.truth import OTB_TRUTH, PRINCETON_FIRST_BOX, VOT_TRUTH, otb_targets
 
 
-def find_sequences(root: str | Path) -> list[Path]:
+def find_sequences(root: str | Path, progress: Callable[[int], None] = lambda _: None) -> list[Path]:
     """The sequences at or under ``root``, in natural order.
 
     These are folders with true boxes or KITTI's labels, and video files with a table of boxes beside them.
     Folders inside a sequence aren't searched; others are searched once, however many links lead to them. No
-    image is read, so malformed sequences are included; opening one says what is wrong with it.
-    FileNotFoundError for a root that doesn't exist.
+    image is read, so malformed sequences are included; opening one says what is wrong with it. progress: gets
+    the number of folders searched so far. FileNotFoundError for a root that doesn't exist.
     """
     root = Path(root)
     if not root.exists():
         raise FileNotFoundError(f"{root}: there is no such file or folder")
     if root.is_file():
         return [root] if _is_sequence_video(root) else []
-    return natural_order(_below(root, set()))
+    return natural_order(_below(root, set(), progress))
 
 
-def _below(folder: Path, seen: set[Path]) -> Iterator[Path]:
+def _below(folder: Path, seen: set[Path], progress: Callable[[int], None]) -> Iterator[Path]:
     if (real := folder.resolve()) in seen:
         return
     seen.add(real)
+    progress(len(seen))
     if _is_sequence(folder):
         yield folder
         return
     for path in natural_order(folder.iterdir()):
         if path.is_dir() and not path.name.startswith("."):
-            yield from _below(path, seen)
+            yield from _below(path, seen, progress)
         elif _is_sequence_video(path):
             yield path
 
