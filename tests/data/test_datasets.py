@@ -99,6 +99,31 @@ def test_links_are_followed_once(collection: Path) -> None:
     assert [path.relative_to(collection).as_posix() for path in find_sequences(collection)] == SEQUENCES
 
 
+def test_what_cannot_be_read_is_left_out(collection: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that the search of a disk goes on behind folders of others, of which a warning tells; that it
+    ends in one that can't be read itself.
+    """
+    locked = {collection / "otb", collection / "ptb" / "bear"}
+    whole, stat = Path.iterdir, Path.stat
+
+    def closed(path: Path) -> Path:
+        if path.parent in locked or path in locked:
+            raise PermissionError(13, "Permission denied", str(path))
+        return path
+
+    monkeypatch.setattr(Path, "iterdir", lambda path: whole(closed(path)))
+    monkeypatch.setattr(
+        Path, "stat", lambda path, **given: stat(path if path in locked else closed(path), **given)
+    )
+    with pytest.warns(UserWarning, match="left out what can't be read: .*/otb and 1 more"):
+        found = find_sequences(collection)
+    closed_ones = ("otb/Girl", "otb/Jogging", "ptb/bear")
+    expected = [name for name in SEQUENCES if name not in closed_ones]
+    assert [path.relative_to(collection).as_posix() for path in found] == expected
+    with pytest.raises(PermissionError, match="otb"):
+        find_sequences(collection / "otb")
+
+
 def test_malformed_sequences_are_found(collection: Path) -> None:
     """It proves that a sequence with a bad line isn't left out without a word: opening it names the line."""
     text(collection / "otb" / "Girl" / "groundtruth_rect.txt", "1,2,three,4\n")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Finds sequences with true boxes in a folder, by file names alone."""
 
+import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -16,29 +17,56 @@ def find_sequences(root: str | Path, progress: Callable[[int], None] = lambda _:
     These are folders with true boxes or KITTI's labels, and video files with a table of boxes beside them.
     Folders inside a sequence aren't searched; others are searched once, however many links lead to them. No
     image is read, so malformed sequences are included; opening one says what is wrong with it. progress: gets
-    the number of folders searched so far. FileNotFoundError for a root that doesn't exist.
+    the number of folders searched so far. Warns (UserWarning) of folders that can't be read, which are left
+    out. FileNotFoundError for a root that doesn't exist.
     """
     root = Path(root)
     if not root.exists():
         raise FileNotFoundError(f"{root}: there is no such file or folder")
     if root.is_file():
         return [root] if _is_sequence_video(root) else []
-    return natural_order(_below(root, set(), progress))
+    next(root.iterdir(), None)  # OSError for a root that can't be read
+    search = _Search(progress)
+    found = natural_order(search.below(root))
+    if search.unreadable:
+        first, *others = search.unreadable
+        more = f" and {len(others)} more" if others else ""
+        warnings.warn(f"{root}: left out what can't be read: {first}{more}", stacklevel=2)
+    return found
 
 
-def _below(folder: Path, seen: set[Path], progress: Callable[[int], None]) -> Iterator[Path]:
-    if (real := folder.resolve()) in seen:
-        return
-    seen.add(real)
-    progress(len(seen))
-    if _is_sequence(folder):
-        yield folder
-        return
-    for path in natural_order(folder.iterdir()):
-        if path.is_dir() and not path.name.startswith("."):
-            yield from _below(path, seen, progress)
-        elif _is_sequence_video(path):
-            yield path
+class _Search:
+    """A search for sequences: the folders that it has seen, by their real paths, and what it can't read."""
+
+    def __init__(self, progress: Callable[[int], None]) -> None:
+        self.seen: set[Path] = set()
+        self.unreadable: list[Path] = []
+        self._progress = progress
+
+    def below(self, path: Path) -> Iterator[Path]:
+        """The sequences in a folder, or the video itself."""
+        try:
+            places = self._places(path)
+        except OSError:
+            self.unreadable.append(path)
+            return
+        for each in places:
+            if each == path:
+                yield path
+            else:
+                yield from self.below(each)
+
+    def _places(self, path: Path) -> list[Path]:
+        """The path itself, if it is a sequence; otherwise what is in a folder that wasn't seen before."""
+        if not path.is_dir():
+            return [path] if _is_sequence_video(path) else []
+        if (real := path.resolve()) in self.seen:
+            return []
+        self.seen.add(real)
+        self._progress(len(self.seen))
+        if _is_sequence(path):
+            return [path]
+        return natural_order(each for each in path.iterdir() if not each.name.startswith("."))
 
 
 def _is_sequence_video(path: Path) -> bool:
