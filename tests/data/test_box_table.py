@@ -50,6 +50,19 @@ def test_columns(tmp_path: Path, text: str) -> None:
     assert truth.positions is None
 
 
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-be"])
+def test_byte_order_marks(tmp_path: Path, encoding: str) -> None:
+    """It proves that a table is read as Excel and PowerShell write it, also beside a video, and so are other
+    files of boxes.
+    """
+    mark = "\ufeff" if encoding == "utf-16-be" else ""  # which Python writes for the others
+    table, plain = tmp_path / "clip.csv", tmp_path / "groundtruth.txt"
+    table.write_text(f"{mark}x\ty\tw\th\n1\t2\t3\t4\n", encoding=encoding)
+    plain.write_text(f"{mark}1,2,3,4\n", encoding=encoding)
+    assert find_video_box_table(tmp_path / "clip.mp4") == table
+    assert read_box_table(table).boxes.tolist() == read_truth_file(plain).boxes.tolist() == [[1, 2, 3, 4]]
+
+
 @pytest.mark.parametrize("row", ["1,,,,", "1,nan,nan,nan,nan", "1,5,5,0,9", "1,5,5,9,0", "1,NaN,2,3,4"])
 def test_absent_is_not_unknown(tmp_path: Path, row: str) -> None:
     """It proves that a row without a box says "absent", and that a frame without a row is unknown."""

@@ -16,7 +16,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.data.files import is_video
-from tricue.data.truth import MAX_FRAME_NUMBER, MAX_VALUE, Truth, check_sizes, lines_of, truth_from_rows
+from tricue.data.truth import (
+    MAX_FRAME_NUMBER,
+    MAX_VALUE,
+    Truth,
+    check_sizes,
+    encoding_of,
+    lines_of,
+    truth_from_rows,
+)
 
 BOX_TABLE = "boxes.csv"
 _BOX_COLUMNS = ("x", "y", "width", "height")
@@ -144,7 +152,7 @@ def _rows(path: Path) -> Iterator[_Row]:
 
 def _first_cells(path: Path) -> list[str]:
     """The values of a table's first line."""
-    with path.open(encoding="utf-8-sig", errors="replace") as file:
+    with path.open(encoding=encoding_of(path), errors="replace") as file:
         line = file.readline(10_000)
     return _cells(line, _delimiter(line))
 

@@ -6,6 +6,7 @@ count from 0. Princeton has <sequence>.txt, which is public for few sequences, a
 alone. Folders without these files may have a table, boxes.csv; see :mod:`tricue.data.box_table`.
 """
 
+import codecs
 import math
 import re
 from array import array
@@ -128,16 +129,23 @@ def read_lines(path: Path) -> list[str]:
 
 
 def lines_of(path: Path) -> Iterator[str]:
-    """The lines of a text file one by one, without empty ones at the end; bytes that aren't UTF-8 are
-    replaced.
+    """The lines of a text file one by one, without empty ones at the end; bytes that aren't in its encoding
+    are replaced.
     """
     empty = list[str]()
-    with path.open(encoding="utf-8-sig", errors="replace") as file:
+    with path.open(encoding=encoding_of(path), errors="replace") as file:
         for line in file:
             empty.append(line.removesuffix("\n"))
             if line.strip():
                 yield from empty
                 empty.clear()
+
+
+def encoding_of(path: Path) -> str:
+    """UTF-16, as Excel and PowerShell write it, for a text file with its byte order mark, else UTF-8."""
+    with path.open("rb") as file:
+        mark = file.read(2)
+    return "utf-16" if mark in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE) else "utf-8-sig"
 
 
 def _truth_path(folder: Path, target: str | None) -> Path | None:
