@@ -136,6 +136,11 @@ def test_an_empty_table(tmp_path: Path) -> None:
         ("0.5,1,2,3,4\n", "line 1: expected a frame's whole number from 0, got '0.5'"),
         ("-1,1,2,3,4\n", "line 1: expected a frame's whole number from 0, got '-1'"),
         ("frame,x,y,w,h\n,1,2,3,4\n", "line 2: expected a frame's whole number from 0, got ''"),
+        (
+            "x,y,w,h\n0.1,0.9,0.2,0.1\n,,,\n0.2,1,0.1,0\n",
+            "line 2: expected boxes in pixels, .* shares of the",
+        ),
+        ("x1,y1,x2,y2\n0.1,0.2,0.9,1\n", "line 2: expected boxes in pixels, got no number above 1"),
         ("99999999999,1,2,3,4\n", "line 1: expected a frame's whole number"),
         ("0,1,2,3,4\n1,1,2,3,4\n0,1,2,3,4\n", "line 3: expected each frame once, got 0 again"),
     ],

@@ -78,14 +78,21 @@ def read_box_table(path: str | Path) -> Truth:
 
     Each row is one frame, in order, unless a column ``frame`` gives its number from 0; frames without a row
     are unknown. Empty cells, NaN, or a width or height of 0 mean that the target is absent. Other columns
-    are ignored. ValueError names the file and the line.
+    are ignored. ValueError names the file and the line, also for shares of the image in place of pixels.
     """
     frames, numbers, places = _Frames(), array("d"), array("d")  # millions of lists would take gigabytes
+    first = ""
     for row in _rows(Path(path)):
+        first = first or row.place
         frames.add(row)
         numbers.extend(row.box())
         places.extend(map(row.number, _POSITION_COLUMNS))
     given = truth_from_rows(numbers)
+    if not given.absent.all() and np.nanmax(given.boxes) <= 1:
+        raise ValueError(
+            f"{first}: expected boxes in pixels, got no number above 1, as in shares of the image; multiply "
+            "them by its width and height"
+        )
     boxes, absent = np.full((frames.length, 4), np.nan), np.zeros(frames.length, np.bool_)
     boxes[frames.numbers], absent[frames.numbers] = given.boxes, given.absent
     return Truth(boxes, absent, _positions(places, frames))
