@@ -36,6 +36,11 @@ def read(folder: Path, text: str) -> Truth:
         "frame;xmin;xmax;ymin;ymax\n0;1;4;2;6\n1;5;12;6;14\n",
         "X_min,Y_min,X_max,Y_max,label\n1,2,4,6,a\n5,6,12,14,a\n",
         "Left,Top,Right,Bottom\n1,2,4,6\n5,6,12,14\n",
+        "cx,cy,w,h\n2.5,4,3,4\n8.5,10,7,8\n",
+        "x_center,y_center,width,height,class\n2.5,4,3,4,a\n8.5,10,7,8,a\n",
+        "frame\txcenter\tycenter\twidth\theight\n1\t8.5\t10\t7\t8\n0\t2.5\t4\t3\t4\n",
+        "Center_X;Center_Y;W;H\n2.5;4;3;4\n8.5;10;7;8\n",
+        "x,y,w,h,cx,cy\n1,2,3,4,0,0\n5,6,7,8,0,0\n",
         "x,y,w,h,x1,y1,x2,y2\n1,2,3,4,0,0,0,0\n5,6,7,8,0,0,0,0\n",
         'Frame,"X",Y,Width,Height,note\n0,1,2,3,4,"a, b"\n1,5,6,7,8,\n',
     ],
@@ -113,10 +118,10 @@ def test_an_empty_table(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("1,2,3\n", "line 1: expected columns x, y, width, height or x1, .*, each once, got '1,2,3'"),
+        ("1,2,3\n", "line 1: expected columns x, y, width, height or cx, .*, each once, got '1,2,3'"),
         ("1,2,3,4,5,6\n", "line 1: expected columns"),
         ("1o,2,3,4\n", "line 1: expected columns x, y, width, height .* each once, got '1o,2,3,4'"),
-        ("x1,y1,x2\n1,2,3\n", "line 1: expected columns x, y, width, height or x1, y1, x2, y2, each once"),
+        ("x1,y1,x2\n1,2,3\n", "line 1: expected columns x, .* height or x1, y1, x2, y2, each once"),
         ("x1,y1,x2,y2\n1,2,3,\n", "line 2: expected all of x1, y1, x2, y2 or none, got no y2"),
         ("x1,y1,x2,y2\n1,2,3,far\n", "line 2: expected a number y2, got 'far'"),
         ("x1,y1,x2,y2\n9,9,5,12\n", "line 2: expected a width and height of 0 or more, got '9,9,5,12'"),
@@ -141,6 +146,8 @@ def test_an_empty_table(tmp_path: Path) -> None:
             "line 2: expected boxes in pixels, .* shares of the",
         ),
         ("x1,y1,x2,y2\n0.1,0.2,0.9,1\n", "line 2: expected boxes in pixels, got no number above 1"),
+        ("cx,cy,w,h\n0.5,0.5,0.1,0.2\n", "line 2: expected boxes in pixels"),
+        ("cx,cy,w,h\n0.5,0.5,0.1,\n", "line 2: expected all of cx, cy, width, height or none, got no height"),
         ("99999999999,1,2,3,4\n", "line 1: expected a frame's whole number"),
         ("0,1,2,3,4\n1,1,2,3,4\n0,1,2,3,4\n", "line 3: expected each frame once, got 0 again"),
     ],
@@ -199,7 +206,9 @@ def test_which_table_is_found(tmp_path: Path) -> None:
     assert find_box_table(tmp_path, video) is None
     own.write_text("time,acceleration\n0,9.81\n")
     assert find_video_box_table(video) is None
-    for text in ("x,y,width\n", "1,2,3,4\n", "1 2 3 4\n", "frame,x,y,w,h\n", "x1,y1,x2,y2\n"):
+    own.write_text("fx,fy,cx,cy,width,height\n500,500,320,240,640,480\n")  # a camera's
+    assert find_video_box_table(video) is None
+    for text in ("x,y,width\n", "1,2,3,4\n", "1 2 3 4\n", "frame,x,y,w,h\n", "x1,y1,x2,y2\n", "cx,cy,w,h\n"):
         own.write_text(text)
         assert find_video_box_table(video) == find_box_table(tmp_path, video) == own
     assert find_box_table(tmp_path) is None

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """True boxes in a CSV table: boxes.csv in a folder, or clip.csv beside the video clip.mp4.
 
-A header names the columns, as in the tables of ``tricue track --csv``, or the corners of the boxes. Without a
-header they are x, y, width, height, or the frame number followed by these.
+A header names the columns, as in the tables of ``tricue track --csv``, or the boxes' centers or corners.
+Without a header they are x, y, width, height, or the frame number followed by these.
 """
 
 import csv
@@ -28,6 +28,7 @@ from tricue.data.truth import (
 
 BOX_TABLE = "boxes.csv"
 _BOX_COLUMNS = ("x", "y", "width", "height")
+_CENTER_COLUMNS = ("cx", "cy", "width", "height")
 _CORNER_COLUMNS = (
     ("x1", "y1", "x2", "y2"),
     ("xmin", "ymin", "xmax", "ymax"),
@@ -38,6 +39,11 @@ _TRACKER_COLUMNS = ("status", "score")  # columns that tricue track --csv writes
 _POSITION_COLUMNS = ("x_m", "y_m", "z_m")
 _OTHER_NAMES = {"w": "width", "h": "height"}
 _OTHER_NAMES |= {f"{axis}_{end}": f"{axis}{end}" for axis in "xy" for end in ("min", "max")}
+_OTHER_NAMES |= {
+    name: f"c{axis}"
+    for axis in "xy"
+    for name in (f"{axis}_center", f"{axis}center", f"center_{axis}", f"center{axis}", f"{axis}c")
+}
 _HEADERLESS_COLUMNS = {4: _BOX_COLUMNS, 5: ("frame", *_BOX_COLUMNS)}
 
 
@@ -62,7 +68,7 @@ class _Row(NamedTuple):
         return value
 
     def box(self) -> list[float]:
-        """x, y, width, height. ValueError if only some of them are there, as in a truncated row."""
+        """Left and top edge, width, height. ValueError if only some are there, as in a truncated row."""
         names = self.box_columns
         empty = [name for name in names if not self.cells[name]]
         if 0 < len(empty) < len(names):
@@ -70,6 +76,8 @@ class _Row(NamedTuple):
         left, top, width, height = map(self.number, names)
         if names in _CORNER_COLUMNS:
             width, height = width - left, height - top
+        elif names == _CENTER_COLUMNS:
+            left, top = left - width / 2, top - height / 2
         return check_sizes([left, top, width, height], self.place, ",".join(self.cells.values()))
 
 
@@ -112,8 +120,8 @@ def find_box_table(folder: Path, video: Path | None = None) -> Path | None:
 def find_video_box_table(video: Path) -> Path | None:
     """The table with a video's name beside it.
 
-    None if there is none, if its header names neither x and y nor corners, or if a tracker wrote it, whose
-    boxes aren't true ones.
+    None if there is none, if its header names no x and y, centers or corners of boxes, or if a tracker wrote
+    it, whose boxes aren't true ones.
     """
     path = video.with_suffix(".csv")
     if not path.is_file():
@@ -147,8 +155,8 @@ def _rows(path: Path) -> Iterator[_Row]:
             of_box = _box_columns(columns)
             if not of_box or len(set(columns)) < len(columns):
                 raise ValueError(
-                    f"{place}: expected columns x, y, width, height or x1, y1, x2, y2, each once, "
-                    f"got {line.strip()!r:.60}"
+                    f"{place}: expected columns x, y, width, height or cx, cy, width, height "
+                    f"or x1, y1, x2, y2, each once, got {line.strip()!r:.60}"
                 )
             if names:
                 continue
@@ -190,8 +198,11 @@ def _names(cells: list[str]) -> tuple[str, ...] | None:
 
 
 def _box_columns(columns: Sequence[str]) -> tuple[str, ...]:
-    """The columns of the box: x, y, width, height, or those of its corners; () without either."""
-    known = (_BOX_COLUMNS, *_CORNER_COLUMNS)
+    """The columns of the box: x, y, width, height, or those of its corners or its center; () without these.
+
+    Beside fx, cx and cy are a camera's.
+    """
+    known = (_BOX_COLUMNS, *_CORNER_COLUMNS, *(() if "fx" in columns else (_CENTER_COLUMNS,)))
     return next((names for names in known if set(names) <= set(columns)), ())
 
 
