@@ -277,6 +277,31 @@ def test_bad_arguments_are_named(wrong, error):
         PanTilt(**wrong)
 
 
+@pytest.mark.parametrize(
+    "degrees",
+    [{"pan_limits": (-90, 90)}, {"tilt_limits": (-30, 5)}, {"max_speed": 60}, {"dead_band": 1}],
+)
+def test_degrees_are_told(degrees, recwarn):
+    """The same in radians gives no warning, nor do the largest plausible numbers."""
+    name, value = next(iter(degrees.items()))
+    with pytest.warns(UserWarning, match=rf"^{name}: expected rad.*, which looks like degrees; math.radians"):
+        PanTilt(CAMERA, **degrees)
+    PanTilt(CAMERA, **{name: np.radians(value).tolist()})
+    PanTilt(CAMERA, pan_limits=(-2 * math.pi, 2 * math.pi), max_speed=12.0, dead_band=0.5)
+    assert not recwarn
+
+
+def test_degrees_of_a_head_are_told(recwarn):
+    """Its angles are beyond its limits; those of a head that turns several times are within them."""
+    with pytest.warns(UserWarning, match=r"^tilt: expected radians, got about -40, which looks like degrees"):
+        PanTilt(CAMERA).command(track_at(0, 0), 0.0, -41.0)
+    with pytest.warns(UserWarning, match="^pan_limits"):
+        head = PanTilt(CAMERA, pan_limits=(-20.0, 20.0))
+    head.command(track_at(0, 0), 19.0, 0.0)
+    PanTilt(CAMERA).command(track_at(0, 0), 6.0, -6.0)
+    assert not recwarn
+
+
 def test_bad_angles_are_named():
     """NaN is no angle, and no time; the next command is as if there had been none such."""
     head = PanTilt(CAMERA)

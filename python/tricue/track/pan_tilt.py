@@ -4,6 +4,7 @@ section 6: tracks become commands for a pan-tilt head.
 """
 
 import math
+import warnings
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -17,6 +18,10 @@ from tricue.track.base.track import Status, Track
 
 Angles = tuple[float, float]  # pan, tilt
 Waiting = tuple[tuple[float, np.ndarray], ...]  # seconds, and pan and tilt speeds, of commands
+
+MAX_ANGLE = 2 * math.pi  # radians; only heads that turn several times have larger limits
+MAX_SPEED = 4 * math.pi  # rad/s, two turns a second; no common head is faster
+MAX_DEAD_BAND = math.radians(validation.DEFAULT_FIELD_OF_VIEW / 2)  # farther aside, a target is out of sight
 
 
 class PanTiltCommand(NamedTuple):
@@ -58,7 +63,8 @@ class PanTilt:
     max_acceleration: rad/s²; a tracker by flow needs image motion that changes slowly. pan_limits,
     tilt_limits: radians; the head brakes before them. rate: frames/s without timestamps.
 
-    TypeError and ValueError name the argument that is wrong.
+    TypeError and ValueError name the argument that is wrong. Warns (UserWarning) of angles and speeds so
+    large that they look like degrees.
     """
 
     def __init__(
@@ -86,6 +92,14 @@ class PanTilt:
         self.max_acceleration = positive(max_acceleration, "max_acceleration", "rad/s²")
         self.limits = _limits(pan_limits, "pan_limits"), _limits(tilt_limits, "tilt_limits")
         self.rate = positive(rate, "rate", "frames/s")
+        for value, largest, name, unit in (
+            (max(map(abs, self.limits[0])), MAX_ANGLE, "pan_limits", "radians"),
+            (max(map(abs, self.limits[1])), MAX_ANGLE, "tilt_limits", "radians"),
+            (self.max_speed, MAX_SPEED, "max_speed", "rad/s"),
+            (self.dead_band, MAX_DEAD_BAND, "dead_band", "radians"),
+        ):
+            if value > largest:
+                _warn_of_degrees(value, name, unit)
         self.reset()
 
     def reset(self) -> None:
@@ -111,7 +125,8 @@ class PanTilt:
         to be carried out, after the latency. timestamp: of the frame, seconds. ValueError for a track without
         a position if there are no intrinsics, and for numbers that aren't finite; TypeError for anything
         but a track, such as None before tracking starts. An error leaves the controller as it was. Warns
-        (UserWarning) of a timestamp so large that it looks like milliseconds or a smaller unit.
+        (UserWarning) of a timestamp so large that it looks like milliseconds or a smaller unit, and of an
+        angle beyond the limits that looks like degrees.
         """
         if not isinstance(track, Track):
             raise TypeError(f"track: expected a tricue.Track, got {track!r:.80}")
@@ -122,6 +137,9 @@ class PanTilt:
         assumed = np.array(self._last[2:]) - turn
         given = (assumed[0] if pan is None else pan), (assumed[1] if tilt is None else tilt)
         angles = np.array([finite(given[0], "pan", "radians"), finite(given[1], "tilt", "radians")])
+        for angle, limits, name in zip(angles.tolist(), self.limits, ("pan", "tilt"), strict=True):
+            if abs(angle) > max(MAX_ANGLE, *map(abs, limits)):
+                _warn_of_degrees(angle, name, "radians")
         # Everything that may raise an error comes before any change.
         seen = track.status is Status.TRACKED and bool(track.score)
         direction = self._direction(track, angles) if seen else None
@@ -224,6 +242,13 @@ def _speed_that_stops(room: np.ndarray, change: float, interval: float) -> np.nd
     steps = room / (change * interval)
     n = np.floor((np.sqrt(1 + 8 * np.maximum(steps, 0)) - 1) / 2)
     return np.asarray(change * (n / 2 + steps / (n + 1)))
+
+
+def _warn_of_degrees(value: float, name: str, unit: str) -> None:
+    """Warn at the line that calls the controller."""
+    about = float(f"{value:.1g}")  # the same in most frames, as Python shows each text of a line only once
+    got = f"about {about:g}, which looks like degrees; math.radians converts it"
+    warnings.warn(f"{name}: expected {unit}, got {got}", UserWarning, stacklevel=3)
 
 
 def _wrapped(angle: np.ndarray) -> np.ndarray:
