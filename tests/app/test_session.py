@@ -3,14 +3,16 @@
 
 import json
 import threading
+import warnings
 from pathlib import Path
 from typing import Any
 
 import cv2
 import numpy as np
 import pytest
-from tricue import Box, Status, Track
+from tricue import Box, Frame, Status, Track
 from tricue.app.exports import EXPORTS
+from tricue.camera.shared_frame import messages_of, warn_of_frame
 from tricue.errors import BoxError
 
 from tests.app.conftest import FRAMES, START, moving
@@ -53,6 +55,27 @@ def test_box_on_which_nothing_can_start_is_refused(video: Path, session_of: Sess
         with pytest.raises(BoxError, match=message):
             session.draw(1, 5, box)
     assert session.project == before
+
+
+def test_warnings_of_a_run_are_told_once(
+    video: Path, session_of: SessionOf, counting: type[Counting], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two targets warn of every frame; nothing goes to the terminal, which the page's user doesn't see."""
+
+    def update(self: Counting, frame: Frame) -> Track:
+        warn_of_frame(messages_of(frame), "color: too dark", stacklevel=1)
+        return Track(self.box, 1.0, Status.TRACKED)
+
+    monkeypatch.setattr(counting, "update", update)
+    session = session_of(video)
+    for _ in range(2):
+        session.add(0, START, "counting")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        run(session, 0, 1)
+    assert session.errors == ["warning: color: too dark"]
+    run(session, FRAMES - 1, -1)
+    assert session.errors == 2 * ["warning: color: too dark"]
 
 
 @pytest.mark.usefixtures("counting")

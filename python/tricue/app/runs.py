@@ -12,6 +12,7 @@ from tricue.app.frames import RecordedFrames
 from tricue.app.project import ProjectTarget
 from tricue.app.trackers import make_tracker
 from tricue.camera.frame import Frame
+from tricue.camera.shared_frame import SharedFrame
 from tricue.data.prefetch import prefetch
 from tricue.track.base.adapter import with_known_numbers
 from tricue.track.base.track import Status, Track, Tracker
@@ -64,7 +65,8 @@ class Paused:
 class Follower:
     """Creates the trackers, and runs them until each target's next drawn box.
 
-    cameras: the trackers' keywords intrinsics or rig, if known. report: gets a tracker's error and its place.
+    cameras: the trackers' keywords intrinsics or rig, if known. report: gets a tracker's error and its place,
+    or a warning about a frame, once a run.
     """
 
     def __init__(
@@ -90,14 +92,19 @@ class Follower:
         resumed = {each.id: self._resumed(each, run.start, run.step) for each in targets}
         following = {each.id: resumed[each.id] or self._new(each) for each in targets}
         by_id = {each.id: each for each in targets}
-        recording = self.recording.again()
+        recording, warned = self.recording.again(), set[str]()
         with closing(prefetch(recording.frames(run.start, stop))) as frames:
             for number, frame in frames:
+                shared = SharedFrame.of(frame)
                 for one in list(following):
                     if number * run.step >= ends[one] * run.step:
                         del following[one]
                     elif number != run.start or resumed[one] is None:
-                        self._step(run, by_id[one], following, number, frame)
+                        self._step(run, by_id[one], following, number, shared)
+                for message in shared.messages:
+                    if message not in warned:
+                        warned.add(message)
+                        self.report(UserWarning(message), "warning: ")
                 run.latest = number, frame
                 if run.stop.is_set() or not following:
                     return

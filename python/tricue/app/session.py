@@ -26,7 +26,7 @@ class Session:
     """One project on one recording. Its methods may be called from any thread.
 
     path: the project's file, None to save nothing. cameras: the trackers' keywords intrinsics or rig, if
-    known. errors: of runs and of saving, one line each.
+    known. errors: of runs and of saving, with runs' warnings, one line each.
     """
 
     def __init__(

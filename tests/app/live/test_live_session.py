@@ -9,8 +9,9 @@ from pathlib import Path
 
 import cv2
 import pytest
-from tricue import Box, Status, Track
+from tricue import Box, Frame, Status, Track
 from tricue.app.live.session import Opened
+from tricue.camera.shared_frame import messages_of, warn_of_frame
 from tricue.draw.video import count_frames
 
 from tests.app.conftest import START
@@ -171,6 +172,22 @@ def test_a_tracker_that_breaks_ends_alone(studio: Studio, monkeypatch: pytest.Mo
     assert [each.stopped for each in studio.session.targets] == [False, True]
     assert studio.session.recent[-1].tracks[2].status is Status.LOST
     assert abs(place(studio).x - START.x - level(number)) < 3
+
+
+def test_warnings_are_told(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that a tracker's warning about a frame reaches the page, with the target's name."""
+    studio.begin()
+    studio.session.add(0, list(START), "fused")
+    tracker = studio.session.targets[0].tracker
+    update = tracker.update
+
+    def warn(frame: Frame) -> Track:
+        warn_of_frame(messages_of(frame), "depth: not registered", stacklevel=1)
+        return update(frame)
+
+    monkeypatch.setattr(tracker, "update", warn)
+    studio.shows()
+    assert studio.session.errors == ["Target 1, fused: warning: depth: not registered"]
 
 
 def test_a_box_that_is_unknown_is_the_last_one(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:

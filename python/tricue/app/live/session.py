@@ -18,6 +18,7 @@ from tricue.app.project import ProjectTarget, checked_name
 from tricue.app.trackers import fitting_trackers, make_tracker
 from tricue.camera.box import Box, as_box
 from tricue.camera.frame import Frame
+from tricue.camera.shared_frame import SharedFrame
 from tricue.data.live import Health, Live, lives_of, total_health
 from tricue.data.source import Source
 from tricue.errors import one_line
@@ -229,7 +230,9 @@ class LiveSession:
         """Give a tracker the frames that it hasn't seen; an error stops only this tracker."""
         for number, frame in [] if followed.stopped else self._backlog.since(followed.at):
             try:
-                track = self._measured(followed.tracker.update(frame))
+                shared = SharedFrame.of(frame)
+                track = self._measured(followed.tracker.update(shared))
+                self._tell_warnings(followed.target, shared)
                 followed.track = with_known_numbers(track, followed.track.box)
             except Exception as error:  # whatever a third party's tracker raises
                 followed.stopped = True
@@ -238,6 +241,9 @@ class LiveSession:
                 return
             followed.at = number
         self._backlog.hold(followed.target.id, None)
+
+    def _tell_warnings(self, target: ProjectTarget, frame: SharedFrame) -> None:
+        self.errors += [f"{target.name}, {target.tracker}: warning: {each}" for each in frame.messages]
 
     def _tracks(self) -> dict[int, Track]:
         return {target: followed.track for target, followed in self._followed.items()}
@@ -291,7 +297,9 @@ class LiveSession:
             raise ValueError(f"frame: expected the number of a frame that is shown, got {number!r:.40}")
         frame = self._backlog.get(number)
         tracker = make_tracker(target.tracker, self.source, self._cameras, self.seed)
-        track = with_known_numbers(self._measured(tracker.init(frame, box)), box)
+        shared = SharedFrame.of(frame)
+        track = with_known_numbers(self._measured(tracker.init(shared, box)), box)
+        self._tell_warnings(target, shared)
         self._followed[target.id] = Followed(target, tracker, track, number)
         self._backlog.hold(target.id, number)
         if self.phase == "paused" and self.recent:  # the picture stays, so its tracks are sent again
