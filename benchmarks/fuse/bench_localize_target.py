@@ -15,16 +15,17 @@ TAPER = random.random((32, 32), np.float32)
 FILTERS = np.ascontiguousarray(np.fft.rfft2(random.uniform(-1, 1, (2, 19, 32, 32))) / 1024, np.complex64)
 TABLE, OTHER = random.random((16, 16, 16), np.float32), random.random((64, 64), np.float32)
 ROOTS = np.full(4096, 1 / 64)
-BOX = 17.4, 26.1, 1.5, 0.5, 0.7, 0.3, 0.8
+SEARCH = 17.4, 26.1, 1.5, 0.5, 0.7, 0.3, 0.8
 
 
-def script(patch: Any, taper: Any, filters: Any, table: Any, other: Any, roots: Any, *box: float) -> Any:
+def script(patch: Any, taper: Any, appearance: Any, other: Any, search: Any) -> Any:
     """The baseline: a call for each part, and NumPy for the features of the place."""
+    filters, table, roots = appearance
     responses = _core.correlation_response(_core.hog_color_cells(patch, taper), filters)
     posterior = _core.combine_posteriors(_core.color_posterior(patch, table), other)
-    peak = _core.evidence_peak(responses, _core.box_contrast(posterior, *box[:4]), *box[4:6])
+    peak = _core.evidence_peak(responses, _core.box_contrast(posterior, *search[:4]), *search[4:6])
     x, y = 32 + 2 * peak[0], 32 + 2 * peak[1]
-    half_width, half_height = (box[6] * side / 2 for side in box[:2])
+    half_width, half_height = (search[6] * side / 2 for side in search[:2])
     part = patch[
         round(y - half_height) : round(y + half_height), round(x - half_width) : round(x + half_width)
     ]
@@ -42,7 +43,7 @@ def script(patch: Any, taper: Any, filters: Any, table: Any, other: Any, roots: 
 )
 def bench_localize_target(benchmark: Any, localize_target: Callable[..., Any]) -> None:
     """All find the same, within the rounding of the responses."""
-    arguments = PATCH, TAPER, FILTERS, TABLE, OTHER, ROOTS, *BOX
+    arguments = PATCH, TAPER, (FILTERS, TABLE, ROOTS), OTHER, SEARCH
     found, _ = benchmark(localize_target, *arguments)
     expected, _ = reference.localize_target(*arguments)
     assert_allclose(found, expected, rtol=1e-3, atol=1e-3)

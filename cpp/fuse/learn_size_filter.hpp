@@ -11,8 +11,8 @@ namespace tricue {
 
 /// A correlation filter as correlation_train takes it.
 struct FilterParts {
-    ComplexStack numerator;
-    FloatsRef denominator;
+    ComplexStack numerator;  ///< complex64 (K, R, C // 2 + 1), A
+    FloatsRef denominator;   ///< float32 (R, C // 2 + 1), B
 };
 
 /// The filter of a target's size: as it is learned, and as it is applied.
@@ -25,19 +25,17 @@ struct SizeFilter {
 /// correlation_train; then the parts are blended with those of the first frame, against forgetting, and divided:
 ///     A = learned + first_weight (first - learned), B alike;   applied = A / (B + ridge mean(B))
 ///
-/// mean(B) counts as at least 1e-12.
+/// `learned` are A and B so far, as correlation_train takes them, `first` those of the first frame; K is 19. mean(B) counts as at
+/// least 1e-12.
 ///
 /// @param patch uint8 (H, W, 3) BGR, without padding between its rows
 /// @param places int64 (2R, 2C): as pick_pixels takes them
 /// @param taper float32 (R, C)
-/// @param label, numerator, denominator as correlation_train takes them; K is 19
-/// @param first_numerator complex64 (K, R, C // 2 + 1), of the first frame
-/// @param first_denominator float32 (R, C // 2 + 1), of the first frame
+/// @param label as correlation_train takes it
 /// @param rate as correlation_train takes it
 /// @param first_weight in [0, 1]
 /// @param ridge finite, above 0
-/// @returns numerator complex64 (K, R, C // 2 + 1), A
-/// @returns denominator float32 (R, C // 2 + 1), B
+/// @returns learned (numerator, denominator), A and B
 /// @returns applied complex64 (1, K, R, C // 2 + 1)
 /// @throws std::invalid_argument on other shapes, or numbers out of range
 /// Source: Danelljan, Häger, Khan, Felsberg 2014 (DSST); Li, Zhu, Hoi, Song, Wang, Liu 2019 (LDES).

@@ -10,17 +10,21 @@ namespace tricue {
 
 /// The appearance of a target.
 struct TargetAppearance {
-    FilterStack filters;  ///< of its place: the first one localizes it, then others
-    FloatsRef table;      ///< P(target | color) as color_posterior takes it, or empty
-    VectorRef roots;      ///< square roots of the joint histogram with which colors are compared
+    /// complex64 (F, 19, R, C // 2 + 1), F at least 1, of its place: the first one localizes it, then others
+    FilterStack filters;
+    FloatsRef
+        table;  ///< float32 (B, B, B), P(target | color) as color_posterior takes it, or (0, 0, 0) to ignore colors
+    /// float64 (B³,), B a power of two up to 64: square roots of the joint histogram with which colors are compared
+    VectorRef roots;
 };
 
 /// How a target is searched for in a patch.
 struct TargetSearch {
     double width, height;                   ///< of the target's box, patch pixels, finite, above 0
-    double surround_size, surround_weight;  ///< as box_contrast has them
-    double filter_weight, contrast_weight;  ///< as evidence_peak has them
-    double inner;                           ///< share of the box's sides whose colors are compared, above 0
+    double surround_size, surround_weight;  ///< as box_contrast takes them
+    double filter_weight,
+        contrast_weight;  ///< as evidence_peak takes them; without any posterior there is no contrast
+    double inner;         ///< share of the box's sides whose colors are compared, finite, above 0
 };
 
 /// The place in a patch with most evidence for a target, and the measurements there.
@@ -41,14 +45,7 @@ struct LocalizedTarget {
 ///
 /// @param patch uint8 (2R, 2C, 3) BGR
 /// @param taper float32 (R, C)
-/// @param filters complex64 (F, 19, R, C // 2 + 1), F at least 1
-/// @param table float32 (B, B, B), or (0, 0, 0) to ignore colors
 /// @param other float32 (2R, 2C), P(target) of the pixels by another cue, or (0, 0) where there is none
-/// @param roots float64 (B³,), B a power of two up to 64
-/// @param width, height of the box, patch pixels, finite, above 0
-/// @param surround_size, surround_weight as box_contrast takes them
-/// @param filter_weight, contrast_weight as evidence_peak takes them; without any posterior there is no contrast
-/// @param inner finite, above 0
 /// @throws std::invalid_argument on other shapes, or numbers out of range
 /// Source: Danelljan et al. 2014 (DSST); Bertinetto et al. 2016 (Staple); Bolme et al. 2010 (MOSSE).
 LocalizedTarget localize_target(const ImageView& patch, FloatsRef taper, const TargetAppearance& appearance,

@@ -7,6 +7,7 @@
 #include "fuse/localize_target.hpp"
 #include "fuse/log_polar_shift.hpp"
 #include "kernel_docs.hpp"
+#include "tuples.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -37,24 +38,21 @@ std::ptrdiff_t work(const ImageView& patch) {
     return std::ptrdiff_t{patch.rows} * patch.cols;
 }
 
-std::tuple<Array<double>, Floating> localize_target_arrays(const Bytes& patch, const Floating& taper,
-                                                           const Complex& filters, const Floating& table,
-                                                           const Floating& other, const Array<double>& roots,
-                                                           double width, double height, double surround_size,
-                                                           double surround_weight, double filter_weight,
-                                                           double contrast_weight, double inner) {
+using SearchTuple = Tuple<double, double, double, double, double, double, double>;
+
+std::tuple<Array<double>, Floating> localize_target_arrays(
+    const Bytes& patch, const Floating& taper, const Tuple<Complex, Floating, Array<double>>& appearance,
+    const Floating& other, const SearchTuple& search) {
     const auto view = color_image(patch, "patch");
     const auto weights = plane(taper, "taper", kTaper);
-    const auto models = filter_stack(filters, "filters");
-    const auto rule = color_cube(table);
+    const auto [filters, table, roots] = unpack(appearance, "appearance");
+    const TargetAppearance target{filter_stack(filters, "filters"), color_cube(table),
+                                  vector(roots, "roots")};
     const auto others = posterior(other);
-    const auto colors = vector(roots, "roots");
-    const TargetSearch search{width,         height,          surround_size, surround_weight,
-                              filter_weight, contrast_weight, inner};
-    auto place = unlocked(
-        work(view), [&] { return localize_target(view, weights, {models, rule, colors}, others, search); });
+    const auto wanted = unpack_as<TargetSearch>(search, "search");
+    auto place = unlocked(work(view), [&] { return localize_target(view, weights, target, others, wanted); });
     return {give(std::move(place.found)),
-            give(std::move(place.responses), {models.filters, weights.rows(), weights.cols()})};
+            give(std::move(place.responses), {target.filters.filters, weights.rows(), weights.cols()})};
 }
 
 std::tuple<double, double> log_polar_shift_arrays(const Bytes& patch, const Array<std::int64_t>& places,
@@ -90,40 +88,42 @@ std::tuple<Complex, Complex> learn_place_filter_arrays(const Bytes& patch, const
             give(std::move(filter.applied), {2, planes, rows, cols})};
 }
 
-std::tuple<Complex, Floating, Complex> learn_size_filter_arrays(
+using FilterTuple = Tuple<Complex, Floating>;
+
+FilterParts filter_parts(const FilterTuple& filter, const char* name, const char* numerator,
+                         const char* denominator) {
+    const auto [upper, lower] = unpack(filter, name);
+    return {stack<std::complex<float>>(upper, numerator, kFilter), plane(lower, denominator, kHalf)};
+}
+
+std::tuple<std::tuple<Complex, Floating>, Complex> learn_size_filter_arrays(
     const Bytes& patch, const Array<std::int64_t>& places, const Floating& taper, const Complex& label,
-    const Complex& numerator, const Floating& denominator, const Complex& first_numerator,
-    const Floating& first_denominator, double rate, double first_weight, double ridge) {
+    const FilterTuple& learned, const FilterTuple& first, double rate, double first_weight, double ridge) {
     const auto view = color_image(patch, "patch");
     const auto pixels = pixel_places(places);
     const auto weights = plane(taper, "taper", kTaper);
     const auto wanted = complexes(label, "label", kSpectrum);
-    const auto upper = stack<std::complex<float>>(numerator, "numerator", kFilter),
-               first_upper = stack<std::complex<float>>(first_numerator, "first_numerator", kFilter);
-    const auto lower = plane(denominator, "denominator", kHalf),
-               first_lower = plane(first_denominator, "first_denominator", kHalf);
+    const FilterParts before = filter_parts(learned, "learned", "numerator", "denominator"),
+                      oldest = filter_parts(first, "first", "first_numerator", "first_denominator");
     auto filter = unlocked(work(view), [&] {
-        return learn_size_filter(view, pixels, weights, wanted, {upper, lower}, {first_upper, first_lower},
-                                 rate, first_weight, ridge);
+        return learn_size_filter(view, pixels, weights, wanted, before, oldest, rate, first_weight, ridge);
     });
-    const py::ssize_t planes = upper.planes, rows = upper.rows, cols = upper.cols;
-    return {give(std::move(filter.learned.numerator), {planes, rows, cols}),
-            give(std::move(filter.learned.denominator)),
+    const py::ssize_t planes = before.numerator.planes, rows = before.numerator.rows,
+                      cols = before.numerator.cols;
+    return {{give(std::move(filter.learned.numerator), {planes, rows, cols}),
+             give(std::move(filter.learned.denominator))},
             give(std::move(filter.applied), {1, planes, rows, cols})};
 }
 
 std::tuple<Floating, Floating, Floating> learn_patch_colors_arrays(
-    const Bytes& patch, const Floating& other, double width, double height, double min_surround_size,
-    double min_target_posterior, double max_surround_posterior, const Floating& target,
-    const Floating& surround, double rate, double rare) {
+    const Bytes& patch, const Floating& other, const Tuple<double, double, double, double, double>& pixels,
+    const Floating& target, const Floating& surround, double rate, double rare) {
     const auto view = color_image(patch, "patch");
     const auto others = posterior(other);
     const auto own = color_cube(target, "target"), around = color_cube(surround, "surround");
-    auto [within, without, table] = unlocked(work(view), [&] {
-        return learn_patch_colors(
-            view, others, {width, height, min_surround_size, min_target_posterior, max_surround_posterior},
-            own, around, rate, rare);
-    });
+    const auto learned = unpack_as<LearnedPixels>(pixels, "pixels");
+    auto [within, without, table] = unlocked(
+        work(view), [&] { return learn_patch_colors(view, others, learned, own, around, rate, rare); });
     const std::vector<py::ssize_t> shape(3, own.cols());
     return {give(std::move(within), shape), give(std::move(without), shape), give(std::move(table), shape)};
 }
@@ -131,10 +131,8 @@ std::tuple<Floating, Floating, Floating> learn_patch_colors_arrays(
 }  // namespace
 
 void define_target(py::module_& m) {
-    m.def("localize_target", localize_target_arrays, py::arg("patch"), py::arg("taper"), py::arg("filters"),
-          py::arg("table"), py::arg("other"), py::arg("roots"), py::arg("width"), py::arg("height"),
-          py::arg("surround_size"), py::arg("surround_weight"), py::arg("filter_weight"),
-          py::arg("contrast_weight"), py::arg("inner"), docs::localize_target);
+    m.def("localize_target", localize_target_arrays, py::arg("patch"), py::arg("taper"),
+          py::arg("appearance"), py::arg("other"), py::arg("search"), docs::localize_target);
     m.def("log_polar_shift", log_polar_shift_arrays, py::arg("patch"), py::arg("places"), py::arg("taper"),
           py::arg("filter"), py::arg("most_right"), py::arg("most_down"), py::arg("penalty"),
           docs::log_polar_shift);
@@ -142,13 +140,11 @@ void define_target(py::module_& m) {
           py::arg("mask"), py::arg("label"), py::arg("previous"), py::arg("first"),
           py::arg("temporal_weight"), py::arg("penalty"), py::arg("first_weight"), docs::learn_place_filter);
     m.def("learn_size_filter", learn_size_filter_arrays, py::arg("patch"), py::arg("places"),
-          py::arg("taper"), py::arg("label"), py::arg("numerator"), py::arg("denominator"),
-          py::arg("first_numerator"), py::arg("first_denominator"), py::arg("rate"), py::arg("first_weight"),
-          py::arg("ridge"), docs::learn_size_filter);
+          py::arg("taper"), py::arg("label"), py::arg("learned"), py::arg("first"), py::arg("rate"),
+          py::arg("first_weight"), py::arg("ridge"), docs::learn_size_filter);
     m.def("learn_patch_colors", learn_patch_colors_arrays, py::arg("patch"), py::arg("other"),
-          py::arg("width"), py::arg("height"), py::arg("min_surround_size"), py::arg("min_target_posterior"),
-          py::arg("max_surround_posterior"), py::arg("target"), py::arg("surround"), py::arg("rate"),
-          py::arg("rare"), docs::learn_patch_colors);
+          py::arg("pixels"), py::arg("target"), py::arg("surround"), py::arg("rate"), py::arg("rare"),
+          docs::learn_patch_colors);
 }
 
 }  // namespace tricue::bindings

@@ -82,6 +82,12 @@ std::tuple<Parts...> unpack(const Tuple<Parts...>& tuple, const char* name) {
     return unpack_places<Parts...>(tuple.ptr(), name, std::index_sequence_for<Parts...>{});
 }
 
+/// The struct whose fields are the parts of a tuple.
+template <typename Struct, typename... Parts>
+Struct unpack_as(const Tuple<Parts...>& tuple, const char* name) {
+    return std::apply([](const Parts&... parts) { return Struct{parts...}; }, unpack(tuple, name));
+}
+
 }  // namespace tricue::bindings
 
 template <typename... Parts>

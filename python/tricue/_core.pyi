@@ -1710,11 +1710,7 @@ def learn_histogram(
 def learn_patch_colors(
     patch: numpy.typing.NDArray[numpy.uint8],
     other: numpy.typing.NDArray[numpy.float32],
-    width: float,
-    height: float,
-    min_surround_size: float,
-    min_target_posterior: float,
-    max_surround_posterior: float,
+    pixels: tuple[float, float, float, float, float],
     target: numpy.typing.NDArray[numpy.float32],
     surround: numpy.typing.NDArray[numpy.float32],
     rate: float,
@@ -1738,9 +1734,14 @@ def learn_patch_colors(
     Args:
         patch: uint8 (H, W, 3) BGR
         other: float32 (H, W), P(target) by another cue, or (0, 0) where there is none
-        width, height: of the box, pixels, finite, not negative
-        min_surround_size: finite, at least 1
-        min_target_posterior, max_surround_posterior: in [0, 1]
+        pixels: a tuple (width, height, min_surround_size, min_target_posterior,
+            max_surround_posterior):
+            - width, height: of the target's box, pixels, finite, not negative
+            - min_surround_size: scale of the box, outside of which pixels are the surround's, finite,
+              at least 1
+            - min_target_posterior: P(target) of the target's pixels is above this, in [0, 1]
+            - max_surround_posterior: P(target) of the surround's pixels in the ellipse is below this,
+              in [0, 1]
         target, surround, rate, rare: as learn_contrast takes them
 
     Returns:
@@ -1816,16 +1817,13 @@ def learn_size_filter(
     places: numpy.typing.NDArray[numpy.int64],
     taper: numpy.typing.NDArray[numpy.float32],
     label: numpy.typing.NDArray[numpy.complex64],
-    numerator: numpy.typing.NDArray[numpy.complex64],
-    denominator: numpy.typing.NDArray[numpy.float32],
-    first_numerator: numpy.typing.NDArray[numpy.complex64],
-    first_denominator: numpy.typing.NDArray[numpy.float32],
+    learned: tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.float32]],
+    first: tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.float32]],
     rate: float,
     first_weight: float,
     ridge: float,
 ) -> tuple[
-    numpy.typing.NDArray[numpy.complex64],
-    numpy.typing.NDArray[numpy.float32],
+    tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.float32]],
     numpy.typing.NDArray[numpy.complex64],
 ]:
     """
@@ -1834,22 +1832,26 @@ def learn_size_filter(
     first frame, against forgetting, and divided:
         A = learned + first_weight (first - learned), B alike;   applied = A / (B + ridge mean(B))
 
-    mean(B) counts as at least 1e-12.
+    `learned` are A and B so far, as correlation_train takes them, `first` those of the first frame; K
+    is 19. mean(B) counts as at least 1e-12.
 
     Args:
         patch: uint8 (H, W, 3) BGR, without padding between its rows
         places: int64 (2R, 2C): as pick_pixels takes them
         taper: float32 (R, C)
-        label, numerator, denominator: as correlation_train takes them; K is 19
-        first_numerator: complex64 (K, R, C // 2 + 1), of the first frame
-        first_denominator: float32 (R, C // 2 + 1), of the first frame
+        label: as correlation_train takes it
+        learned: a tuple (numerator, denominator):
+            - numerator: complex64 (K, R, C // 2 + 1), A
+            - denominator: float32 (R, C // 2 + 1), B
+        first: a tuple (numerator, denominator):
+            - numerator: complex64 (K, R, C // 2 + 1), A
+            - denominator: float32 (R, C // 2 + 1), B
         rate: as correlation_train takes it
         first_weight: in [0, 1]
         ridge: finite, above 0
 
     Returns:
-        numerator: complex64 (K, R, C // 2 + 1), A
-        denominator: float32 (R, C // 2 + 1), B
+        learned: (numerator, denominator), A and B
         applied: complex64 (1, K, R, C // 2 + 1)
 
     Raises:
@@ -1861,17 +1863,13 @@ def learn_size_filter(
 def localize_target(
     patch: numpy.typing.NDArray[numpy.uint8],
     taper: numpy.typing.NDArray[numpy.float32],
-    filters: numpy.typing.NDArray[numpy.complex64],
-    table: numpy.typing.NDArray[numpy.float32],
+    appearance: tuple[
+        numpy.typing.NDArray[numpy.complex64],
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float64],
+    ],
     other: numpy.typing.NDArray[numpy.float32],
-    roots: numpy.typing.NDArray[numpy.float64],
-    width: float,
-    height: float,
-    surround_size: float,
-    surround_weight: float,
-    filter_weight: float,
-    contrast_weight: float,
-    inner: float,
+    search: tuple[float, float, float, float, float, float, float],
 ) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float32]]:
     """
     Finds a target in a patch around its last place: one stage of the frame, in one call. It is
@@ -1887,15 +1885,21 @@ def localize_target(
     Args:
         patch: uint8 (2R, 2C, 3) BGR
         taper: float32 (R, C)
-        filters: complex64 (F, 19, R, C // 2 + 1), F at least 1
-        table: float32 (B, B, B), or (0, 0, 0) to ignore colors
+        appearance: a tuple (filters, table, roots):
+            - filters: complex64 (F, 19, R, C // 2 + 1), F at least 1, of its place: the first one
+              localizes it, then others
+            - table: float32 (B, B, B), P(target | color) as color_posterior takes it, or (0, 0, 0) to
+              ignore colors
+            - roots: float64 (B³,), B a power of two up to 64: square roots of the joint histogram with
+              which colors are compared
         other: float32 (2R, 2C), P(target) of the pixels by another cue, or (0, 0) where there is none
-        roots: float64 (B³,), B a power of two up to 64
-        width, height: of the box, patch pixels, finite, above 0
-        surround_size, surround_weight: as box_contrast takes them
-        filter_weight, contrast_weight: as evidence_peak takes them; without any posterior there is no
-            contrast
-        inner: finite, above 0
+        search: a tuple (width, height, surround_size, surround_weight, filter_weight, contrast_weight,
+            inner):
+            - width, height: of the target's box, patch pixels, finite, above 0
+            - surround_size, surround_weight: as box_contrast takes them
+            - filter_weight, contrast_weight: as evidence_peak takes them; without any posterior there
+              is no contrast
+            - inner: share of the box's sides whose colors are compared, finite, above 0
 
     Returns:
         found: float64 (7 + F,): evidence_peak, the first filter's peak sharpness, and the colors'
@@ -4001,11 +4005,7 @@ class Kernels(Protocol):
         self,
         patch: numpy.typing.NDArray[numpy.uint8],
         other: numpy.typing.NDArray[numpy.float32],
-        width: float,
-        height: float,
-        min_surround_size: float,
-        min_target_posterior: float,
-        max_surround_posterior: float,
+        pixels: tuple[float, float, float, float, float],
         target: numpy.typing.NDArray[numpy.float32],
         surround: numpy.typing.NDArray[numpy.float32],
         rate: float,
@@ -4039,33 +4039,26 @@ class Kernels(Protocol):
         places: numpy.typing.NDArray[numpy.int64],
         taper: numpy.typing.NDArray[numpy.float32],
         label: numpy.typing.NDArray[numpy.complex64],
-        numerator: numpy.typing.NDArray[numpy.complex64],
-        denominator: numpy.typing.NDArray[numpy.float32],
-        first_numerator: numpy.typing.NDArray[numpy.complex64],
-        first_denominator: numpy.typing.NDArray[numpy.float32],
+        learned: tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.float32]],
+        first: tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.float32]],
         rate: float,
         first_weight: float,
         ridge: float,
     ) -> tuple[
-        numpy.typing.NDArray[numpy.complex64],
-        numpy.typing.NDArray[numpy.float32],
+        tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.float32]],
         numpy.typing.NDArray[numpy.complex64],
     ]: ...
     def localize_target(
         self,
         patch: numpy.typing.NDArray[numpy.uint8],
         taper: numpy.typing.NDArray[numpy.float32],
-        filters: numpy.typing.NDArray[numpy.complex64],
-        table: numpy.typing.NDArray[numpy.float32],
+        appearance: tuple[
+            numpy.typing.NDArray[numpy.complex64],
+            numpy.typing.NDArray[numpy.float32],
+            numpy.typing.NDArray[numpy.float64],
+        ],
         other: numpy.typing.NDArray[numpy.float32],
-        roots: numpy.typing.NDArray[numpy.float64],
-        width: float,
-        height: float,
-        surround_size: float,
-        surround_weight: float,
-        filter_weight: float,
-        contrast_weight: float,
-        inner: float,
+        search: tuple[float, float, float, float, float, float, float],
     ) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float32]]: ...
     def log_polar_shift(
         self,

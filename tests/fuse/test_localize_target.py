@@ -10,10 +10,14 @@ from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
+from tests.kernel_arguments import Place, argument, with_argument
+
 Plane = NDArray[np.float32]
 NO_TABLE: Plane = np.empty((0, 0, 0), np.float32)
 NONE: Plane = np.empty((0, 0), np.float32)
-COLUMNS = {"patch": 0, "filters": 2, "table": 3, "other": 4, "roots": 5, "width": 6, "inner": 12}
+PATCH, TAPER, APPEARANCE, OTHER, SEARCH = range(5)
+FILTERS, TABLE, ROOTS = (APPEARANCE, 0), (APPEARANCE, 1), (APPEARANCE, 2)
+WIDTH, INNER = (SEARCH, 0), (SEARCH, 6)
 
 
 def arguments(seed: int, rows: int = 32, columns: int = 32, filters: int = 2, bins: int = 16) -> list[Any]:
@@ -27,7 +31,7 @@ def arguments(seed: int, rows: int = 32, columns: int = 32, filters: int = 2, bi
     histogram = rng.random(bins**3)
     roots = np.sqrt(histogram / histogram.sum())
     box = rng.uniform(3, 30), rng.uniform(3, 30), rng.uniform(1.2, 2), rng.uniform(0, 1)
-    return [patch, taper, spectra, table, other, roots, *box, 0.7, 0.3, 0.8]
+    return [patch, taper, (spectra, table, roots), other, (*box, 0.7, 0.3, 0.8)]
 
 
 @pytest.mark.parametrize("given", ["both", "colors", "other", "neither"])
@@ -37,9 +41,9 @@ def test_native_is_the_twin(shape: tuple[int, int], given: str) -> None:
     for seed in range(8):
         each = arguments(seed, *shape, filters=1 + seed % 3, bins=2 ** (seed % 5))
         if given in ("other", "neither"):
-            each[3] = NO_TABLE
+            each = with_argument(each, TABLE, NO_TABLE)
         if given in ("colors", "neither"):
-            each[4] = NONE
+            each[OTHER] = NONE
         native, answers = _core.localize_target(*each)
         twin, expected = reference.localize_target(*each)
         assert native.shape == twin.shape == (7 + len(expected),)
@@ -52,12 +56,12 @@ def test_native_is_the_twin(shape: tuple[int, int], given: str) -> None:
 
 def test_is_its_parts(kernels: Kernels) -> None:
     """It gives what the kernels that it stands for give one after the other, to the last bit."""
-    patch, taper, filters, table, other, roots, *box = arguments(3)
-    found, answers = kernels.localize_target(patch, taper, filters, table, other, roots, *box)
+    patch, taper, (filters, table, _), other, search = arguments(3)
+    found, answers = kernels.localize_target(*arguments(3))
     expected = kernels.correlation_response(kernels.hog_color_cells(patch, taper), filters)
     assert_array_equal(answers, expected)
     posterior = kernels.combine_posteriors(kernels.color_posterior(patch, table), other)
-    contrast = kernels.box_contrast(posterior, *box[:4])
+    contrast = kernels.box_contrast(posterior, *search[:4])
     assert_array_equal(found[:-2], kernels.evidence_peak(expected, contrast, 0.7, 0.3))
 
 
@@ -69,8 +73,8 @@ def test_sharpness(kernels: Kernels) -> None:
     found, answers = kernels.localize_target(*each)
     response = answers[0].astype(float)
     assert found[-2] == pytest.approx((found[5] - response.mean()) / response.std(), rel=1e-6)
-    each[COLUMNS["filters"]] = np.zeros_like(each[COLUMNS["filters"]])
-    assert kernels.localize_target(*each)[0][-2] == 0
+    silent = with_argument(each, FILTERS, np.zeros_like(argument(each, FILTERS)))
+    assert kernels.localize_target(*silent)[0][-2] == 0
 
 
 @pytest.mark.parametrize(
@@ -80,14 +84,14 @@ def test_colors_are_compared_at_the_place(kernels: Kernels, right: int, similari
     """The left half of a patch has the first frame's color, the right half another: there, the Bhattacharyya
     coefficient is 1 and 0, and on half of both the root of a half. The place is that of a bright box.
     """
-    patch, taper, filters, _, _, _, *_ = arguments(5)
+    patch, taper, (filters, *_), *_ = arguments(5)
     patch[:, :32], patch[:, 32:] = (200, 20, 120), (40, 90, 250)
     other = np.zeros((64, 64), np.float32)
     other[26:38, 26 + right : 38 + right] = 1
     roots = np.zeros(4096)
     roots[(200 // 16 * 16 + 20 // 16) * 16 + 120 // 16] = 1
-    box = 12.0, 12.0, 1.5, 0.5, 0.0, 1.0, 0.8
-    found, _ = kernels.localize_target(patch, taper, filters, NO_TABLE, other, roots, *box)
+    search = 12.0, 12.0, 1.5, 0.5, 0.0, 1.0, 0.8
+    found, _ = kernels.localize_target(patch, taper, (filters, NO_TABLE, roots), other, search)
     assert found[:2].tolist() == pytest.approx([right / 2, 0], abs=0.5)
     assert found[-1] == pytest.approx(similarity, abs=1e-6 if right else 0.05)
 
@@ -96,20 +100,18 @@ ONE_TOO_SMALL = np.zeros((62, 64, 3), np.uint8)
 
 
 @pytest.mark.parametrize(
-    ("name", "value", "message"),
+    ("place", "value", "message"),
     [
-        ("patch", ONE_TOO_SMALL, "other: expected the patch's rows and columns|patch: expected shape"),
-        ("other", np.zeros((64, 63), np.float32), "other: expected the patch's rows and columns"),
-        ("filters", np.zeros((0, 19, 32, 17), np.complex64), "filters: expected at least one filter"),
-        ("table", np.zeros((3, 3, 3), np.float32), "table: expected shape"),
-        ("roots", np.zeros(5), r"roots: expected \(B³,\), B a power of two up to 64, got 5"),
-        ("width", 0.0, "width: expected a finite number above 0, got 0"),
-        ("inner", np.nan, "inner: expected a finite number above 0, got nan"),
+        (PATCH, ONE_TOO_SMALL, "other: expected the patch's rows and columns|patch: expected shape"),
+        (OTHER, np.zeros((64, 63), np.float32), "other: expected the patch's rows and columns"),
+        (FILTERS, np.zeros((0, 19, 32, 17), np.complex64), "filters: expected at least one filter"),
+        (TABLE, np.zeros((3, 3, 3), np.float32), "table: expected shape"),
+        (ROOTS, np.zeros(5), r"roots: expected \(B³,\), B a power of two up to 64, got 5"),
+        (WIDTH, 0.0, "width: expected a finite number above 0, got 0"),
+        (INNER, np.nan, "inner: expected a finite number above 0, got nan"),
     ],
 )
-def test_refuses(kernels: Kernels, name: str, value: Any, message: str) -> None:
+def test_refuses(kernels: Kernels, place: Place, value: Any, message: str) -> None:
     """Wrong shapes and values are named."""
-    each = arguments(0)
-    each[COLUMNS[name]] = value
     with pytest.raises(ValueError, match=message):
-        kernels.localize_target(*each)
+        kernels.localize_target(*with_argument(arguments(0), place, value))

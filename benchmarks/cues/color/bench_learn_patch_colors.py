@@ -16,9 +16,9 @@ OTHER = random.random((64, 64), np.float32)
 TARGET, SURROUND = random.random((2, 16, 16, 16), np.float32)
 
 
-def script(patch: Any, other: Any, width: float, height: float, min_surround_size: float, *rest: Any) -> Any:
+def script(patch: Any, other: Any, pixels: Any, target: Any, surround: Any, rate: float, rare: float) -> Any:
     """The baseline: masks of the pixels, calcHist and NumPy."""
-    min_target_posterior, max_surround_posterior, target, surround, rate, rare = rest
+    width, height, min_surround_size, min_target_posterior, max_surround_posterior = pixels
     y, x = np.indices(patch.shape[:2])
     u, v = abs(x - 31.5) / (width / 2), abs(y - 31.5) / (height / 2)
     inside, around = u * u + v * v <= 1, np.maximum(u, v) > min_surround_size
@@ -26,8 +26,8 @@ def script(patch: Any, other: Any, width: float, height: float, min_surround_siz
     if 2 * own.sum() > inside.sum():
         inside, around = own, around | inside & (other < max_surround_posterior)
     learned = []
-    for pixels, old in ((patch[inside], target), (patch[around], surround)):
-        seen = cv2.calcHist([pixels[None]], [0, 1, 2], None, 3 * [16], 3 * [0, 256]) / len(pixels)
+    for colors, old in ((patch[inside], target), (patch[around], surround)):
+        seen = cv2.calcHist([colors[None]], [0, 1, 2], None, 3 * [16], 3 * [0, 256]) / len(colors)
         learned.append(old + np.float32(rate) * (seen - old))
     return *learned, (learned[0] + np.float32(rare / 2)) / (learned[0] + learned[1] + np.float32(rare))
 
@@ -41,7 +41,7 @@ def script(patch: Any, other: Any, width: float, height: float, min_surround_siz
 )
 def bench_learn_patch_colors(benchmark: Any, learn_patch_colors: Callable[..., Any]) -> None:
     """All learn the same."""
-    arguments = PATCH, OTHER, 17.4, 26.1, 1.1, 0.4, 0.1, TARGET, SURROUND, 0.1, 1e-4
+    arguments = PATCH, OTHER, (17.4, 26.1, 1.1, 0.4, 0.1), TARGET, SURROUND, 0.1, 1e-4
     for found, expected in zip(
         benchmark(learn_patch_colors, *arguments), reference.learn_patch_colors(*arguments), strict=True
     ):

@@ -10,10 +10,12 @@ namespace tricue {
 
 /// Which pixels of a patch are a target's, and which its surround's.
 struct LearnedPixels {
-    double width, height;           ///< of the target's box, pixels
-    double min_surround_size;       ///< scale of the box, outside of which pixels are the surround's
-    double min_target_posterior;    ///< P(target) of the target's pixels is above this
-    double max_surround_posterior;  ///< P(target) of the surround's pixels in the ellipse is below this
+    double width, height;  ///< of the target's box, pixels, finite, not negative
+    double
+        min_surround_size;  ///< scale of the box, outside of which pixels are the surround's, finite, at least 1
+    double min_target_posterior;  ///< P(target) of the target's pixels is above this, in [0, 1]
+    double
+        max_surround_posterior;  ///< P(target) of the surround's pixels in the ellipse is below this, in [0, 1]
 };
 
 /// learn_contrast of a patch with the target in its middle: one stage of the frame, in one call.
@@ -27,9 +29,6 @@ struct LearnedPixels {
 ///
 /// @param patch uint8 (H, W, 3) BGR
 /// @param other float32 (H, W), P(target) by another cue, or (0, 0) where there is none
-/// @param width, height of the box, pixels, finite, not negative
-/// @param min_surround_size finite, at least 1
-/// @param min_target_posterior, max_surround_posterior in [0, 1]
 /// @param target, surround, rate, rare as learn_contrast takes them
 /// @throws std::invalid_argument on other shapes, or numbers out of range
 /// Source: ours; as learn_contrast.

@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
+from tests.kernel_arguments import Place, with_argument
+
 NONE: NDArray[np.float32] = np.empty((0, 0), np.float32)
 lengths = st.floats(0, 80)
 
@@ -33,7 +35,7 @@ def test_native_is_the_twin(
     patch = rng.integers(0, 256, (rows, columns, 3), np.uint8)
     other = rng.random((rows, columns), np.float32) if with_other else NONE
     target, surround = rng.random((2, 4, 4, 4), np.float32)
-    arguments = patch, other, width, height, outer, 0.4, 0.1, target, surround, 0.3, 1e-4
+    arguments = patch, other, (width, height, outer, 0.4, 0.1), target, surround, 0.3, 1e-4
     native, twin = _core.learn_patch_colors(*arguments), reference.learn_patch_colors(*arguments)
     for own, expected in zip(native, twin, strict=True):
         assert_array_equal(own, expected, strict=True)
@@ -48,14 +50,13 @@ def disc_and_ring() -> NDArray[np.uint8]:
     return patch
 
 
+PIXELS = 30.0, 20.0, 1.0, 0.4, 0.1  # of the ellipse
 EMPTY = np.zeros((2, 2, 2), np.float32)
 
 
 def test_learns_the_ellipse_and_what_is_outside_of_the_box(kernels: Kernels) -> None:
     """The target is as red as can be, its surround blue; the corners of the box count for neither."""
-    found = kernels.learn_patch_colors(
-        disc_and_ring(), NONE, 30.0, 20.0, 1.0, 0.4, 0.1, EMPTY, EMPTY, 1.0, 1e-4
-    )
+    found = kernels.learn_patch_colors(disc_and_ring(), NONE, PIXELS, EMPTY, EMPTY, 1.0, 1e-4)
     assert_allclose(found[0][0, 0, 1], 1)
     assert_allclose(found[1][1, 0, 0], 1)
     assert found[0].sum() == found[1].sum() == 1
@@ -66,8 +67,7 @@ def test_a_color_that_neither_has_tells_nothing(kernels: Kernels) -> None:
     """Its posterior is 1/2; one that was seen once or twice is sure already."""
     target, surround = EMPTY.copy(), EMPTY.copy()
     target[0, 0, 0], surround[0, 0, 0], target[0, 0, 1], surround[0, 1, 0] = 1 - 1e-2, 1 - 1e-2, 1e-2, 1e-2
-    arguments = disc_and_ring(), NONE, 30.0, 20.0, 1.0, 0.4, 0.1
-    table = kernels.learn_patch_colors(*arguments, target, surround, 0.0, 1e-4)[2]
+    table = kernels.learn_patch_colors(disc_and_ring(), NONE, PIXELS, target, surround, 0.0, 1e-4)[2]
     assert_array_equal(table[1], 0.5)
     assert_allclose(table[0], [[0.5, 0.995], [0.005, 0.5]], atol=1e-3)
 
@@ -78,7 +78,7 @@ def test_another_cue_takes_pixels_away(kernels: Kernels) -> None:
     for share, own, around in ((0.3, 1.0, False), (0.7, 1.0, True)):
         other = np.ones((64, 64), np.float32)
         other[:, : int(17 + 30 * share)] = 0
-        found = kernels.learn_patch_colors(patch, other, 30.0, 20.0, 1.0, 0.4, 0.1, EMPTY, EMPTY, 1.0, 1e-4)
+        found = kernels.learn_patch_colors(patch, other, PIXELS, EMPTY, EMPTY, 1.0, 1e-4)
         assert found[0][0, 0, 1] == own
         assert (found[1][0, 0, 1] == 0) == around
 
@@ -87,30 +87,29 @@ def test_a_box_that_fills_the_patch(kernels: Kernels) -> None:
     """Where nothing is outside of the box, the surround is what is outside of the ellipse."""
     patch = np.zeros((8, 8, 3), np.uint8)
     patch[[0, 0, -1, -1], [0, -1, 0, -1]] = 255
-    found = kernels.learn_patch_colors(patch, NONE, 8.0, 8.0, 2.0, 0.4, 0.1, EMPTY, EMPTY, 1.0, 1e-4)
+    found = kernels.learn_patch_colors(patch, NONE, (8.0, 8.0, 2.0, 0.4, 0.1), EMPTY, EMPTY, 1.0, 1e-4)
     assert found[0][0, 0, 0] == 1
     assert 0 < found[1][1, 1, 1] < 1
 
 
 @pytest.mark.parametrize(
-    ("index", "value", "message"),
+    ("place", "value", "message"),
     [
         (1, np.zeros((8, 7), np.float32), "other: expected the patch's rows and columns, got 8, 7"),
         (1, np.zeros((8, 0), np.float32), "other: expected the patch's rows and columns, got 8, 0"),
-        (2, -1.0, "width: expected a finite number, not negative, got -1"),
-        (3, np.inf, "height: expected a finite number, not negative, got inf"),
-        (4, 0.5, "min_surround_size: expected a finite number, at least 1, got 0.5"),
-        (5, 2.0, r"min_target_posterior: expected a number in \[0, 1\], got 2"),
-        (6, np.nan, r"max_surround_posterior: expected a number in \[0, 1\], got nan"),
-        (8, np.zeros((4, 4, 4), np.float32), "surround: expected the target's shape"),
-        (9, 2.0, r"rate: expected a number in \[0, 1\], got 2"),
-        (10, 0.0, "rare: expected a number above 0, got 0"),
+        ((2, 0), -1.0, "width: expected a finite number, not negative, got -1"),
+        ((2, 1), np.inf, "height: expected a finite number, not negative, got inf"),
+        ((2, 2), 0.5, "min_surround_size: expected a finite number, at least 1, got 0.5"),
+        ((2, 3), 2.0, r"min_target_posterior: expected a number in \[0, 1\], got 2"),
+        ((2, 4), np.nan, r"max_surround_posterior: expected a number in \[0, 1\], got nan"),
+        (4, np.zeros((4, 4, 4), np.float32), "surround: expected the target's shape"),
+        (5, 2.0, r"rate: expected a number in \[0, 1\], got 2"),
+        (6, 0.0, "rare: expected a number above 0, got 0"),
     ],
 )
-def test_refuses(kernels: Kernels, index: int, value: Any, message: str) -> None:
+def test_refuses(kernels: Kernels, place: Place, value: Any, message: str) -> None:
     """Wrong shapes and values are named."""
     patch = np.zeros((8, 8, 3), np.uint8)
-    each: list[Any] = [patch, NONE, 4.0, 4.0, 1.1, 0.4, 0.1, EMPTY, EMPTY, 0.5, 1e-4]
-    each[index] = value
+    arguments = patch, NONE, (4.0, 4.0, 1.1, 0.4, 0.1), EMPTY, EMPTY, 0.5, 1e-4
     with pytest.raises(ValueError, match=message):
-        kernels.learn_patch_colors(*each)
+        kernels.learn_patch_colors(*with_argument(arguments, place, value))

@@ -21,19 +21,13 @@ from tricue.reference.fuse.evidence_peak import evidence_peak
 def localize_target(
     patch: Image,
     taper: Plane,
-    filters: NDArray[np.complex64],
-    table: Plane,
+    appearance: tuple[NDArray[np.complex64], Plane, Floats],
     other: Plane,
-    roots: Floats,
-    width: float,
-    height: float,
-    surround_size: float,
-    surround_weight: float,
-    filter_weight: float,
-    contrast_weight: float,
-    inner: float,
+    search: tuple[float, float, float, float, float, float, float],
 ) -> tuple[Floats, Plane]:
     """Calls the twins of its parts, and adds two features of the place."""
+    filters, table, roots = appearance
+    width, height, surround_size, surround_weight, filter_weight, contrast_weight, inner = search
     if len(other) and other.shape != patch.shape[:2]:
         refuse("other", "the patch's rows and columns", f"{other.shape[0]}, {other.shape[1]}")
     for name, number in (("width", width), ("height", height), ("inner", inner)):

@@ -56,19 +56,14 @@ class Candidate(NamedTuple):
 def localize(model: LocalizationModel, window: Window) -> Candidate:
     """The place in a window with the most evidence, to a fraction of a cell."""
     appearance, p = model.appearance, model.params
+    table = appearance.color.table if "color" in p.cues else NO_TABLE
+    filter_weight = p.filter_weight if "filter" in p.cues else 0.0
     found, responses = window.observation.k.localize_target(
         window.patch,
         HANN_WINDOW,
-        appearance.filter.applied,
-        appearance.color.table if "color" in p.cues else NO_TABLE,
+        (appearance.filter.applied, table, appearance.first_colors.roots),
         window.depth_posterior,
-        appearance.first_colors.roots,
-        *window.size,
-        p.surround_size,
-        p.surround_weight,
-        p.filter_weight if "filter" in p.cues else 0.0,
-        p.color_weight,
-        INNER_SHARE,
+        (*window.size, p.surround_size, p.surround_weight, filter_weight, p.color_weight, INNER_SHARE),
     )
     right, down, evidence, response, contrast, _, first_response, sharpness, similarity = found.tolist()
     cell = CELL_PIXELS * window.pixel_size

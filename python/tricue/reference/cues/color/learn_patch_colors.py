@@ -17,17 +17,14 @@ UNSEEN = 0.5  # P(target) of a color that neither target nor surround has
 def learn_patch_colors(
     patch: NDArray[np.uint8],
     other: NDArray[np.float32],
-    width: float,
-    height: float,
-    min_surround_size: float,
-    min_target_posterior: float,
-    max_surround_posterior: float,
+    pixels: tuple[float, float, float, float, float],
     target: Cube,
     surround: Cube,
     rate: float,
     rare: float,
 ) -> tuple[Cube, Cube, Cube]:
     """Selects the pixels by masks, and calls learn_histograms."""
+    width, height, min_surround_size, min_target_posterior, max_surround_posterior = pixels
     if len(other) and other.shape != patch.shape[:2]:
         refuse("other", "the patch's rows and columns", f"{other.shape[0]}, {other.shape[1]}")
     for name, number in (("width", width), ("height", height)):

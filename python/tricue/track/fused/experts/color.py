@@ -68,11 +68,7 @@ class ColorExpert(NamedTuple):
             *window.observation.k.learn_patch_colors(
                 window.patch,
                 window.depth_posterior,
-                width,
-                height,
-                MIN_SURROUND_SIZE,
-                MIN_TARGET_POSTERIOR,
-                MAX_SURROUND_POSTERIOR,
+                (width, height, MIN_SURROUND_SIZE, MIN_TARGET_POSTERIOR, MAX_SURROUND_POSTERIOR),
                 self.target,
                 self.surround,
                 rate,

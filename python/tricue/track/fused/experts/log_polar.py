@@ -96,10 +96,8 @@ class LogPolarFilter(NamedTuple):
 
     def _learn(self, k: Kernels, patch: LogPolarPatch, rates: tuple[float, float, float]) -> "LogPolarFilter":
         """rates: the learning rate, the first frame's share, and the ridge."""
-        numerator, denominator, applied = k.learn_size_filter(
-            *patch, LABEL, *self.learned, *self.first, *rates
-        )
-        return self._replace(learned=(numerator, denominator), applied=applied)
+        learned, applied = k.learn_size_filter(*patch, LABEL, self.learned, self.first, *rates)
+        return LogPolarFilter(learned, self.first, applied)
 
 
 @dataclass(frozen=True)
