@@ -18,6 +18,7 @@
 #include "cues/depth/remember_depth.hpp"
 #include "cues/depth/support_pixels.hpp"
 #include "kernel_docs.hpp"
+#include "tuples.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -57,13 +58,16 @@ Bytes depth_picture_arrays(const Array<float>& depth, double z, double reach) {
     return give(unlocked(pixels(view), [&] { return depth_picture(view, z, reach); }));
 }
 
-std::tuple<Array<float>, Bytes> depth_posterior_arrays(const Array<float>& depth, double x0, double y0,
-                                                       double step, int rows, int columns, double expected,
-                                                       double sigma, double occluder_margin) {
+using GridTuple = Tuple<double, double, double, int, int>;
+using TargetTuple = Tuple<double, double, double>;
+
+std::tuple<Array<float>, Bytes> depth_posterior_arrays(const Array<float>& depth, const GridTuple& grid,
+                                                       const TargetTuple& target) {
     const auto view = depth_image(depth, "depth");
-    const SampleGrid grid{x0, y0, step, rows, columns};
-    auto found = unlocked(work_of(rows, columns),
-                          [&] { return depth_posterior(view, grid, {expected, sigma, occluder_margin}); });
+    const auto squares = unpack_as<SampleGrid>(grid, "grid");
+    const auto depths = unpack_as<ExpectedDepth>(target, "target");
+    auto found = unlocked(work_of(squares.rows, squares.columns),
+                          [&] { return depth_posterior(view, squares, depths); });
     return {give(std::move(found.posterior)), give(std::move(found.nearer))};
 }
 
@@ -150,15 +154,15 @@ Array<double> plane_support_arrays(const Array<float>& depth, const Array<double
                          [&] { return plane_support(view, lens, floor, tolerance, step); }));
 }
 
-Bytes support_pixels_arrays(const Array<float>& depth, double x0, double y0, double step, int side,
-                            double width, double height, double z, const Array<double>& camera,
-                            const Array<double>& draws, double tolerance) {
+Bytes support_pixels_arrays(const Array<float>& depth, const GridTuple& grid, const TargetTuple& target,
+                            const Array<double>& camera, const Array<double>& draws, double tolerance) {
     const auto view = depth_image(depth, "depth");
+    const auto squares = unpack_as<SampleGrid>(grid, "grid");
+    const auto supported = unpack_as<SupportedTarget>(target, "target");
     const auto lens = vector(camera, "camera");
     const auto random = states(draws, "draws");
-    return give(unlocked(work_of(side, side), [&] {
-        return support_pixels(view, {x0, y0, step, side, side}, {width, height, z}, lens, random, tolerance);
-    }));
+    return give(unlocked(work_of(squares.rows, squares.columns),
+                         [&] { return support_pixels(view, squares, supported, lens, random, tolerance); }));
 }
 
 }  // namespace
@@ -176,9 +180,8 @@ void define_depth(py::module_& m) {
           py::arg("far"), py::arg("levels"), docs::depth_histogram);
     m.def("depth_picture", depth_picture_arrays, py::arg("depth"), py::arg("z"), py::arg("reach"),
           docs::depth_picture);
-    m.def("depth_posterior", depth_posterior_arrays, py::arg("depth"), py::arg("x0"), py::arg("y0"),
-          py::arg("step"), py::arg("rows"), py::arg("columns"), py::arg("expected"), py::arg("sigma"),
-          py::arg("occluder_margin"), docs::depth_posterior);
+    m.def("depth_posterior", depth_posterior_arrays, py::arg("depth"), py::arg("grid"), py::arg("target"),
+          docs::depth_posterior);
     m.def("divide_depth", divide_depth_arrays, py::arg("depth"), py::arg("mask"), py::arg("dividers"),
           docs::divide_depth);
     m.def("find_foreground", find_foreground_arrays, py::arg("depth"), py::arg("step"), py::arg("gaps"),
@@ -194,8 +197,7 @@ void define_depth(py::module_& m) {
           py::arg("expected"), py::arg("max_offset"), py::arg("min_share"), docs::median_depths);
     m.def("plane_support", plane_support_arrays, py::arg("depth"), py::arg("camera"), py::arg("plane"),
           py::arg("tolerance"), py::arg("step"), docs::plane_support);
-    m.def("support_pixels", support_pixels_arrays, py::arg("depth"), py::arg("x0"), py::arg("y0"),
-          py::arg("step"), py::arg("side"), py::arg("width"), py::arg("height"), py::arg("z"),
+    m.def("support_pixels", support_pixels_arrays, py::arg("depth"), py::arg("grid"), py::arg("target"),
           py::arg("camera"), py::arg("draws"), py::arg("tolerance"), docs::support_pixels);
 }
 

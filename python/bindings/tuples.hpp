@@ -4,6 +4,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -51,6 +53,29 @@ struct Unpacked<double> {
     }
 };
 
+template <typename Integer>
+struct UnpackedInteger {
+    static Integer from(PyObject* object, const char* name) {
+        int overflow = 0;
+        const long long number = PyLong_AsLongLongAndOverflow(object, &overflow);
+        if (number == -1 && PyErr_Occurred()) {
+            PyErr_Clear();
+            refuse_part(name, "an integer in it", object);
+        }
+        using Limits = std::numeric_limits<Integer>;
+        if (overflow != 0 || number < Limits::min() || number > Limits::max())
+            throw py::value_error(std::string(name) + ": expected integers of at most " +
+                                  std::to_string(Limits::digits + 1) + " bits in it, got a larger one");
+        return static_cast<Integer>(number);
+    }
+};
+
+template <>
+struct Unpacked<int> : UnpackedInteger<int> {};
+
+template <>
+struct Unpacked<std::int64_t> : UnpackedInteger<std::int64_t> {};
+
 template <>
 struct Unpacked<bool> {
     static bool from(PyObject* object, const char* name) {
@@ -72,7 +97,8 @@ std::tuple<Parts...> unpack_places(PyObject* tuple, const char* name, std::index
     return {Unpacked<Parts>::from(PyTuple_GET_ITEM(tuple, static_cast<py::ssize_t>(kPlaces)), name)...};
 }
 
-/// The parts of a tuple. ValueError if there are fewer or more; TypeError for what isn't a number, a bool or a tuple.
+/// The parts of a tuple. ValueError if there are fewer or more, or for an integer out of range; TypeError for what isn't a
+/// number, a bool or a tuple.
 template <typename... Parts>
 std::tuple<Parts...> unpack(const Tuple<Parts...>& tuple, const char* name) {
     constexpr std::size_t kParts = sizeof...(Parts);

@@ -871,14 +871,8 @@ def depth_picture(
 
 def depth_posterior(
     depth: numpy.typing.NDArray[numpy.float32],
-    x0: float,
-    y0: float,
-    step: float,
-    rows: int,
-    columns: int,
-    expected: float,
-    sigma: float,
-    occluder_margin: float,
+    grid: tuple[float, float, float, int, int],
+    target: tuple[float, float, float],
 ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.uint8]]:
     """
     P(target | depth) on a grid of places, and which of them are in front of the target: Bayes' rule
@@ -891,13 +885,16 @@ def depth_posterior(
 
     Args:
         depth: float32 (H, W), meters; may be empty
-        x0, y0: top left corner of the grid, pixels, finite
-        step: width of a square, pixels, finite, above 0
-        rows: rows of the grid, 1 to 4096
-        columns: columns of the grid, 1 to 4096
-        expected: the target's expected depth, meters, finite, above 0
-        sigma: its standard deviation, meters, finite, above 0
-        occluder_margin: how much nearer a depth in front of the target is, meters, finite, at least 0
+        grid: a tuple (x0, y0, step, rows, columns):
+            - x0, y0: its top left corner, pixels, finite
+            - step: width of a square, pixels, finite, above 0
+            - rows: rows of the grid, 1 to 4096
+            - columns: columns of the grid, 1 to 4096
+        target: a tuple (expected, sigma, occluder_margin):
+            - expected: the target's expected depth, meters, finite, above 0
+            - sigma: its standard deviation, meters, finite, above 0
+            - occluder_margin: how much nearer a depth in front of the target is, meters, finite, at
+              least 0
 
     Returns:
         posterior: float32 (rows, columns): P(target | z), within 1e-6 of the exact one; 1/2 without a
@@ -3264,13 +3261,8 @@ def summarize(
 
 def support_pixels(
     depth: numpy.typing.NDArray[numpy.float32],
-    x0: float,
-    y0: float,
-    step: float,
-    side: int,
-    width: float,
-    height: float,
-    z: float,
+    grid: tuple[float, float, float, int, int],
+    target: tuple[float, float, float],
     camera: numpy.typing.NDArray[numpy.float64],
     draws: numpy.typing.NDArray[numpy.float64],
     tolerance: float,
@@ -3293,17 +3285,20 @@ def support_pixels(
 
     Args:
         depth: float32 (H, W), meters; may be empty
-        x0, y0: top left corner of the grid, pixels, finite
-        step: width of a square, pixels, finite, above 0
-        side: squares on a side of the grid, 2 to 4096
-        width, height: of the box, squares, finite, above 0
-        z: depth of the target, meters, finite, above 0
+        grid: a tuple (x0, y0, step, rows, columns):
+            - x0, y0: its top left corner, pixels, finite
+            - step: width of a square, pixels, finite, above 0
+            - rows: rows of the grid, 1 to 4096
+            - columns: columns of the grid, 1 to 4096
+        target: a tuple (width, height, z):
+            - width, height: of its box, squares of the grid, finite, above 0
+            - z: its depth, meters, finite, above 0
         camera: float64 (4,): fx, fy, cx, cy of the depth image, pixels, fx and fy above 0
         draws: float64 (K, 3), random numbers in [0, 1): a triple each
         tolerance: t, meters, finite, above 0
 
     Returns:
-        uint8 (side, side): 1 on the plane, else 0
+        uint8 (rows, columns): 1 on the plane, else 0
 
     Raises:
         ValueError: on other shapes, or numbers out of range
@@ -3783,14 +3778,8 @@ class Kernels(Protocol):
     def depth_posterior(
         self,
         depth: numpy.typing.NDArray[numpy.float32],
-        x0: float,
-        y0: float,
-        step: float,
-        rows: int,
-        columns: int,
-        expected: float,
-        sigma: float,
-        occluder_margin: float,
+        grid: tuple[float, float, float, int, int],
+        target: tuple[float, float, float],
     ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.uint8]]: ...
     def divide_depth(
         self,
@@ -4402,13 +4391,8 @@ class Kernels(Protocol):
     def support_pixels(
         self,
         depth: numpy.typing.NDArray[numpy.float32],
-        x0: float,
-        y0: float,
-        step: float,
-        side: int,
-        width: float,
-        height: float,
-        z: float,
+        grid: tuple[float, float, float, int, int],
+        target: tuple[float, float, float],
         camera: numpy.typing.NDArray[numpy.float64],
         draws: numpy.typing.NDArray[numpy.float64],
         tolerance: float,

@@ -15,18 +15,9 @@ Depth = NDArray[np.float32]
 Answer = tuple[Depth, NDArray[np.uint8]]
 
 
-def script(
-    depth: Depth,
-    x0: float,
-    y0: float,
-    step: float,
-    rows: int,
-    columns: int,
-    expected: float,
-    sigma: float,
-    occluder_margin: float,
-) -> Answer:
+def script(depth: Depth, grid: Any, target: Any) -> Answer:
     """The baseline: nearest samples by remap, then whole planes."""
+    (x0, y0, step, rows, columns), (expected, sigma, occluder_margin) = grid, target
     x = np.floor(x0 + (np.arange(columns) + 0.5) * step).astype(np.float32)
     y = np.floor(y0 + (np.arange(rows) + 0.5) * step).astype(np.float32)
     places = np.meshgrid(x, y)
@@ -45,7 +36,7 @@ def script(
 )
 def bench_depth_posterior(benchmark: Any, judge: Callable[..., Answer], room: Depth) -> None:
     """All compute the same posteriors."""
-    arguments = room, 40.3, -8.2, 1.7, 64, 64, 2.5, 0.3, 0.5
+    arguments = room, (40.3, -8.2, 1.7, 64, 64), (2.5, 0.3, 0.5)
     found, expected = benchmark(judge, *arguments), reference.depth_posterior(*arguments)
     assert_allclose(found[0], expected[0], atol=2e-6)
     assert_array_equal(found[1], expected[1])

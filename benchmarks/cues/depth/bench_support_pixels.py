@@ -15,19 +15,10 @@ Mask = NDArray[np.uint8]
 
 
 def script(
-    depth: Depth,
-    x0: float,
-    y0: float,
-    step: float,
-    side: int,
-    width: float,
-    height: float,
-    z: float,
-    camera: Floats,
-    draws: Floats,
-    tolerance: float,
+    depth: Depth, grid: Any, box: tuple[float, float, float], camera: Floats, draws: Floats, tolerance: float
 ) -> Mask:
-    """The baseline: NumPy on all triples at once, and an SVD."""
+    """The baseline, for a grid of 64x64: NumPy on all triples at once, and an SVD."""
+    (x0, y0, step, side, _), (width, height, z) = grid, box
     squares = np.arange(side)
     x, y = (np.floor(start + (squares + 0.5) * step).astype(int) for start in (x0, y0))
     z_of = depth[np.ix_(y.clip(0, depth.shape[0] - 1), x.clip(0, depth.shape[1] - 1))]
@@ -68,7 +59,7 @@ def bench_support_pixels(benchmark: Any, find: Callable[..., Mask], camera: Floa
     table = np.repeat(2.0 / below, 176, axis=1) + rng.normal(0, 0.002, (144, 176))
     table[52:92, 75:105] = 1.7
     depth = table.astype(np.float32)
-    arguments = depth, 37.0, 21.0, 1.6, 64, 20.0, 26.0, 1.7, camera, rng.random((64, 3)), 0.02
+    arguments = depth, (37.0, 21.0, 1.6, 64, 64), (20.0, 26.0, 1.7), camera, rng.random((64, 3)), 0.02
     found, expected = benchmark(find, *arguments), reference.support_pixels(*arguments)
     assert np.mean(found != expected) < 0.01
     assert 0.5 < expected.mean() < 0.95

@@ -10,10 +10,10 @@ namespace tricue {
 
 /// A grid of squares.
 struct SampleGrid {
-    double x, y;  ///< its top left corner, pixels, finite
-    double step;  ///< width of a square, pixels, finite, above 0
-    int rows;     ///< rows of the grid, 1 to 4096
-    int columns;  ///< columns of the grid, 1 to 4096
+    double x0, y0;  ///< its top left corner, pixels, finite
+    double step;    ///< width of a square, pixels, finite, above 0
+    int rows;       ///< rows of the grid, 1 to 4096
+    int columns;    ///< columns of the grid, 1 to 4096
 };
 
 /// The depth that a target should have.
@@ -39,7 +39,6 @@ struct DepthPosterior {
 /// [i, i + 1).
 ///
 /// @param depth float32 (H, W), meters; may be empty
-/// @param x0, y0 top left corner of the grid, pixels, finite
 /// @throws std::invalid_argument on numbers out of range
 /// Source: ours.
 DepthPosterior depth_posterior(const DepthView& depth, const SampleGrid& grid, const ExpectedDepth& target);

@@ -42,18 +42,18 @@ Range middle_part(int count, double length, double share) {
 struct Part {
     Range rows, columns;
 
-    Part(int side, const SupportedTarget& target, double share)
-        : rows(middle_part(side, target.height, share)), columns(middle_part(side, target.width, share)) {}
+    Part(const SampleGrid& grid, const SupportedTarget& target, double share)
+        : rows(middle_part(grid.rows, target.height, share)),
+          columns(middle_part(grid.columns, target.width, share)) {}
 };
 
 /// Every second row and column of the depths, without the target.
 Floats thin_surround(const Floats& depths, const Part& target) {
-    const Eigen::Index n = (depths.rows() + kThinning - 1) / kThinning;
-    Floats thin(n, n);
-    for (Eigen::Index i = 0; i < n; ++i) {
+    Floats thin((depths.rows() + kThinning - 1) / kThinning, (depths.cols() + kThinning - 1) / kThinning);
+    for (Eigen::Index i = 0; i < thin.rows(); ++i) {
         const float* row = depths.data() + kThinning * i * depths.cols();
-        float* to = thin.data() + i * n;
-        for (Eigen::Index j = 0; j < n; ++j) to[j] = row[kThinning * j];
+        float* to = thin.data() + i * thin.cols();
+        for (Eigen::Index j = 0; j < thin.cols(); ++j) to[j] = row[kThinning * j];
         if (kThinning * i < target.rows.begin || kThinning * i >= target.rows.end) continue;
         const int first = (target.columns.begin + kThinning - 1) / kThinning,
                   end = (target.columns.end + kThinning - 1) / kThinning;
@@ -81,12 +81,13 @@ void mark_row(const float* __restrict depths, const double* __restrict across, i
 }
 
 Labels mark_plane(const Floats& depths, const Vector& lens, const Vector& plane, double tolerance) {
-    const auto side = static_cast<int>(depths.cols());
-    std::vector<double> across(static_cast<std::size_t>(side));
-    for (int j = 0; j < side; ++j) across[static_cast<std::size_t>(j)] = plane[0] * ((j - lens[2]) / lens[0]);
-    Labels on_plane(side, side);
-    for (int i = 0; i < side; ++i)
-        mark_row(depths.row(i).data(), across.data(), side, plane[1] * ((i - lens[3]) / lens[1]), plane[2],
+    const auto rows = static_cast<int>(depths.rows()), columns = static_cast<int>(depths.cols());
+    std::vector<double> across(static_cast<std::size_t>(columns));
+    for (int j = 0; j < columns; ++j)
+        across[static_cast<std::size_t>(j)] = plane[0] * ((j - lens[2]) / lens[0]);
+    Labels on_plane(rows, columns);
+    for (int i = 0; i < rows; ++i)
+        mark_row(depths.row(i).data(), across.data(), columns, plane[1] * ((i - lens[3]) / lens[1]), plane[2],
                  plane[3], tolerance, on_plane.row(i).data());
     return on_plane;
 }
@@ -103,8 +104,7 @@ bool is_mostly_on_plane(const Floats& depths, const Labels& on_plane, const Part
     return within > kMaxPlaneShare * measured;
 }
 
-void require_arguments(const SupportedTarget& target, StatesRef draws, double tolerance, int side) {
-    require_count(side, 2, kMaxGridSide, "side");
+void require_arguments(const SupportedTarget& target, StatesRef draws, double tolerance) {
     require_positive(target.width, "width");
     require_positive(target.height, "height");
     require_positive(target.z, "z");
@@ -120,13 +120,13 @@ void require_arguments(const SupportedTarget& target, StatesRef draws, double to
 Labels support_pixels(const DepthView& depth, const SampleGrid& grid, const SupportedTarget& target,
                       VectorRef camera, StatesRef draws, double tolerance) {
     require_grid(grid);
-    require_arguments(target, draws, tolerance, grid.rows);
+    require_arguments(target, draws, tolerance);
     require_camera(camera);
     Labels nowhere = Labels::Zero(grid.rows, grid.columns);
     Floats depths = read_grid(depth, grid);
     const auto most = static_cast<float>(kMaxDepth * target.z);
     depths = (depths < most && depths > 0.0F).select(depths, kNothing);
-    const Floats thin = thin_surround(depths, Part(grid.rows, target, kTargetShare));
+    const Floats thin = thin_surround(depths, Part(grid, target, kTargetShare));
     const std::vector<std::int64_t> votes = find_votes(thin);
     if (votes.size() < kMinVotes) return nowhere;
     const auto count = static_cast<double>(votes.size());
@@ -134,8 +134,8 @@ Labels support_pixels(const DepthView& depth, const SampleGrid& grid, const Supp
         return votes[std::min(static_cast<std::size_t>(draw * count), votes.size() - 1)];
     });
     Vector lens(4), up(3);
-    lens << camera[0] / grid.step, camera[1] / grid.step, (camera[2] - grid.x) / grid.step,
-        (camera[3] - grid.y) / grid.step;
+    lens << camera[0] / grid.step, camera[1] / grid.step, (camera[2] - grid.x0) / grid.step,
+        (camera[3] - grid.y0) / grid.step;
     up << 0.0, -1.0, 0.0;
     const Vector thin_lens = lens / kThinning;
     const DepthView surround{thin.data(), static_cast<int>(thin.rows()), static_cast<int>(thin.cols()),
@@ -143,7 +143,7 @@ Labels support_pixels(const DepthView& depth, const SampleGrid& grid, const Supp
     const Vector plane = floor_plane(surround, thin_lens, triples, tolerance, {up, -1.0});
     if (plane[4] < kMinSupportShare) return nowhere;
     Labels on_plane = mark_plane(depths, lens, plane, tolerance);
-    return is_mostly_on_plane(depths, on_plane, Part(grid.rows, target, kInnerShare)) ? nowhere : on_plane;
+    return is_mostly_on_plane(depths, on_plane, Part(grid, target, kInnerShare)) ? nowhere : on_plane;
 }
 
 }  // namespace tricue

@@ -27,15 +27,10 @@ struct SupportedTarget {
 /// squares whose centers are nearer to the middle than half its width and half its height, each half at least 1.
 ///
 /// @param depth float32 (H, W), meters; may be empty
-/// @param x0, y0 top left corner of the grid, pixels, finite
-/// @param step width of a square, pixels, finite, above 0
-/// @param side squares on a side of the grid, 2 to 4096
-/// @param width, height of the box, squares, finite, above 0
-/// @param z depth of the target, meters, finite, above 0
 /// @param camera float64 (4,): fx, fy, cx, cy of the depth image, pixels, fx and fy above 0
 /// @param draws float64 (K, 3), random numbers in [0, 1): a triple each
 /// @param tolerance t, meters, finite, above 0
-/// @returns uint8 (side, side): 1 on the plane, else 0
+/// @returns uint8 (rows, columns): 1 on the plane, else 0
 /// @throws std::invalid_argument on other shapes, or numbers out of range
 /// Source: ours; RANSAC after Fischler, Bolles 1981.
 Labels support_pixels(const DepthView& depth, const SampleGrid& grid, const SupportedTarget& target,

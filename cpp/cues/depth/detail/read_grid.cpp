@@ -8,8 +8,8 @@
 
 namespace tricue {
 Floats read_grid(const DepthView& depth, const SampleGrid& grid) {
-    const SamplePixels across = find_sample_pixels(grid.x, grid.step, grid.columns, depth.cols),
-                       down = find_sample_pixels(grid.y, grid.step, grid.rows, depth.rows);
+    const SamplePixels across = find_sample_pixels(grid.x0, grid.step, grid.columns, depth.cols),
+                       down = find_sample_pixels(grid.y0, grid.step, grid.rows, depth.rows);
     Floats depths = Floats::Zero(grid.rows, grid.columns);
     for (std::size_t i = 0; i < kPrefetchSamples; ++i) prefetch_samples(depth, across, down, i);
     for (std::size_t i = 0; i < down.pixels.size(); ++i) {
@@ -22,8 +22,8 @@ Floats read_grid(const DepthView& depth, const SampleGrid& grid) {
 }
 
 void require_grid(const SampleGrid& grid) {
-    if (!std::isfinite(grid.x)) refuse("x0", "a finite number", grid.x);
-    if (!std::isfinite(grid.y)) refuse("y0", "a finite number", grid.y);
+    if (!std::isfinite(grid.x0)) refuse("x0", "a finite number", grid.x0);
+    if (!std::isfinite(grid.y0)) refuse("y0", "a finite number", grid.y0);
     require_positive(grid.step, "step");
     require_count(grid.rows, 1, kMaxGridSide, "rows");
     require_count(grid.columns, 1, kMaxGridSide, "columns");

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from tricue.reference.base.arrays import Floats
 
 MAX_IMAGE_SIDE = 16384  # of an image that a kernel makes, pixels
-MAX_GRID_SIDE = 4096  # of a grid of depths
 
 
 def refuse(name: str, expected: str, got: object) -> NoReturn:

@@ -109,7 +109,7 @@ class DepthImageSource(NamedTuple):
         self, k: Kernels, grid: Grid, side: int, expected: ExpectedDepth, margin: float
     ) -> DepthPosterior:
         """As of every DepthSource."""
-        return DepthPosterior(*k.depth_posterior(self.depth, *grid, side, side, *expected, margin))
+        return DepthPosterior(*k.depth_posterior(self.depth, (*grid, side, side), (*expected, margin)))
 
     def noise(self, z: float, pixel_size: float) -> float:
         """Proportional to the depth."""
@@ -221,7 +221,7 @@ class StereoSource(NamedTuple):
     ) -> DepthPosterior:
         """As of every DepthSource."""
         depths = self.sample(k, grid, side, expected)
-        return DepthPosterior(*k.depth_posterior(depths, 0.0, 0.0, 1.0, side, side, *expected, margin))
+        return DepthPosterior(*k.depth_posterior(depths, (0.0, 0.0, 1.0, side, side), (*expected, margin)))
 
     def noise(self, z: float, pixel_size: float) -> float:
         """Proportional to the squared depth, as the noise of a disparity is constant.

@@ -25,5 +25,6 @@ def find_support(
     depth: (H, W) meters. size: the target's width and height in squares. z: the target's depth, meters.
     No square is on the plane if no plane has enough of the target's surround, or if it has the target, too.
     """
-    on_plane = k.support_pixels(depth, *grid, side, *size, z, camera.vector, DRAWS, SUPPORT_TOLERANCE * z)
+    squares, target, tolerance = (*grid, side, side), (*size, z), SUPPORT_TOLERANCE * z
+    on_plane = k.support_pixels(depth, squares, target, camera.vector, DRAWS, tolerance)
     return on_plane.view(np.bool_)
