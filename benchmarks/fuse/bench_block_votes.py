@@ -11,24 +11,25 @@ from numpy.typing import NDArray
 from tricue import _core, reference
 
 COUNT = 200
-RULES = ((12.0, 2.0, 15.0), 0.25, (3, 4, 8, 20))
+LIMITS, RULES = (12.0, 2.0, 15.0), (0.25, 3, 4, 8, 20)
+Arrays = tuple[NDArray[Any], ...]
 
 
-def arrays() -> list[NDArray[Any]]:
+def arrays() -> tuple[Arrays, Arrays]:
     """Blocks in all states, and a frame's measurements in them."""
     rng = np.random.default_rng(0)
     blocks = [rng.integers(0, most, COUNT) for most in (3, 5, 9, 2, 4, 25)]
     cells = rng.choice(np.array([0, 5, 40]), COUNT)
     targets, measured, similar = ((rng.random(COUNT) ** 2 * (cells + 1)).astype(np.int64) for _ in range(3))
     blocks[3] = blocks[3].astype(np.bool_)
-    return [*blocks, cells, targets, measured, rng.uniform(0, 20, COUNT), similar]
+    return tuple(blocks), (cells, targets, measured, rng.uniform(0, 20, COUNT), similar)
 
 
-def script(*arguments: Any) -> tuple[list[Any], ...]:
+def script(blocks: Arrays, seen: Arrays, limits: Any, rules: Any) -> tuple[list[Any], ...]:
     """The baseline: one block after the other, with Python's numbers."""
-    *numbers, (target, tolerance, occluder), least, (add, remove, release, max_idle) = arguments
+    (target, tolerance, occluder), (least, add, remove, release, max_idle) = limits, rules
     rows = []
-    for block in zip(*(each.tolist() for each in numbers), strict=True):
+    for block in zip(*(each.tolist() for each in (*blocks, *seen)), strict=True):
         state, votes, against, core, trusted, idle, cells, pixels, measured, mean, same = block
         found, close = (cells > 0 and count >= least * cells for count in (pixels, same))
         known = cells > 0 and measured >= 0.2 * cells
@@ -62,7 +63,7 @@ IMPLEMENTATIONS = {"native": _core.block_votes, "reference": reference.block_vot
 @pytest.mark.parametrize("block_votes", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_block_votes(benchmark: Any, block_votes: Callable[..., Any]) -> None:
     """All count the same votes."""
-    arguments = (*arrays(), *RULES)
+    arguments = (*arrays(), LIMITS, RULES)
     found = benchmark(block_votes, *arguments)
     for ours, theirs in zip(found, reference.block_votes(*arguments), strict=True):
         assert_array_equal(ours, theirs)

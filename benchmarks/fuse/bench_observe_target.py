@@ -30,20 +30,18 @@ def cleaned(mask: Any, neighbors: int, share: float, trim: float) -> Any:
 
 def script(
     planes: Any,
-    densities: Any,
-    ranges: Any,
-    alternatives: Any,
-    window: Any,
-    candidate: Any,
+    model: Any,
+    prior: Any,
     threshold: float,
     clean: tuple[int, float, float],
     disparity: Any,
-    corners: Any,
-    place: tuple[float, ...],
+    grid: Any,
     states: Any,
     limits: tuple[float, float, float],
 ) -> Any:
     """The baseline: posteriors by tables, regions by OpenCV, and a slice for each block."""
+    (densities, ranges, alternatives), (window, candidate) = model, prior
+    corners, (size, x, y, left, top) = grid
     shape = planes[0].shape
     columns = np.interp(np.arange(shape[1]) + 0.5, [candidate[0], *window[::2], candidate[2]], [0, 1, 1, 0])
     rows = np.interp(np.arange(shape[0]) + 0.5, [candidate[1], *window[1::2], candidate[3]], [0, 1, 1, 0])
@@ -55,7 +53,6 @@ def script(
         odds *= table[np.clip(np.floor(places), -1, bins).astype(np.int32) + 1]
     mask = (odds / (odds + 1) >= threshold).astype(np.uint8)
     mask, box = cleaned(mask, *clean)
-    size, x, y, left, top = place
     blocks = np.ceil(corners * size + [x - left, y - top] * 2 - 0.5).astype(int)
     rows_of = []
     for x0, y0, x1, y1 in np.maximum(blocks, 0).tolist():
@@ -83,16 +80,12 @@ def check(benchmark: Any, observe_target: Callable[..., Any], target: Any) -> No
     ramp = np.linspace(1, 2, len(target.densities[0]))
     arguments = (
         target.planes,
-        np.array(target.densities),
-        RANGES,
-        np.array([0.9 * ramp / ramp.sum()] * 3),
-        target.window,
-        target.candidate,
+        (np.array(target.densities), RANGES, np.array([0.9 * ramp / ramp.sum()] * 3)),
+        (target.window, target.candidate),
         0.5,
         (2, 0.2, 0.02),
         target.planes[2],
-        corners,
-        (1.0, (x0 + x1) / 2, (y0 + y1) / 2, 0.0, 0.0),
+        (corners, (1.0, (x0 + x1) / 2, (y0 + y1) / 2, 0.0, 0.0)),
         np.random.default_rng(0).integers(0, 3, len(corners)),
         (8.0, 0.75, 10.0),
     )

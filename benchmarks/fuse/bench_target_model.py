@@ -44,7 +44,7 @@ IMPLEMENTATIONS = {"native": _core.target_model, "reference": reference.target_m
 def check(benchmark: Any, target_model: Callable[..., Any], target: Any) -> None:
     """The twins agree; the baseline's peaks are the same within a bin, its alternatives within 1 %."""
     x0, y0, x1, y1 = target.window
-    blocks = np.array([[0.0, 0.0, x1 - x0, y1 - y0]]), (1.0, x0, y0, 0.0, 0.0), np.array([1]), np.array([3])
+    blocks = (np.array([[0.0, 0.0, x1 - x0, y1 - y0]]), (1.0, x0, y0, 0.0, 0.0)), np.array([1]), np.array([3])
     lows = [value - half for value, _, half in EXPECTED]
     former = np.full((3, BINS), 1 / BINS), lows, [value for value, _, _ in EXPECTED]
     maps = list(zip(target.planes, target.weights, strict=True))

@@ -9,11 +9,9 @@ import pytest
 from tricue import _core, reference
 
 
-def script(
-    mask: Any, disparity: Any, corners: Any, place: Any, states: Any, target: float, tolerance: float
-) -> Any:
+def script(mask: Any, disparity: Any, grid: Any, states: Any, target: float, tolerance: float) -> Any:
     """The baseline: slices, and sorted coordinates."""
-    size, x, y, left, top = place
+    corners, (size, x, y, left, top) = grid
     blocks = np.ceil(corners * size + [x - left, y - top] * 2 - 0.5).astype(int)
     mine = np.zeros(mask.shape, np.bool_)
     for x0, y0, x1, y1 in blocks[states == 1].tolist():
@@ -37,7 +35,7 @@ def bench_target_outline(benchmark: Any, target_outline: Callable[..., Any], sma
     left, top = i * (x1 - x0) / 10, j * (y1 - y0) / 20
     corners = np.stack([left, top, left + (x1 - x0) / 10, top + (y1 - y0) / 20], axis=1)
     states = np.random.default_rng(0).integers(0, 3, len(corners))
-    arguments = (small.mask, small.planes[2], corners, (1.0, x0, y0, 0.0, 0.0), states, 8.0, 0.5)
+    arguments = (small.mask, small.planes[2], (corners, (1.0, x0, y0, 0.0, 0.0)), states, 8.0, 0.5)
     found = benchmark(target_outline, *arguments)
     assert found[1] > 300
     assert found == reference.target_outline(*arguments)

@@ -70,25 +70,27 @@ void require_arguments(const BlockVotes& blocks, const BlockCounts& seen) {
 struct Observed {
     bool inside, found, same_depth, has_mean, hidden, similar_mean;
 
-    Observed(const BlockCounts& seen, Eigen::Index i, const VoteRules& rules) : inside(seen.pixels[i] > 0) {
+    Observed(const BlockCounts& seen, Eigen::Index i, const DisparityLimits& limits, double min_share)
+        : inside(seen.pixels[i] > 0) {
         const auto pixels = static_cast<double>(seen.pixels[i]);
         const auto has_share = [&](std::int64_t count) {
-            return inside && static_cast<double>(count) >= rules.min_share * pixels;
+            return inside && static_cast<double>(count) >= min_share * pixels;
         };
         found = has_share(seen.targets[i]);
         same_depth = has_share(seen.similar[i]);
         has_mean = inside && static_cast<double>(seen.measured[i]) >= kMinMeasuredShare * pixels;
-        hidden = has_mean && seen.mean[i] > rules.occluder && !found;
-        similar_mean = has_mean && std::abs(seen.mean[i] - rules.target) <= rules.tolerance;
+        hidden = has_mean && seen.mean[i] > limits.occluder && !found;
+        similar_mean = has_mean && std::abs(seen.mean[i] - limits.target) <= limits.tolerance;
     }
 };
 
 }  // namespace
 
-BlockVotes block_votes(BlockVotes blocks, const BlockCounts& seen, const VoteRules& rules) {
+BlockVotes block_votes(BlockVotes blocks, const BlockCounts& seen, const DisparityLimits& limits,
+                       const VoteRules& rules) {
     require_arguments(blocks, seen);
     for (Eigen::Index i = 0; i < blocks.states.size(); ++i) {
-        const Observed now(seen, i, rules);
+        const Observed now(seen, i, limits, rules.min_share);
         const std::int64_t before = blocks.states[i];
         const bool target = before == kTarget, occluded = before == kOccluded;
 

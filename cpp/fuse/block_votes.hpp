@@ -5,6 +5,7 @@
 
 #include "base/arrays.hpp"
 #include "fuse/block_counts.hpp"
+#include "fuse/detail/disparity_limits.hpp"
 
 namespace tricue {
 
@@ -20,10 +21,13 @@ struct BlockVotes {
     Indices without_pixels;  ///< int64 (N,): frames with the target's disparity since it had target pixels
 };
 
-/// The disparities that a block's mean is compared with, and how many votes decide.
+/// How many pixels are a vote, and how many votes decide.
 struct VoteRules {
-    double target, tolerance, occluder, min_share;
-    std::int64_t to_add, to_remove, to_release, max_without_pixels;
+    double min_share;                 ///< of a block's pixels, for a vote
+    std::int64_t to_add;              ///< votes that make a block the target's
+    std::int64_t to_remove;           ///< votes against it that end this
+    std::int64_t to_release;          ///< votes against an occluded block that release it
+    std::int64_t max_without_pixels;  ///< frames for which disparity alone keeps a block
 };
 
 /// The blocks of the target window after the votes of a frame.
@@ -34,24 +38,12 @@ struct VoteRules {
 /// without texture have none. A block of the target whose mean disparity is an occluder's, without target pixels, is occluded; it
 /// is the target's again at a similar disparity, and released if it shows the background for long.
 ///
-/// @param states int64 (N,): 0, 1 or 2
-/// @param votes int64 (N,), 0 to 2^31 - 1 frames
-/// @param against as votes
-/// @param core bool (N,)
-/// @param trusted as votes
-/// @param without_pixels as votes
-/// @param pixels int64 (N,): pixels of each block inside the image, as in block_counts
-/// @param targets int64 (N,): those of the target
-/// @param measured int64 (N,): those with a disparity; the mean counts from a fifth of the pixels on
-/// @param mean float64 (N,): their mean disparity
-/// @param similar int64 (N,): those at the target's disparity
-/// @param disparities (target, tolerance, occluder): a mean is similar if it differs by at most the tolerance from the target's
-///     disparity, and an occluder's if it is above the third
-/// @param min_share of a block's pixels, for a vote
-/// @param frames (to add, to remove, to release, without_pixels): votes that make a block the target's, votes against it that end
-///     this, and those that release an occluded block; frames for which disparity alone keeps a block
+/// `seen` is what block_counts gives; a mean disparity counts if a fifth of the block's pixels or more have one. Numbers of frames
+/// are 0 to 2^31 - 1 before the votes.
+///
 /// @throws std::invalid_argument on sizes that differ, states other than 0 to 2, and numbers of frames out of range
 /// Source: Okada, Shirai, Miura 1996, section 4.4 and figure 7; core blocks, trust and release are ours.
-BlockVotes block_votes(BlockVotes blocks, const BlockCounts& seen, const VoteRules& rules);
+BlockVotes block_votes(BlockVotes blocks, const BlockCounts& seen, const DisparityLimits& limits,
+                       const VoteRules& rules);
 
 }  // namespace tricue

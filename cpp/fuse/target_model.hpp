@@ -63,7 +63,7 @@ struct TargetModel {
 /// @param expected (value, deviation, half_range) of each: its peak, the standard deviation from there, and half of the
 ///     histogram's range; finite, the latter two above 0, the deviation infinite for no expectation
 /// @param window (x0, y0, x1, y1), pixels, finite: where the target's histograms are taken
-/// @param blocks (corners, place, states, trusted) as in observe_target; the target's are those of state 1 that are trusted for a
+/// @param blocks (grid, states, trusted), the first two as in observe_target; the target's are those of state 1 that are trusted for a
 ///     frame or more. None for all pixels
 /// @param depth (disparity, tolerance), pixels: flow counts only near this disparity; None for any
 /// @param before (densities, lows, peaks) of the frame before, with the lowest value of each histogram; None for none

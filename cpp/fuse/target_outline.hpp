@@ -13,8 +13,6 @@ namespace tricue {
 ///
 /// @param mask uint8 (H, W): target pixels, those that are not 0
 /// @param disparity float32 (H, W), pixels, NaN where there is none
-/// @param corners float64 (N, 4): x0, y0, x1, y1 of each block in its grid
-/// @param place (size, x, y, left, top) as in observe_target
 /// @param states int64 (N,)
 /// @param target the target's disparity, pixels
 /// @param tolerance pixels

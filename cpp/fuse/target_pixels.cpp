@@ -197,9 +197,9 @@ void apply_bayes(const float* __restrict ratio, const float* __restrict columns,
 
 }  // namespace
 
-TargetPixels target_pixels(const std::vector<Cue>& cues, const TargetPlace& place, double threshold) {
+TargetPixels target_pixels(const std::vector<Cue>& cues, const TargetPrior& prior, double threshold) {
     require_arguments(cues, threshold);
-    const auto& [window, candidate] = place;
+    const auto& [window, candidate] = prior;
     require_corners(window, "window");
     const PlaneView& first = cues[0].values;
     const Region visible = rectangle_pixels(candidate, first.rows, first.cols, "candidate");

@@ -20,8 +20,9 @@ struct Cue {
 };
 
 /// Where the target may be: P(obj) is 1 in the window and falls linearly to 0 at the edge of the candidate region.
-struct TargetPlace {
-    Rectangle window, candidate;
+struct TargetPrior {
+    Rectangle window;     ///< (x0, y0, x1, y1), where the prior is 1, pixels, finite
+    Rectangle candidate;  ///< (x0, y0, x1, y1), outside of which the prior is 0, pixels, finite
 };
 
 struct TargetPixels {
@@ -44,8 +45,6 @@ struct TargetPixels {
 /// @param planes float32 (H, W), one to three: values of u, v or d, the vector F of (10), NaN where there is none
 /// @param densities float64 (bins,) for each plane: P(value | obj), of sum 1, or all 0, as target_distribution gives it
 /// @param ranges (low, high) for each plane: range of its bins, finite, low < high
-/// @param window (x0, y0, x1, y1), where the prior is 1, pixels, finite
-/// @param candidate (x0, y0, x1, y1), outside of which the prior is 0, pixels, finite
 /// @param threshold smallest posterior of a target pixel, in (0, 1]
 /// @param alternatives float64 (bins,) for each plane: P(value | not obj), above 0, of a sum of at most 1, as values may lie
 ///     outside the range; None for 1 / bins each
@@ -53,6 +52,6 @@ struct TargetPixels {
 ///     threshold, or corners that are not finite
 /// Source: Okada, Shirai, Miura 1996, sections 4.1 and 4.3, equations (10)-(12), figure 5. P(F) as printed is constant; that
 /// every cue is needed, and the alternatives, are ours.
-TargetPixels target_pixels(const std::vector<Cue>& cues, const TargetPlace& place, double threshold);
+TargetPixels target_pixels(const std::vector<Cue>& cues, const TargetPrior& prior, double threshold);
 
 }  // namespace tricue

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "arrays.hpp"
-#include "base/check.hpp"
 #include "fuse/block_counts.hpp"
 #include "fuse/block_mask.hpp"
 #include "fuse/block_votes.hpp"
@@ -18,11 +17,12 @@
 #include "fuse/temporal_window.hpp"
 #include "fuse/weighted_histogram.hpp"
 #include "kernel_docs.hpp"
+#include "tuples.hpp"
 
 namespace tricue::bindings {
 namespace {
 
-using Corners = std::tuple<double, double, double, double>;
+using Corners = Tuple<double, double, double, double>;
 using Bytes = Array<std::uint8_t>;
 
 PlaneView plane(const py::object& object, const char* name) {
@@ -33,9 +33,8 @@ ImageView mask_view(const py::object& object, const char* name) {
     return byte_image(object, name, "a uint8 mask (H, W)");
 }
 
-Rectangle rectangle(const Corners& corners) {
-    const auto [x0, y0, x1, y1] = corners;
-    return {x0, y0, x1, y1};
+Rectangle rectangle(const Corners& corners, const char* name) {
+    return unpack_as<Rectangle>(corners, name);
 }
 
 Array<float> combine_posteriors_arrays(const Array<float>& first, const Array<float>& second) {
@@ -48,7 +47,7 @@ Array<double> weighted_histogram_arrays(const Array<float>& values, const Array<
                                         const std::optional<Bytes>& mask) {
     const auto observed = plane(values, "values"), reliability = plane(weights, "weights");
     const ImageView counted = mask ? mask_view(*mask, "mask") : ImageView{nullptr, 0, 0, 1, 0};
-    const Rectangle part = rectangle(region);
+    const Rectangle part = rectangle(region, "region");
     return give(unlocked(pixels(observed), [&] {
         return weighted_histogram(observed, reliability, part, {low, high, bins}, counted);
     }));
@@ -93,9 +92,9 @@ std::tuple<Bytes, Array<float>> target_pixels_arrays(const std::vector<Array<flo
                                                      double threshold,
                                                      const std::optional<Densities>& alternatives) {
     const auto each = cues(planes, densities, ranges, alternatives);
-    const TargetPlace place{rectangle(window), rectangle(candidate)};
+    const TargetPrior prior{rectangle(window, "window"), rectangle(candidate, "candidate")};
     const auto work = each.empty() ? 0 : pixels(each[0].values);
-    auto target = unlocked(work, [&] { return target_pixels(each, place, threshold); });
+    auto target = unlocked(work, [&] { return target_pixels(each, prior, threshold); });
     return {give(std::move(target.mask)), give(std::move(target.posterior))};
 }
 
@@ -132,131 +131,142 @@ Eigen::Map<const Eigen::Array<Scalar, Eigen::Dynamic, 1>> list(const Array<Scala
     return {contiguous<Scalar>(array, name), array.shape(0)};
 }
 
-std::tuple<Counts, Counts, Counts, Array<bool>, Counts, Counts> block_votes_arrays(
-    const Counts& states, const Counts& votes, const Counts& against, const Array<bool>& core,
-    const Counts& trusted, const Counts& without_pixels, const Counts& pixels, const Counts& targets,
-    const Counts& measured, const Array<double>& mean, const Counts& similar,
-    const std::tuple<double, double, double>& disparities, double min_share,
-    const std::tuple<std::int64_t, std::int64_t, std::int64_t, std::int64_t>& frames) {
-    const auto counts = [](const Counts& numbers, const char* name) {
-        return list<std::int64_t>(numbers, name, "int64 (N,)");
-    };
-    const BlockVotes blocks{counts(states, "states"),   counts(votes, "votes"),
-                            counts(against, "against"), list<bool>(core, "core", "bool (N,)"),
-                            counts(trusted, "trusted"), counts(without_pixels, "without_pixels")};
-    const BlockCounts seen{counts(pixels, "pixels"), counts(targets, "targets"), counts(measured, "measured"),
-                           vector(mean, "mean"), counts(similar, "similar")};
-    const auto [target, tolerance, occluder] = disparities;
-    const auto [to_add, to_remove, to_release, max_without_pixels] = frames;
-    const VoteRules rules{target, tolerance, occluder,   min_share,
-                          to_add, to_remove, to_release, max_without_pixels};
-    auto after = unlocked(blocks.states.size(), [&] { return block_votes(blocks, seen, rules); });
+Eigen::Map<const Indices> counts(const Counts& numbers, const char* name) {
+    return list<std::int64_t>(numbers, name, "int64 (N,)");
+}
+
+using VotesTuple = Tuple<Counts, Counts, Counts, Array<bool>, Counts, Counts>;
+using CountsTuple = Tuple<Counts, Counts, Counts, Array<double>, Counts>;
+using LimitsTuple = Tuple<double, double, double>;
+using RulesTuple = Tuple<double, std::int64_t, std::int64_t, std::int64_t, std::int64_t>;
+
+BlockVotes votes_of(const VotesTuple& blocks) {
+    const auto [states, votes, against, core, trusted, without_pixels] = unpack(blocks, "blocks");
+    return {counts(states, "states"),   counts(votes, "votes"),
+            counts(against, "against"), list<bool>(core, "core", "bool (N,)"),
+            counts(trusted, "trusted"), counts(without_pixels, "without_pixels")};
+}
+
+BlockCounts counts_of(const CountsTuple& seen) {
+    const auto [pixels, targets, measured, mean, similar] = unpack(seen, "seen");
+    return {counts(pixels, "pixels"), counts(targets, "targets"), counts(measured, "measured"),
+            vector(mean, "mean"), counts(similar, "similar")};
+}
+
+std::tuple<Counts, Counts, Counts, Array<bool>, Counts, Counts> block_votes_arrays(const VotesTuple& blocks,
+                                                                                   const CountsTuple& seen,
+                                                                                   const LimitsTuple& limits,
+                                                                                   const RulesTuple& rules) {
+    const BlockVotes before = votes_of(blocks);
+    const BlockCounts observed = counts_of(seen);
+    const auto disparities = unpack_as<DisparityLimits>(limits, "limits");
+    const auto needed = unpack_as<VoteRules>(rules, "rules");
+    auto after =
+        unlocked(before.states.size(), [&] { return block_votes(before, observed, disparities, needed); });
     return {give(std::move(after.states)),  give(std::move(after.votes)),
             give(std::move(after.against)), give(std::move(after.core)),
             give(std::move(after.trusted)), give(std::move(after.without_pixels))};
 }
 
-using Place = std::tuple<double, double, double, double, double>;
+using GridTuple = Tuple<Array<double>, Tuple<double, double, double, double, double>>;
 
-BlockGrid grid_of(const Array<double>& corners, const Place& place) {
-    const auto [size, x, y, left, top] = place;
-    return {states(corners, "corners"), {size, x, y, left, top}};
+BlockGrid block_grid(const GridTuple& grid) {
+    const auto [corners, place] = unpack(grid, "grid");
+    return {states(corners, "corners"), unpack_as<GridPlace>(place, "place")};
 }
 
-using Maps = std::vector<std::pair<Array<float>, Array<float>>>;
-using Peaks = std::vector<std::tuple<double, double, double>>;
-using Blocks = std::tuple<Array<double>, Place, Counts, Counts>;
-using Former = std::tuple<Array<double>, std::vector<double>, std::vector<double>>;
+using Map = Tuple<Array<float>, Array<float>>;
+using Peak = Tuple<double, double, double>;
+using BlocksTuple = Tuple<GridTuple, Counts, Counts>;
+using FormerTuple = Tuple<Array<double>, std::vector<double>, std::vector<double>>;
 
-std::optional<FormerModel> former_model(const std::optional<Former>& before) {
+std::optional<FormerModel> former_model(const std::optional<FormerTuple>& before) {
     if (!before) return {};
-    const auto& [densities, lows, peaks] = *before;
+    const auto [densities, lows, peaks] = unpack(*before, "before");
     return FormerModel{states(densities, "before"), lows, peaks};
 }
 
-std::optional<TargetBlocks> target_blocks(const std::optional<Blocks>& blocks) {
+std::optional<TargetBlocks> target_blocks(const std::optional<BlocksTuple>& blocks) {
     if (!blocks) return {};
-    const auto& [corners, place, of_blocks, trusted] = *blocks;
-    return TargetBlocks{grid_of(corners, place), list<std::int64_t>(of_blocks, "states", "int64 (N,)"),
-                        list<std::int64_t>(trusted, "trusted", "int64 (N,)")};
+    const auto [grid, of_blocks, trusted] = unpack(*blocks, "blocks");
+    return TargetBlocks{block_grid(grid), counts(of_blocks, "states"), counts(trusted, "trusted")};
 }
 
 std::tuple<Array<double>, Array<double>, Array<double>> target_model_arrays(
-    const Maps& maps, const Peaks& expected, const Corners& window, const std::optional<Blocks>& blocks,
-    const std::optional<std::pair<double, double>>& depth, const std::optional<Former>& before,
-    const std::tuple<int, double, double, double, double>& rules) {
+    const std::vector<Map>& maps, const std::vector<Peak>& expected, const Corners& window,
+    const std::optional<BlocksTuple>& blocks, const std::optional<Tuple<double, double>>& depth,
+    const std::optional<FormerTuple>& before, const Tuple<int, double, double, double, double>& rules) {
     std::vector<CueMap> each;
     std::vector<ExpectedPeak> at;
-    for (const auto& [values, weights] : maps)
+    for (const Map& map : maps) {
+        const auto [values, weights] = unpack(map, "maps");
         each.push_back({plane(values, "maps"), plane(weights, "maps")});
-    for (const auto& [value, deviation, half_range] : expected) at.push_back({value, deviation, half_range});
+    }
+    for (const Peak& peak : expected) at.push_back(unpack_as<ExpectedPeak>(peak, "expected"));
+    const Rectangle place = rectangle(window, "window");
     const auto mine = target_blocks(blocks);
     const auto former = former_model(before);
     std::optional<DepthLimit> limit;
-    if (depth) limit = {depth->first, depth->second};
-    const auto [bins, smoothing, min_prominence, density_memory, surround_weight] = rules;
-    const HistogramRules how{bins, smoothing, min_prominence, density_memory, surround_weight};
+    if (depth) limit = unpack_as<DepthLimit>(*depth, "depth");
+    const auto how = unpack_as<HistogramRules>(rules, "rules");
     const auto work = each.empty() ? 0 : pixels(each[0].values);
-    auto model =
-        unlocked(work, [&] { return target_model(each, at, rectangle(window), mine, limit, former, how); });
+    auto model = unlocked(work, [&] { return target_model(each, at, place, mine, limit, former, how); });
     return {give(std::move(model.densities)), give(std::move(model.alternatives)),
             give(std::move(model.peaks))};
 }
 
 using Seen = std::tuple<Counts, Counts, Counts, Array<double>, Counts>;
 
+using DensitiesTuple = Tuple<Array<double>, std::vector<Tuple<double, double>>, Array<double>>;
+
+CueDensities cue_densities(const DensitiesTuple& model) {
+    const auto [densities, ranges, alternatives] = unpack(model, "model");
+    std::vector<BinRange> bins;
+    for (const auto& range : ranges) bins.push_back(unpack_as<BinRange>(range, "ranges"));
+    return {states(densities, "densities"), bins, states(alternatives, "alternatives")};
+}
+
+TargetPrior target_prior(const Tuple<Corners, Corners>& prior) {
+    const auto [window, candidate] = unpack(prior, "prior");
+    return {rectangle(window, "window"), rectangle(candidate, "candidate")};
+}
+
 std::tuple<RegionTuple, std::int64_t, Bytes, Seen, double> observe_target_arrays(
-    const std::vector<Array<float>>& planes, const Array<double>& densities,
-    const std::vector<std::pair<double, double>>& ranges, const Array<double>& alternatives,
-    const Corners& window, const Corners& candidate, double threshold,
-    const std::tuple<int, double, double>& clean, const std::optional<Array<float>>& disparity,
-    const Array<double>& corners, const Place& place, const Counts& of_blocks,
-    const std::tuple<double, double, double>& limits) {
-    const auto target = states(densities, "densities"), others = states(alternatives, "alternatives");
-    const auto count = static_cast<Eigen::Index>(planes.size());
-    require_shape(target, count, target.cols(), "densities");
-    require_shape(others, count, target.cols(), "alternatives");
-    if (ranges.size() != planes.size()) refuse("ranges", "as many as planes", std::to_string(ranges.size()));
-    std::vector<Cue> cues;
-    for (Eigen::Index i = 0; i < count; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        const auto row = [&](const auto& all) {
-            return Eigen::Map<const Vector>(all.data() + i * all.cols(), all.cols());
-        };
-        cues.push_back(
-            {plane(planes[k], "planes"), row(target), ranges[k].first, ranges[k].second, row(others)});
-    }
+    const std::vector<Array<float>>& planes, const DensitiesTuple& model,
+    const Tuple<Corners, Corners>& prior, double threshold, const Tuple<int, double, double>& clean,
+    const std::optional<Array<float>>& disparity, const GridTuple& grid, const Counts& of_blocks,
+    const LimitsTuple& limits) {
+    std::vector<PlaneView> each;
+    for (const auto& values : planes) each.push_back(plane(values, "planes"));
+    const CueDensities densities = cue_densities(model);
+    const TargetPrior place = target_prior(prior);
+    const auto kept_pixels = unpack_as<CleanUp>(clean, "clean");
     std::optional<PlaneView> distances;
     if (disparity) distances = plane(*disparity, "disparity");
-    const BlockGrid grid = grid_of(corners, place);
-    const auto numbers = list<std::int64_t>(of_blocks, "states", "int64 (N,)");
-    const auto [neighbors, share, trim] = clean;
-    const auto [similar, tolerance, occluder] = limits;
-    auto found = unlocked(cues.empty() ? 0 : pixels(cues[0].values),
-                          [&, neighbors = neighbors, share = share, trim = trim, similar = similar,
-                           tolerance = tolerance, occluder = occluder] {
-                              return observe_target(cues, {rectangle(window), rectangle(candidate)},
-                                                    threshold, {neighbors, share, trim}, distances, grid,
-                                                    numbers, {similar, tolerance, occluder});
-                          });
-    auto& [kept, counts, occluded] = found;
-    return {
-        tuple_of(kept.box), kept.count, give(std::move(kept.mask)),
-        Seen{give(std::move(counts.pixels)), give(std::move(counts.targets)),
-             give(std::move(counts.measured)), give(std::move(counts.mean)), give(std::move(counts.similar))},
-        occluded};
+    const BlockGrid blocks = block_grid(grid);
+    const auto numbers = counts(of_blocks, "states");
+    const auto disparities = unpack_as<DisparityLimits>(limits, "limits");
+    auto found = unlocked(each.empty() ? 0 : pixels(each[0]), [&] {
+        return observe_target(each, densities, place, threshold, kept_pixels, distances, blocks, numbers,
+                              disparities);
+    });
+    auto& [kept, observed, occluded] = found;
+    return {tuple_of(kept.box), kept.count, give(std::move(kept.mask)),
+            Seen{give(std::move(observed.pixels)), give(std::move(observed.targets)),
+                 give(std::move(observed.measured)), give(std::move(observed.mean)),
+                 give(std::move(observed.similar))},
+            occluded};
 }
 
 std::tuple<RegionTuple, std::int64_t> target_outline_numbers(const Bytes& mask, const Array<float>& disparity,
-                                                             const Array<double>& corners, const Place& place,
-                                                             const Counts& of_blocks, double target,
-                                                             double tolerance) {
+                                                             const GridTuple& grid, const Counts& of_blocks,
+                                                             double target, double tolerance) {
     const auto set = mask_view(mask, "mask");
     const auto distances = plane(disparity, "disparity");
-    const BlockGrid grid = grid_of(corners, place);
-    const auto numbers = list<std::int64_t>(of_blocks, "states", "int64 (N,)");
+    const BlockGrid blocks = block_grid(grid);
+    const auto numbers = counts(of_blocks, "states");
     const auto found = unlocked(pixels(distances), [&] {
-        return target_outline(set, distances, grid, numbers, static_cast<float>(target),
+        return target_outline(set, distances, blocks, numbers, static_cast<float>(target),
                               static_cast<float>(tolerance));
     });
     return {tuple_of(found.box), found.count};
@@ -273,10 +283,8 @@ void define_bayes(py::module_& m) {
     m.def("block_counts", block_counts_arrays, py::arg("mask"), py::arg("disparity"), py::arg("blocks"),
           py::arg("expected") = std::numeric_limits<double>::quiet_NaN(), py::arg("tolerance") = 0.0,
           docs::block_counts);
-    m.def("block_votes", block_votes_arrays, py::arg("states"), py::arg("votes"), py::arg("against"),
-          py::arg("core"), py::arg("trusted"), py::arg("without_pixels"), py::arg("pixels"),
-          py::arg("targets"), py::arg("measured"), py::arg("mean"), py::arg("similar"),
-          py::arg("disparities"), py::arg("min_share"), py::arg("frames"), docs::block_votes);
+    m.def("block_votes", block_votes_arrays, py::arg("blocks"), py::arg("seen"), py::arg("limits"),
+          py::arg("rules"), docs::block_votes);
     m.def("block_mask", block_mask_array, py::arg("blocks"), py::arg("height"), py::arg("width"),
           docs::block_mask);
     m.def("combine_posteriors", combine_posteriors_arrays, py::arg("first"), py::arg("second"),
@@ -289,14 +297,13 @@ void define_bayes(py::module_& m) {
           py::arg("alternatives") = py::none(), docs::target_pixels);
     m.def("temporal_window", temporal_window_arrays, py::arg("mask"), py::arg("neighbors"), py::arg("share"),
           py::arg("trim") = 0.02, docs::temporal_window);
-    m.def("observe_target", observe_target_arrays, py::arg("planes"), py::arg("densities"), py::arg("ranges"),
-          py::arg("alternatives"), py::arg("window"), py::arg("candidate"), py::arg("threshold"),
-          py::arg("clean"), py::arg("disparity"), py::arg("corners"), py::arg("place"), py::arg("states"),
+    m.def("observe_target", observe_target_arrays, py::arg("planes"), py::arg("model"), py::arg("prior"),
+          py::arg("threshold"), py::arg("clean"), py::arg("disparity"), py::arg("grid"), py::arg("states"),
           py::arg("limits"), docs::observe_target);
     m.def("target_model", target_model_arrays, py::arg("maps"), py::arg("expected"), py::arg("window"),
           py::arg("blocks"), py::arg("depth"), py::arg("before"), py::arg("rules"), docs::target_model);
-    m.def("target_outline", target_outline_numbers, py::arg("mask"), py::arg("disparity"), py::arg("corners"),
-          py::arg("place"), py::arg("states"), py::arg("target"), py::arg("tolerance"), docs::target_outline);
+    m.def("target_outline", target_outline_numbers, py::arg("mask"), py::arg("disparity"), py::arg("grid"),
+          py::arg("states"), py::arg("target"), py::arg("tolerance"), docs::target_outline);
     m.def("weighted_histogram", weighted_histogram_arrays, py::arg("values"), py::arg("weights"),
           py::arg("region"), py::arg("low"), py::arg("high"), py::arg("bins"), py::arg("mask") = py::none(),
           docs::weighted_histogram);

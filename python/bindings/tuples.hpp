@@ -10,6 +10,7 @@
 #include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace tricue::bindings {
 
@@ -81,6 +82,22 @@ struct Unpacked<bool> {
     static bool from(PyObject* object, const char* name) {
         if (!PyBool_Check(object)) refuse_part(name, "True or False in it", object);
         return object == Py_True;
+    }
+};
+
+/// A list or a tuple of such parts. To convert one of them may run Python, which may shorten the list.
+template <typename Item>
+struct Unpacked<std::vector<Item>> {
+    static std::vector<Item> from(PyObject* object, const char* name) {
+        if (!PyList_Check(object) && !PyTuple_Check(object))
+            refuse_part(name, "a list or tuple in it", object);
+        std::vector<Item> items;
+        items.reserve(static_cast<std::size_t>(PySequence_Fast_GET_SIZE(object)));
+        for (py::ssize_t i = 0; i < PySequence_Fast_GET_SIZE(object); ++i) {
+            const auto item = py::reinterpret_borrow<py::object>(PySequence_Fast_GET_ITEM(object, i));
+            items.push_back(Unpacked<Item>::from(item.ptr(), name));
+        }
+        return items;
     }
 };
 

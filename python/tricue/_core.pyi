@@ -199,20 +199,23 @@ def block_mask(
     """
 
 def block_votes(
-    states: numpy.typing.NDArray[numpy.int64],
-    votes: numpy.typing.NDArray[numpy.int64],
-    against: numpy.typing.NDArray[numpy.int64],
-    core: numpy.typing.NDArray[numpy.bool],
-    trusted: numpy.typing.NDArray[numpy.int64],
-    without_pixels: numpy.typing.NDArray[numpy.int64],
-    pixels: numpy.typing.NDArray[numpy.int64],
-    targets: numpy.typing.NDArray[numpy.int64],
-    measured: numpy.typing.NDArray[numpy.int64],
-    mean: numpy.typing.NDArray[numpy.float64],
-    similar: numpy.typing.NDArray[numpy.int64],
-    disparities: tuple[float, float, float],
-    min_share: float,
-    frames: tuple[int, int, int, int],
+    blocks: tuple[
+        numpy.typing.NDArray[numpy.int64],
+        numpy.typing.NDArray[numpy.int64],
+        numpy.typing.NDArray[numpy.int64],
+        numpy.typing.NDArray[numpy.bool],
+        numpy.typing.NDArray[numpy.int64],
+        numpy.typing.NDArray[numpy.int64],
+    ],
+    seen: tuple[
+        numpy.typing.NDArray[numpy.int64],
+        numpy.typing.NDArray[numpy.int64],
+        numpy.typing.NDArray[numpy.int64],
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.int64],
+    ],
+    limits: tuple[float, float, float],
+    rules: tuple[float, int, int, int, int],
 ) -> tuple[
     numpy.typing.NDArray[numpy.int64],
     numpy.typing.NDArray[numpy.int64],
@@ -232,24 +235,34 @@ def block_votes(
     occluded; it is the target's again at a similar disparity, and released if it shows the background
     for long.
 
+    `seen` is what block_counts gives; a mean disparity counts if a fifth of the block's pixels or more
+    have one. Numbers of frames are 0 to 2^31 - 1 before the votes.
+
     Args:
-        states: int64 (N,): 0, 1 or 2
-        votes: int64 (N,), 0 to 2^31 - 1 frames
-        against: as votes
-        core: bool (N,)
-        trusted: as votes
-        without_pixels: as votes
-        pixels: int64 (N,): pixels of each block inside the image, as in block_counts
-        targets: int64 (N,): those of the target
-        measured: int64 (N,): those with a disparity; the mean counts from a fifth of the pixels on
-        mean: float64 (N,): their mean disparity
-        similar: int64 (N,): those at the target's disparity
-        disparities: (target, tolerance, occluder): a mean is similar if it differs by at most the
-            tolerance from the target's disparity, and an occluder's if it is above the third
-        min_share: of a block's pixels, for a vote
-        frames: (to add, to remove, to release, without_pixels): votes that make a block the target's,
-            votes against it that end this, and those that release an occluded block; frames for which
-            disparity alone keeps a block
+        blocks: a tuple (states, votes, against, core, trusted, without_pixels):
+            - states: int64 (N,): 0 not the target's, 1 the target's, 2 occluded
+            - votes: int64 (N,): frames for a block to become the target's
+            - against: int64 (N,): frames for it to leave its state
+            - core: bool (N,): blocks for which the target's disparity alone is a vote
+            - trusted: int64 (N,): frames for which a block counts in the model after it had target
+              pixels
+            - without_pixels: int64 (N,): frames with the target's disparity since it had target pixels
+        seen: a tuple (pixels, targets, measured, mean, similar):
+            - pixels: int64 (N,): pixels of each block that are in the image
+            - targets: int64 (N,): those set in the mask
+            - measured: int64 (N,): those with a finite disparity
+            - mean: float64 (N,): mean of these disparities, pixels; NaN without any
+            - similar: int64 (N,): those that differ by at most the tolerance from the expected one
+        limits: a tuple (target, tolerance, occluder):
+            - target: the target's disparity, pixels
+            - tolerance: similar ones differ by at most this from the target's, pixels
+            - occluder: those above this are an occluder's, pixels
+        rules: a tuple (min_share, to_add, to_remove, to_release, max_without_pixels):
+            - min_share: of a block's pixels, for a vote
+            - to_add: votes that make a block the target's
+            - to_remove: votes against it that end this
+            - to_release: votes against an occluded block that release it
+            - max_without_pixels: frames for which disparity alone keeps a block
 
     Returns:
         states: int64 (N,): 0 not the target's, 1 the target's, 2 occluded
@@ -2089,16 +2102,16 @@ def median_depths(
 
 def observe_target(
     planes: collections.abc.Sequence[numpy.typing.NDArray[numpy.float32]],
-    densities: numpy.typing.NDArray[numpy.float64],
-    ranges: collections.abc.Sequence[tuple[float, float]],
-    alternatives: numpy.typing.NDArray[numpy.float64],
-    window: tuple[float, float, float, float],
-    candidate: tuple[float, float, float, float],
+    model: tuple[
+        numpy.typing.NDArray[numpy.float64],
+        collections.abc.Sequence[tuple[float, float]],
+        numpy.typing.NDArray[numpy.float64],
+    ],
+    prior: tuple[tuple[float, float, float, float], tuple[float, float, float, float]],
     threshold: float,
     clean: tuple[int, float, float],
     disparity: numpy.typing.NDArray[numpy.float32] | None,
-    corners: numpy.typing.NDArray[numpy.float64],
-    place: tuple[float, float, float, float, float],
+    grid: tuple[numpy.typing.NDArray[numpy.float64], tuple[float, float, float, float, float]],
     states: numpy.typing.NDArray[numpy.int64],
     limits: tuple[float, float, float],
 ) -> tuple[
@@ -2121,23 +2134,33 @@ def observe_target(
     kept pixels. A block is occluded if the mean of its disparities is above the occluder's, and a fifth
     of its pixels or more have one. Blocks that aren't in the image don't count.
 
+    The prior is that of target_pixels; the clean-up, that of temporal_window.
+
     Args:
-        planes: float32 (H, W), one to three: observations u, v or d, NaN where there is none
-        densities: float64 (K, bins), one for each: P(value | target), of sum 1 or 0
-        ranges: (low, high) for each plane: range of its bins, finite, low < high
-        alternatives: float64 (K, bins): P(value | not the target), above 0, of a sum of at most 1
-        window: (x0, y0, x1, y1), where the prior of target_pixels is 1, pixels, finite
-        candidate: (x0, y0, x1, y1), outside of which this prior is 0, pixels, finite
+        planes: float32 (H, W), K of them, one to three: observations u, v or d, NaN where there is none
+        model: a tuple (densities, ranges, alternatives):
+            - densities: float64 (K, bins): P(value | target), of sum 1 or 0
+            - ranges: (low, high) of each one's bins, finite, low < high
+            - alternatives: float64 (K, bins): P(value | not the target), above 0, of a sum of at most 1
+        prior: a tuple (window, candidate):
+            - window: (x0, y0, x1, y1), where the prior is 1, pixels, finite
+            - candidate: (x0, y0, x1, y1), outside of which the prior is 0, pixels, finite
         threshold: smallest posterior of a target pixel, in (0, 1]
-        clean: (neighbors, share, trim) as in temporal_window
+        clean: a tuple (neighbors, share, trim):
+            - neighbors: 0 to 8
+            - share: in [0, 1]
+            - trim: in [0, 0.5)
         disparity: float32 (H, W), pixels, NaN where there is none; None if not measured: then all
             pixels of a block count as measured, and no block is occluded
-        corners: float64 (N, 4): x0, y0, x1, y1 of each block in its grid
-        place: (size, x, y, left, top), finite: a corner c of the grid is at size c + (x, y) - (left,
-            top), pixels
+        grid: a tuple (corners, place):
+            - corners: float64 (N, 4): x0, y0, x1, y1 of each block
+            - place: (size, x, y, left, top), finite: a corner c is at size c + (x, y) - (left, top),
+              pixels
         states: int64 (N,): 0 where a block isn't the target's
-        limits: (target, tolerance, occluder), disparities, pixels: similar ones differ by at most the
-            tolerance from the target's; those above the third are an occluder's
+        limits: a tuple (target, tolerance, occluder):
+            - target: the target's disparity, pixels
+            - tolerance: similar ones differ by at most this from the target's, pixels
+            - occluder: those above this are an occluder's, pixels
 
     Returns:
         box: (x0, y0, x1, y1), pixels, of the temporal window
@@ -3357,8 +3380,7 @@ def target_model(
     expected: collections.abc.Sequence[tuple[float, float, float]],
     window: tuple[float, float, float, float],
     blocks: tuple[
-        numpy.typing.NDArray[numpy.float64],
-        tuple[float, float, float, float, float],
+        tuple[numpy.typing.NDArray[numpy.float64], tuple[float, float, float, float, float]],
         numpy.typing.NDArray[numpy.int64],
         numpy.typing.NDArray[numpy.int64],
     ]
@@ -3399,8 +3421,8 @@ def target_model(
             and half of the histogram's range; finite, the latter two above 0, the deviation infinite
             for no expectation
         window: (x0, y0, x1, y1), pixels, finite: where the target's histograms are taken
-        blocks: (corners, place, states, trusted) as in observe_target; the target's are those of state
-            1 that are trusted for a frame or more. None for all pixels
+        blocks: (grid, states, trusted), the first two as in observe_target; the target's are those of
+            state 1 that are trusted for a frame or more. None for all pixels
         depth: (disparity, tolerance), pixels: flow counts only near this disparity; None for any
         before: (densities, lows, peaks) of the frame before, with the lowest value of each histogram;
             None for none
@@ -3421,8 +3443,7 @@ def target_model(
 def target_outline(
     mask: numpy.typing.NDArray[numpy.uint8],
     disparity: numpy.typing.NDArray[numpy.float32],
-    corners: numpy.typing.NDArray[numpy.float64],
-    place: tuple[float, float, float, float, float],
+    grid: tuple[numpy.typing.NDArray[numpy.float64], tuple[float, float, float, float, float]],
     states: numpy.typing.NDArray[numpy.int64],
     target: float,
     tolerance: float,
@@ -3436,8 +3457,10 @@ def target_outline(
     Args:
         mask: uint8 (H, W): target pixels, those that are not 0
         disparity: float32 (H, W), pixels, NaN where there is none
-        corners: float64 (N, 4): x0, y0, x1, y1 of each block in its grid
-        place: (size, x, y, left, top) as in observe_target
+        grid: a tuple (corners, place):
+            - corners: float64 (N, 4): x0, y0, x1, y1 of each block
+            - place: (size, x, y, left, top), finite: a corner c is at size c + (x, y) - (left, top),
+              pixels
         states: int64 (N,)
         target: the target's disparity, pixels
         tolerance: pixels
@@ -3620,20 +3643,23 @@ class Kernels(Protocol):
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def block_votes(
         self,
-        states: numpy.typing.NDArray[numpy.int64],
-        votes: numpy.typing.NDArray[numpy.int64],
-        against: numpy.typing.NDArray[numpy.int64],
-        core: numpy.typing.NDArray[numpy.bool],
-        trusted: numpy.typing.NDArray[numpy.int64],
-        without_pixels: numpy.typing.NDArray[numpy.int64],
-        pixels: numpy.typing.NDArray[numpy.int64],
-        targets: numpy.typing.NDArray[numpy.int64],
-        measured: numpy.typing.NDArray[numpy.int64],
-        mean: numpy.typing.NDArray[numpy.float64],
-        similar: numpy.typing.NDArray[numpy.int64],
-        disparities: tuple[float, float, float],
-        min_share: float,
-        frames: tuple[int, int, int, int],
+        blocks: tuple[
+            numpy.typing.NDArray[numpy.int64],
+            numpy.typing.NDArray[numpy.int64],
+            numpy.typing.NDArray[numpy.int64],
+            numpy.typing.NDArray[numpy.bool],
+            numpy.typing.NDArray[numpy.int64],
+            numpy.typing.NDArray[numpy.int64],
+        ],
+        seen: tuple[
+            numpy.typing.NDArray[numpy.int64],
+            numpy.typing.NDArray[numpy.int64],
+            numpy.typing.NDArray[numpy.int64],
+            numpy.typing.NDArray[numpy.float64],
+            numpy.typing.NDArray[numpy.int64],
+        ],
+        limits: tuple[float, float, float],
+        rules: tuple[float, int, int, int, int],
     ) -> tuple[
         numpy.typing.NDArray[numpy.int64],
         numpy.typing.NDArray[numpy.int64],
@@ -4097,16 +4123,16 @@ class Kernels(Protocol):
     def observe_target(
         self,
         planes: collections.abc.Sequence[numpy.typing.NDArray[numpy.float32]],
-        densities: numpy.typing.NDArray[numpy.float64],
-        ranges: collections.abc.Sequence[tuple[float, float]],
-        alternatives: numpy.typing.NDArray[numpy.float64],
-        window: tuple[float, float, float, float],
-        candidate: tuple[float, float, float, float],
+        model: tuple[
+            numpy.typing.NDArray[numpy.float64],
+            collections.abc.Sequence[tuple[float, float]],
+            numpy.typing.NDArray[numpy.float64],
+        ],
+        prior: tuple[tuple[float, float, float, float], tuple[float, float, float, float]],
         threshold: float,
         clean: tuple[int, float, float],
         disparity: numpy.typing.NDArray[numpy.float32] | None,
-        corners: numpy.typing.NDArray[numpy.float64],
-        place: tuple[float, float, float, float, float],
+        grid: tuple[numpy.typing.NDArray[numpy.float64], tuple[float, float, float, float, float]],
         states: numpy.typing.NDArray[numpy.int64],
         limits: tuple[float, float, float],
     ) -> tuple[
@@ -4413,8 +4439,7 @@ class Kernels(Protocol):
         expected: collections.abc.Sequence[tuple[float, float, float]],
         window: tuple[float, float, float, float],
         blocks: tuple[
-            numpy.typing.NDArray[numpy.float64],
-            tuple[float, float, float, float, float],
+            tuple[numpy.typing.NDArray[numpy.float64], tuple[float, float, float, float, float]],
             numpy.typing.NDArray[numpy.int64],
             numpy.typing.NDArray[numpy.int64],
         ]
@@ -4436,8 +4461,7 @@ class Kernels(Protocol):
         self,
         mask: numpy.typing.NDArray[numpy.uint8],
         disparity: numpy.typing.NDArray[numpy.float32],
-        corners: numpy.typing.NDArray[numpy.float64],
-        place: tuple[float, float, float, float, float],
+        grid: tuple[numpy.typing.NDArray[numpy.float64], tuple[float, float, float, float, float]],
         states: numpy.typing.NDArray[numpy.int64],
         target: float,
         tolerance: float,

@@ -8,15 +8,26 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_array_equal
+from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
+from tests.kernel_arguments import with_argument
+
 OTHER, TARGET, OCCLUDED = 0, 1, 2
 NAMES = ("states", "votes", "against", "core", "trusted", "without_pixels")
+SEEN = ("pixels", "targets", "measured", "mean", "similar")
+LIMITS, RULES = (12.0, 2.0, 15.0), (0.25, 3, 4, 8, 20)
+Blocks = dict[str, NDArray[Any]]
 PIXELS = 40
 
 
-def case(seed: int = 0, count: int = 200, **changes: Any) -> dict[str, Any]:
+def arguments(blocks: Blocks) -> tuple[Any, ...]:
+    """Of the kernel, for blocks and what a frame measures in them."""
+    return tuple(blocks[name] for name in NAMES), tuple(blocks[name] for name in SEEN), LIMITS, RULES
+
+
+def case(seed: int = 0, count: int = 200, **changes: Any) -> Blocks:
     """Blocks in any state, of which some are outside the image, and what a frame measures in them."""
     rng = np.random.default_rng(seed)
     pixels = rng.choice(np.array([0, 5, PIXELS]), count)
@@ -34,21 +45,14 @@ def case(seed: int = 0, count: int = 200, **changes: Any) -> dict[str, Any]:
         "measured": counts[1],
         "mean": mean,
         "similar": counts[2],
-        "disparities": (12.0, 2.0, 15.0),
-        "min_share": 0.25,
-        "frames": (3, 4, 8, 20),
         **changes,
     }
 
 
-def one(state: int, core: bool = True, **changes: Any) -> dict[str, Any]:
+def one(state: int, core: bool = True, **changes: Any) -> Blocks:
     """A single block inside the image without votes, in which nothing is measured."""
-    numbers = {
-        name: np.zeros(1, np.int64) for name in case() if name not in ("disparities", "min_share", "frames")
-    }
     start = {
-        **case(),
-        **numbers,
+        **{name: np.zeros(1, np.int64) for name in (*NAMES, *SEEN)},
         "states": np.array([state]),
         "core": np.array([core]),
         "mean": np.array([np.nan]),
@@ -57,33 +61,32 @@ def one(state: int, core: bool = True, **changes: Any) -> dict[str, Any]:
     return {**start, "pixels": np.array([PIXELS]), **arrays}
 
 
-def after_frames(kernels: Kernels, arguments: dict[str, Any], frames: int) -> list[int]:
+def after_frames(kernels: Kernels, blocks: Blocks, frames: int) -> list[int]:
     """The block's state after each of so many frames that measure the same."""
     states = []
     for _ in range(frames):
-        arguments = {**arguments, **dict(zip(NAMES, kernels.block_votes(**arguments), strict=True))}
-        states.append(int(arguments["states"][0]))
+        blocks = {**blocks, **dict(zip(NAMES, kernels.block_votes(*arguments(blocks)), strict=True))}
+        states.append(int(blocks["states"][0]))
     return states
 
 
 @given(st.integers(0, 2**32), st.integers(0, 300))
 def test_twin_gives_the_same(seed: int, count: int) -> None:
     """Native and reference agree on any blocks: they compare and count."""
-    arguments = case(seed, count)
-    for ours, theirs in zip(_core.block_votes(**arguments), reference.block_votes(**arguments), strict=True):
+    each = arguments(case(seed, count))
+    for ours, theirs in zip(_core.block_votes(*each), reference.block_votes(*each), strict=True):
         assert_array_equal(ours, theirs, strict=True)
 
 
 def test_each_by_itself(kernels: Kernels) -> None:
     """A block's votes are the same in any company, and the arguments stay as they are."""
-    arguments, untouched = case(), case()
-    together = kernels.block_votes(**arguments)
-    arrays = {name: value for name, value in arguments.items() if isinstance(value, np.ndarray)}
-    for i in range(len(arguments["states"])):
-        alone = kernels.block_votes(**{**arguments, **{name: value[[i]] for name, value in arrays.items()}})
+    blocks, untouched = case(), case()
+    together = kernels.block_votes(*arguments(blocks))
+    for i in range(len(blocks["states"])):
+        alone = kernels.block_votes(*arguments({name: value[[i]] for name, value in blocks.items()}))
         for all_of_them, its in zip(together, alone, strict=True):
             assert all_of_them[i] == its[0]
-    for name, value in arrays.items():
+    for name, value in blocks.items():
         assert_array_equal(value, untouched[name])
 
 
@@ -121,7 +124,7 @@ def test_an_occlusion_ends_at_the_targets_disparity(kernels: Kernels) -> None:
 def test_outside_the_image_nothing_changes(kernels: Kernels) -> None:
     """A block without pixels in the image keeps its state and its votes."""
     start = one(TARGET, pixels=0, votes=2, against=3)
-    states, votes, against, *_ = kernels.block_votes(**start)
+    states, votes, against, *_ = kernels.block_votes(*arguments(start))
     assert (states[0], votes[0], against[0]) == (TARGET, 2, 3)
 
 
@@ -147,17 +150,26 @@ BAD: list[tuple[str, Any, str]] = [
 def test_refuses(kernels: Kernels, name: str, value: Any, message: str) -> None:
     """Sizes that differ, and states that there aren't, are named."""
     with pytest.raises(ValueError, match=message):
-        kernels.block_votes(**case(count=2, **{name: value}))
+        kernels.block_votes(*arguments(case(count=2, **{name: value})))
 
 
 def test_native_refuses_bytes_that_are_no_bool() -> None:
     """A mask of 0 and 2 viewed as bool, which NumPy takes for True and C++ not always, is named."""
     core = np.array([0, 2], np.uint8).view(np.bool_)
     with pytest.raises(ValueError, match="core: expected bool of bytes 0 and 1, got others"):
-        _core.block_votes(**case(count=2, core=core))
+        _core.block_votes(*arguments(case(count=2, core=core)))
 
 
 def test_native_refuses_other_types() -> None:
     """Another type is named, not converted."""
     with pytest.raises(TypeError, match=r"votes: expected int64 \(N,\), got float64"):
-        _core.block_votes(**case(count=2, votes=np.zeros(2)))
+        _core.block_votes(*arguments(case(count=2, votes=np.zeros(2))))
+
+
+def test_native_refuses_more_frames_than_there_are() -> None:
+    """A number of frames of more than 64 bits is named, and so is one that isn't an integer."""
+    each = arguments(case(count=2))
+    with pytest.raises(ValueError, match="rules: expected integers of at most 64 bits in it"):
+        _core.block_votes(*with_argument(each, (3, 1), 2**63))
+    with pytest.raises(TypeError, match="rules: expected an integer in it, got float"):
+        _core.block_votes(*with_argument(each, (3, 1), 3.0))

@@ -11,6 +11,8 @@ from numpy.testing import assert_array_equal
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
+from tests.kernel_arguments import Place, with_argument
+
 RANGES = [(-4.0, 4.0), (-3.0, 5.0), (0.0, 16.0)]
 OURS = (1.5, 0.5, 8.0)
 H, W, BINS = 40, 60, 32
@@ -40,19 +42,16 @@ def case(seed: int = 0, cues: int = 3, **changes: Any) -> dict[str, Any]:
         plane = np.where(inside, ours, low + 0.2 * (high - low)) + rng.normal(0, 0.3, (H, W))
         plane[rng.random((H, W)) < 0.1] = np.nan
         planes.append(plane.astype(np.float32))
+    densities = np.array([density(at, *ends) for at, ends in zip(OURS, RANGES, strict=True)])
     corners = grid()
     return {
         "planes": planes,
-        "densities": np.array([density(at, *ends) for at, ends in zip(OURS, RANGES, strict=True)][:cues]),
-        "ranges": RANGES[:cues],
-        "alternatives": np.full((cues, BINS), 1 / BINS),
-        "window": (18.0, 8.0, 42.0, 32.0),
-        "candidate": (10.0, 4.0, 50.0, 38.0),
+        "model": (densities[:cues], RANGES[:cues], np.full((cues, BINS), 1 / BINS)),
+        "prior": ((18.0, 8.0, 42.0, 32.0), (10.0, 4.0, 50.0, 38.0)),
         "threshold": 0.5,
         "clean": (3, 0.2, 0.02),
         "disparity": planes[2] if cues > 2 else None,
-        "corners": corners,
-        "place": (1.1, 230.0, 120.0, 200.0, 100.0),
+        "grid": (corners, (1.1, 230.0, 120.0, 200.0, 100.0)),
         "states": rng.integers(0, 3, len(corners)),
         "limits": (8.0, 0.75, 10.0),
         **changes,
@@ -64,7 +63,7 @@ def test_twin_gives_the_same(seed: int, cues: int, size: float, shift: float) ->
     """Native and reference agree on any place of the grid: to the last bit, but for means, whose sums of at
     most 2400 float32 in another order differ by 2400 EPS of the largest.
     """
-    arguments = case(seed, cues, place=(size, 230.0 + shift, 120.0 - shift, 200.0, 100.0))
+    arguments = case(seed, cues, grid=(grid(), (size, 230.0 + shift, 120.0 - shift, 200.0, 100.0)))
     ours, theirs = (each.observe_target(**arguments) for each in (_core, reference))
     assert ours[:2] == theirs[:2]
     assert_array_equal(ours[2], theirs[2], strict=True)
@@ -78,15 +77,16 @@ def test_twin_gives_the_same(seed: int, cues: int, size: float, shift: float) ->
 def test_is_the_kernels_one_by_one(kernels: Kernels) -> None:
     """The pixels are those of target_pixels and temporal_window, the counts those of block_counts."""
     a = case()
+    densities, _, alternatives = a["model"]
     box, count, mask, seen, _ = kernels.observe_target(**a)
     found, _ = kernels.target_pixels(
-        a["planes"], list(a["densities"]), RANGES, a["window"], a["candidate"], 0.5, list(a["alternatives"])
+        a["planes"], list(densities), RANGES, *a["prior"], 0.5, list(alternatives)
     )
     assert count > 200
     for one, other in zip((box, count, mask), kernels.temporal_window(found, *a["clean"]), strict=True):
         assert_array_equal(one, other)
-    size, x, y, left, top = a["place"]
-    blocks = a["corners"] * size + [x, y, x, y] - np.array([left, top, left, top])
+    corners, (size, x, y, left, top) = a["grid"]
+    blocks = corners * size + [x, y, x, y] - np.array([left, top, left, top])
     counts = kernels.block_counts(mask, a["disparity"], blocks, *a["limits"][:2])
     for one, other in zip(seen, counts, strict=True):
         assert_array_equal(one, other)
@@ -129,32 +129,51 @@ def test_occluded_is_what_is_behind_something_nearer(kernels: Kernels) -> None:
 def test_blocks_outside_the_image_are_empty(kernels: Kernels) -> None:
     """A grid that isn't in the image has no cells, and no share of it is occluded."""
     *_, (cells, targets, _, mean, _), share = kernels.observe_target(
-        **case(place=(1.0, -500.0, 0.0, 0.0, 0.0))
+        **case(grid=(grid(), (1.0, -500.0, 0.0, 0.0, 0.0)))
     )
     assert (cells.sum(), targets.sum(), share) == (0, 0, 0)
     assert np.isnan(mean).all()
 
 
-BAD: list[tuple[dict[str, Any], str]] = [
-    ({"states": np.zeros(3, np.int64)}, "states: expected 24 numbers, got 3"),
-    ({"place": (np.nan, 0.0, 0.0, 0.0, 0.0)}, "corners: expected finite numbers"),
-    ({"place": (1.0, np.inf, 0.0, 0.0, 0.0)}, "corners: expected finite numbers"),
-    ({"corners": np.zeros((24, 3))}, "corners: expected"),
-    ({"densities": np.zeros((2, BINS))}, "densities: expected"),
-    ({"alternatives": np.full((3, BINS + 1), 1 / BINS)}, "alternatives: expected"),
-    ({"ranges": RANGES[:2]}, "ranges: expected as many as planes, got 2"),
-    ({"disparity": np.zeros((H, W + 1), np.float32)}, rf"disparity: expected shape \({H}, {W}\)"),
-    ({"threshold": 0.0}, "threshold: expected"),
-    ({"clean": (9, 0.2, 0.02)}, "neighbors: expected 0 to 8"),
-    ({"window": (0.0, 0.0, np.nan, 1.0)}, "window: expected finite corners"),
+PLANES, MODEL, PRIOR, THRESHOLD, CLEAN, DISPARITY, GRID, STATES, LIMITS = range(9)
+BAD: list[tuple[Place, Any, str]] = [
+    (STATES, np.zeros(3, np.int64), "states: expected 24 numbers, got 3"),
+    ((GRID, 1), (np.nan, 0.0, 0.0, 0.0, 0.0), "corners: expected finite numbers"),
+    ((GRID, 1), (1.0, np.inf, 0.0, 0.0, 0.0), "corners: expected finite numbers"),
+    ((GRID, 0), np.zeros((24, 3)), "corners: expected"),
+    ((MODEL, 0), np.zeros((2, BINS)), "densities: expected"),
+    ((MODEL, 2), np.full((3, BINS + 1), 1 / BINS), "alternatives: expected"),
+    ((MODEL, 1), RANGES[:2], "ranges: expected as many as planes, got 2"),
+    (DISPARITY, np.zeros((H, W + 1), np.float32), rf"disparity: expected shape \({H}, {W}\)"),
+    (THRESHOLD, 0.0, "threshold: expected"),
+    ((CLEAN, 0), 9, "neighbors: expected 0 to 8"),
+    ((PRIOR, 0), (0.0, 0.0, np.nan, 1.0), "window: expected finite corners"),
+    ((PRIOR, 1), (0.0, 0.0, np.inf, 1.0), "candidate: expected finite corners"),
 ]
 
 
-@pytest.mark.parametrize(("changes", "message"), BAD)
-def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> None:
+@pytest.mark.parametrize(("place", "value", "message"), BAD)
+def test_refuses(kernels: Kernels, place: Place, value: Any, message: str) -> None:
     """Unlike sizes, and what its parts refuse, are named."""
     with pytest.raises(ValueError, match=message):
-        kernels.observe_target(**case(**changes))
+        kernels.observe_target(*with_argument(list(case().values()), place, value))
+
+
+@pytest.mark.parametrize(
+    ("place", "value", "error", "message"),
+    [
+        ((MODEL, 1), np.zeros((3, 2)), TypeError, "model: expected a list or tuple in it, got numpy.ndarray"),
+        ((MODEL, 1), [(0.0, 1.0), [0.0, 1.0]], TypeError, "model: expected a tuple in it, got list"),
+        ((MODEL, 1), [(0.0, 1.0, 2.0)], ValueError, "ranges: expected a tuple of 2, got one of 3"),
+        ((MODEL, 1), [(0.0, "1")], TypeError, "ranges: expected a number in it, got str"),
+    ],
+)
+def test_native_says_what_is_wrong_in_a_list(
+    place: Place, value: Any, error: type[Exception], message: str
+) -> None:
+    """Ranges that aren't a list of pairs of numbers are named."""
+    with pytest.raises(error, match=message):
+        _core.observe_target(*with_argument(list(case().values()), place, value))
 
 
 def test_native_refuses_other_types() -> None:

@@ -16,6 +16,7 @@ OURS, AROUND = (0.9, -0.4, 12.0), (0.0, 0.3, 7.0)
 EXPECTED = [(0.7, 100.0, 3.0), (0.0, np.inf, 3.0), (11.5, 5.0, 6.0)]
 BLOCKS = np.array([[0.0, 0, 10, 20], [10, 0, 20, 20], [20, 0, 30, 20]])
 PLACE = (1.0, 120.0, 60.0, 100.0, 50.0)
+GRID = (BLOCKS, PLACE)
 RULES = (BINS, 1.5, 0.05, 0.8, 0.8)
 
 
@@ -35,7 +36,7 @@ def case(seed: int = 0, cues: int = 3, **changes: Any) -> dict[str, Any]:
         "maps": maps,
         "expected": EXPECTED[:cues],
         "window": (20.0, 10.0, 40.0, 30.0),
-        "blocks": (BLOCKS, PLACE, np.array([1, 1, 2]), np.array([3, 1, 3])),
+        "blocks": (GRID, np.array([1, 1, 2]), np.array([3, 1, 3])),
         "depth": (12.0, 1.0),
         "before": None,
         "rules": RULES,
@@ -71,7 +72,7 @@ def test_twin_gives_the_same_in_rows_of_any_length(width: int) -> None:
     """They agree as above on rows of no pixels, fewer than four, as many and more, cut from wider planes."""
     arguments = case(width, before=former(width, 3))
     arguments["maps"] = [tuple(plane[:, 18 : 18 + width] for plane in each) for each in arguments["maps"]]
-    arguments["blocks"] = (BLOCKS, (1.0, 120.0, 60.0, 118.0, 50.0), *arguments["blocks"][2:])
+    arguments["blocks"] = ((BLOCKS, (1.0, 120.0, 60.0, 118.0, 50.0)), *arguments["blocks"][1:])
     arguments["window"] = (2.0, 10.0, 22.0, 30.0)
     ours, theirs = (each.target_model(**arguments) for each in (_core, reference))
     for one, other in zip(ours, theirs, strict=True):
@@ -121,7 +122,7 @@ def test_only_trusted_target_blocks_count(kernels: Kernels) -> None:
         (np.array([0, 2, 2]), np.array([3, 3, 3])),
         (np.ones(3, np.int64), np.zeros(3, np.int64)),
     ):
-        densities, alternatives, peaks = kernels.target_model(**case(blocks=(BLOCKS, PLACE, states, trusted)))
+        densities, alternatives, peaks = kernels.target_model(**case(blocks=(GRID, states, trusted)))
         assert not densities.any()
         assert peaks == pytest.approx([value for value, _, _ in EXPECTED])
         assert alternatives.max() > 5 / BINS
@@ -158,7 +159,7 @@ def test_order_of_pixels_changes_nothing(kernels: Kernels) -> None:
     """Mirrored pictures with mirrored places give the same, to rounding."""
     a = case()
     mirrored = [tuple(np.ascontiguousarray(plane[:, ::-1]) for plane in each) for each in a["maps"]]
-    blocks = (np.array([[0.0, 0, 20, 20]]), PLACE, np.array([1]), np.array([1]))
+    blocks = ((np.array([[0.0, 0, 20, 20]]), PLACE), np.array([1]), np.array([1]))
     for one, other in zip(
         kernels.target_model(**{**a, "blocks": blocks}),
         kernels.target_model(**{**a, "blocks": blocks, "maps": mirrored}),
@@ -178,9 +179,9 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"rules": (BINS, 1.5, 1.0, 0.8, 0.8)}, "min_prominence: expected"),
     ({"rules": (BINS, 1.5, 0.05, 1.0, 0.8)}, r"density_memory: expected a number in \[0, 1\), got 1"),
     ({"rules": (BINS, 1.5, 0.05, 0.8, -1.0)}, r"surround_weight: expected a number in \[0, 1\), got -1"),
-    ({"blocks": (BLOCKS, PLACE, np.zeros(2, np.int64), np.zeros(3, np.int64))}, "states: expected 3 numbers"),
+    ({"blocks": (GRID, np.zeros(2, np.int64), np.zeros(3, np.int64))}, "states: expected 3 numbers"),
     (
-        {"blocks": (BLOCKS, PLACE, np.zeros(3, np.int64), np.zeros(2, np.int64))},
+        {"blocks": (GRID, np.zeros(3, np.int64), np.zeros(2, np.int64))},
         "trusted: expected 3 numbers",
     ),
     ({"before": (np.zeros((3, 5)), [0.0] * 3, [0.0] * 3)}, "before: expected"),
@@ -195,3 +196,18 @@ def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> Non
     """Another number of observations, unlike shapes and numbers out of range are named."""
     with pytest.raises(ValueError, match=message):
         kernels.target_model(**case(**changes))
+
+
+def test_native_takes_a_list_that_gets_shorter_meanwhile() -> None:
+    """Python that runs while a list is read may empty it; what is left is too short."""
+    lows: list[Any] = []
+
+    class Number:
+        def __float__(self) -> float:
+            lows.clear()
+            return 0.0
+
+    densities, _, peaks = former(0, 3)
+    lows += [Number(), 1.0, 2.0]
+    with pytest.raises(ValueError, match="before: expected 3 lows and peaks"):
+        _core.target_model(**case(before=(densities, lows, peaks)))

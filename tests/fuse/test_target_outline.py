@@ -19,8 +19,7 @@ def case(seed: int | None = None, **changes: Any) -> dict[str, Any]:
     arguments: dict[str, Any] = {
         "mask": np.zeros((H, W), np.uint8),
         "disparity": np.full((H, W), np.nan, np.float32),
-        "corners": BLOCKS,
-        "place": (1.0, 115.0, 55.0, 100.0, 50.0),
+        "grid": (BLOCKS, (1.0, 115.0, 55.0, 100.0, 50.0)),
         "states": np.ones(4, np.int64),
         "target": 8.0,
         "tolerance": 0.5,
@@ -36,7 +35,7 @@ def case(seed: int | None = None, **changes: Any) -> dict[str, Any]:
 @given(st.integers(0, 2**32), st.floats(0.1, 3), st.floats(-40, 40))
 def test_twin_gives_the_same(seed: int, size: float, shift: float) -> None:
     """Native and reference agree on any mask and grid: they compare and count."""
-    arguments = case(seed, place=(size, 115 + shift, 55 - shift, 100.0, 50.0))
+    arguments = case(seed, grid=(BLOCKS, (size, 115 + shift, 55 - shift, 100.0, 50.0)))
     assert _core.target_outline(**arguments) == reference.target_outline(**arguments)
 
 
@@ -63,7 +62,7 @@ def test_another_disparity_is_not_the_targets(kernels: Kernels) -> None:
 BAD: list[tuple[dict[str, Any], str]] = [
     ({"mask": np.zeros((H, W + 1), np.uint8)}, rf"mask: expected shape \({H}, {W}\), got \({H}, {W + 1}\)"),
     ({"states": np.zeros(5, np.int64)}, "states: expected 4 numbers, got 5"),
-    ({"place": (1.0, 0.0, np.nan, 0.0, 0.0)}, "corners: expected finite numbers"),
+    ({"grid": (BLOCKS, (1.0, 0.0, np.nan, 0.0, 0.0))}, "corners: expected finite numbers"),
 ]
 
 

@@ -10,43 +10,23 @@ from tricue.reference.fuse.block_counts import MIN_MEASURED_SHARE
 
 Counts = NDArray[np.int64]
 
+Votes = tuple[Counts, Counts, Counts, Flags, Counts, Counts]
+Seen = tuple[Counts, Counts, Counts, Floats, Counts]
+
 MAX_FRAMES = 2**31 - 1
 OTHER, TARGET, OCCLUDED = 0, 1, 2
 TRUSTED_FRAMES = 3
 
 
 def block_votes(
-    states: Counts,
-    votes: Counts,
-    against: Counts,
-    core: Flags,
-    trusted: Counts,
-    without_pixels: Counts,
-    pixels: Counts,
-    targets: Counts,
-    measured: Counts,
-    mean: Floats,
-    similar: Counts,
-    disparities: tuple[float, float, float],
-    min_share: float,
-    frames: tuple[int, int, int, int],
-) -> tuple[Counts, Counts, Counts, Flags, Counts, Counts]:
+    blocks: Votes, seen: Seen, limits: tuple[float, float, float], rules: tuple[float, int, int, int, int]
+) -> Votes:
     """Applies one rule after the other to all blocks at once."""
-    arguments = dict(locals())
-    for name in tuple(arguments)[1:11]:
-        if len(arguments[name]) != len(states):
-            refuse(name, f"{len(states)} numbers", len(arguments[name]))
-    for name in ("votes", "against", "trusted", "without_pixels"):
-        for count in arguments[name]:
-            if not 0 <= count <= MAX_FRAMES:
-                refuse(name, f"0 to {MAX_FRAMES} frames", count)
-    for state in states:
-        if state not in (OTHER, TARGET, OCCLUDED):
-            refuse("states", "0, 1 or 2", state)
-    (target_disparity, tolerance, occluder), (to_add, to_remove, to_release, max_without_pixels) = (
-        disparities,
-        frames,
-    )
+    _require_arguments(blocks, seen)
+    states, votes, against, core, trusted, without_pixels = blocks
+    pixels, targets, measured, mean, similar = seen
+    target_disparity, tolerance, occluder = limits
+    min_share, to_add, to_remove, to_release, max_without_pixels = rules
     inside = pixels > 0
     has_mean = (measured >= MIN_MEASURED_SHARE * pixels) & inside
     found = (targets >= min_share * pixels) & inside
@@ -74,3 +54,20 @@ def block_votes(
     against = np.where(after == states, against, 0)
     trusted = np.where(found, TRUSTED_FRAMES, np.where(hidden, trusted, np.maximum(trusted - 1, 0)))
     return after, votes, against, core, trusted, without_pixels
+
+
+def _require_arguments(blocks: Votes, seen: Seen) -> None:
+    states, votes, against, core, trusted, without_pixels = blocks
+    pixels, targets, measured, mean, similar = seen
+    frames = {"votes": votes, "against": against, "trusted": trusted, "without_pixels": without_pixels}
+    others = {"core": core, "pixels": pixels, "targets": targets, "measured": measured, "mean": mean}
+    for name, numbers in {**frames, **others, "similar": similar}.items():
+        if len(numbers) != len(states):
+            refuse(name, f"{len(states)} numbers", len(numbers))
+    for name, counts in frames.items():
+        for count in counts:
+            if not 0 <= count <= MAX_FRAMES:
+                refuse(name, f"0 to {MAX_FRAMES} frames", count)
+    for state in states:
+        if state not in (OTHER, TARGET, OCCLUDED):
+            refuse("states", "0, 1 or 2", state)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from tricue.reference.base.arrays import Floats, Plane
 from tricue.reference.base.checks import refuse, require_shape
 from tricue.reference.fuse.block_mask import block_mask
-from tricue.reference.fuse.detail.block_grid import Place, placed, require_numbers
+from tricue.reference.fuse.detail.block_grid import BlockGrid, placed, require_numbers
 from tricue.reference.fuse.detail.rectangle_pixels import Rectangle, require_finite_corners
 from tricue.reference.fuse.detail.value_bins import require_range
 from tricue.reference.fuse.target_distribution import target_distribution
@@ -19,7 +19,7 @@ from tricue.reference.fuse.weighted_histogram import weighted_histogram
 Mask = NDArray[np.uint8]
 Counts = NDArray[np.int64]
 Peak = tuple[float, float, float]
-Blocks = tuple[Floats, Place, Counts, Counts]
+Blocks = tuple[BlockGrid, Counts, Counts]
 Former = tuple[Floats, Sequence[float], Sequence[float]]
 
 MAX_VALUE = 1e6  # pixels: above any disparity or flow
@@ -66,8 +66,8 @@ def target_model(
 def _target_mask(blocks: Blocks | None, shape: tuple[int, ...]) -> Mask:
     if blocks is None:
         return np.ones(shape, np.uint8)
-    corners, place, states, trusted = blocks
-    return block_mask(placed(corners, place)[(states == 1) & (trusted > 0)], *shape)
+    grid, states, trusted = blocks
+    return block_mask(placed(grid)[(states == 1) & (trusted > 0)], *shape)
 
 
 def _blend(density: Floats, before: Floats, shift: float, memory: float) -> Floats:
@@ -117,8 +117,9 @@ def _require(
             refuse("expected", "deviations above 0", float(deviation))
     require_finite_corners(window, "window")
     if blocks is not None:
-        require_numbers(blocks[0], blocks[2], "states")
-        require_numbers(blocks[0], blocks[3], "trusted")
+        grid, states, trusted = blocks
+        require_numbers(grid, states, "states")
+        require_numbers(grid, trusted, "trusted")
     if before is not None:
         require_shape("before", before[0], (len(maps), rules[0]))
         for numbers in before[1:]:

@@ -14,7 +14,7 @@ from tricue.track.flow_depth.rectangles import Rectangle, Region
 
 Counts = NDArray[np.int64]
 Point = tuple[float, float]
-Place = tuple[float, float, float, float, float]
+Grid = tuple[Floats, tuple[float, float, float, float, float]]
 
 NOT_TARGET_BLOCK, TARGET_BLOCK, OCCLUDED_BLOCK = 0, 1, 2  # states of figure 7
 GRID_MARGIN = 0.6  # of the window's height, half on each side, for arms and legs
@@ -127,9 +127,9 @@ class Blocks(NamedTuple):
         """(N, 4) x0, y0, x1, y1, cells."""
         return np.asarray(self.corners * self.size + np.array(2 * self.anchor))
 
-    def place_in(self, region: Region) -> Place:
-        """The corners' place relative to a region's corner, as kernels take it."""
-        return self.size, *self.anchor, *region[:2]
+    def grid_in(self, region: Region) -> Grid:
+        """The corners, and their place relative to a region's corner, as kernels take them."""
+        return self.corners, (self.size, *self.anchor, *region[:2])
 
     @property
     def window(self) -> Rectangle | None:
@@ -176,17 +176,6 @@ class Blocks(NamedTuple):
         self, k: Kernels, observed: BlockObservation, limits: DisparityLimits, p: FlowDepthParams
     ) -> "Blocks":
         """The adaptive rules; see the kernel ``block_votes``."""
-        states, votes, against, core, trusted, without_pixels = k.block_votes(
-            self.states,
-            self.votes,
-            self.votes_against,
-            self.core,
-            self.trusted,
-            self.frames_without_pixels,
-            *observed,
-            limits,
-            p.min_block_share,
-            (p.votes_to_add, p.votes_to_remove, p.votes_to_release, p.max_frames_without_pixels),
-        )
-        corners, anchor, size = self.corners, self.anchor, self.size
-        return Blocks(corners, anchor, size, states, votes, against, core, trusted, without_pixels)
+        frames = p.votes_to_add, p.votes_to_remove, p.votes_to_release, p.max_frames_without_pixels
+        votes = k.block_votes(self[3:], observed, limits, (p.min_block_share, *frames))
+        return Blocks(self.corners, self.anchor, self.size, *votes)

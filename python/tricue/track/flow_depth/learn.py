@@ -78,8 +78,7 @@ def _learn_unoccluded(
         box, count = k.target_outline(
             evidence.pixels,
             cues.disparity.values,
-            blocks.corners,
-            blocks.place_in(cues.region),
+            blocks.grid_in(cues.region),
             states,
             limits.target,
             limits.tolerance,

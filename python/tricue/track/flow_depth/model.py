@@ -67,7 +67,7 @@ def estimate_model(
     is unknown or within a tolerance of the target's (``same_depth``).
     """
     x, y = cues.region[:2]
-    mine = blocks and (blocks.corners, blocks.place_in(cues.region), blocks.states, blocks.trusted)
+    mine = blocks and (blocks.grid_in(cues.region), blocks.states, blocks.trusted)
     ranges = tuple((value - half_range, value + half_range) for value, _, half_range in expected)
     if before and before.disparity_scale != cues.disparity_scale:  # of the other kind: bins differ in width
         before = before.with_disparity_range(ranges[-1])

@@ -72,18 +72,15 @@ def verify_by(
     disparity = state.disparity if known or cues.disparity is None else model.peaks[-1]
     limits = disparity_limits(state, disparity, cues.disparity_scale, p)
     x0, y0, x1, y1 = window = moved(state.window, -x, -y)
+    center = grown(window, (p.prior_center - 1) * (x1 - x0) / 2, (p.prior_center - 1) * (y1 - y0) / 2)
     box, count, pixels, observed, share = k.observe_target(
         [cue.values for cue in cues.maps],
-        model.densities,
-        model.ranges,
-        model.alternatives,
-        grown(window, (p.prior_center - 1) * (x1 - x0) / 2, (p.prior_center - 1) * (y1 - y0) / 2),
-        moved(state.candidate, -x, -y),
+        (model.densities, model.ranges, model.alternatives),
+        (center, moved(state.candidate, -x, -y)),
         p.min_posterior if len(p.cues) > 1 else p.min_posterior_one_cue,
         (p.min_neighbors, p.min_region_share, p.outlier_share),
         cues.disparity and cues.disparity.values,
-        state.blocks.corners,
-        state.blocks.place_in(cues.region),
+        state.blocks.grid_in(cues.region),
         state.blocks.states,
         limits,
     )

@@ -7,13 +7,13 @@ from numpy.typing import NDArray
 from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse, require_shape
 
-Place = tuple[float, float, float, float, float]
+BlockGrid = tuple[Floats, tuple[float, float, float, float, float]]
 
 
-def placed(corners: Floats, place: Place) -> Floats:
+def placed(grid: BlockGrid) -> Floats:
     """(N, 4) x0, y0, x1, y1, pixels: size times the corners, plus (x, y), minus (left, top)."""
+    corners, (size, x, y, left, top) = grid
     require_shape("corners", corners, (len(corners), 4))
-    size, x, y, left, top = place
     with np.errstate(invalid="ignore", over="ignore"):
         blocks = corners * size + [x, y, x, y] - np.array([left, top, left, top])
     strange = np.count_nonzero(~np.isfinite(blocks))
@@ -22,7 +22,8 @@ def placed(corners: Floats, place: Place) -> Floats:
     return np.asarray(blocks)
 
 
-def require_numbers(corners: Floats, numbers: NDArray[np.int64], name: str) -> None:
+def require_numbers(grid: BlockGrid, numbers: NDArray[np.int64], name: str) -> None:
     """Refuse numbers unless there is one for each block."""
+    corners, _ = grid
     if len(numbers) != len(corners):
         refuse(name, f"{len(corners)} numbers", len(numbers))
