@@ -12,6 +12,7 @@
 #include "cues/stereo/head_cells.hpp"
 #include "cues/stereo/sad_disparity.hpp"
 #include "kernel_docs.hpp"
+#include "tuples.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -52,16 +53,15 @@ std::tuple<Array<double>, Array<double>> back_project_arrays(const Array<double>
 
 using Point = std::tuple<double, double>;
 
-std::tuple<Array<float>, Array<float>> gradient_disparity_arrays(const Bytes& left, const Bytes& right,
-                                                                 double disparity, int levels, double sigma,
-                                                                 int radius, double min_reliability,
-                                                                 double max_residual, double max_step,
-                                                                 const std::optional<RegionTuple>& region) {
+std::tuple<Array<float>, Array<float>> gradient_disparity_arrays(
+    const Bytes& left, const Bytes& right, double disparity,
+    const Tuple<int, double, int, double, double, double>& matching,
+    const std::optional<Tuple<int, int, int, int>>& region) {
     const auto view = gray_image(left, "left"), other = gray_image(right, "right");
-    const Region part = region_of(region.value_or(RegionTuple{0, 0, view.cols, view.rows}));
-    const GradientMatching matching{levels, sigma, radius, min_reliability, max_residual, max_step};
+    const auto how = unpack_as<GradientMatching>(matching, "matching");
+    const Region part = region ? unpack_as<Region>(*region, "region") : Region{0, 0, view.cols, view.rows};
     auto found =
-        unlocked(work_in(part), [&] { return gradient_disparity(view, other, disparity, matching, part); });
+        unlocked(work_in(part), [&] { return gradient_disparity(view, other, disparity, how, part); });
     const std::vector<py::ssize_t> shape{2, found.rows() / 2, found.cols()};
     const py::object both = give(std::move(found), shape);
     return {both[py::int_(0)], both[py::int_(1)]};
@@ -135,9 +135,8 @@ void define_stereo(py::module_& m) {
     m.def("back_project", back_project_arrays, py::arg("measurements"), py::arg("variances"),
           py::arg("camera"), py::arg("baseline"), docs::back_project);
     m.def("gradient_disparity", gradient_disparity_arrays, py::arg("left"), py::arg("right"),
-          py::arg("disparity"), py::arg("levels") = 3, py::arg("sigma") = 1.0, py::arg("radius") = 2,
-          py::arg("min_reliability") = 0.3, py::arg("max_residual") = 0.2, py::arg("max_step") = 1.0,
-          py::arg("region") = py::none(), docs::gradient_disparity);
+          py::arg("disparity"), py::arg("matching"), py::arg("region") = py::none(),
+          docs::gradient_disparity);
     m.def("rectify_verged", rectify_verged_arrays, py::arg("right"), py::arg("angle"), py::arg("focal"),
           py::arg("center") = py::none(), py::arg("shift") = 0.0, py::arg("rows_only") = false,
           docs::rectify_verged);

@@ -1258,12 +1258,7 @@ def gradient_disparity(
     left: numpy.typing.NDArray[numpy.uint8],
     right: numpy.typing.NDArray[numpy.uint8],
     disparity: float,
-    levels: int = 3,
-    sigma: float = 1.0,
-    radius: int = 2,
-    min_reliability: float = 0.3,
-    max_residual: float = 0.2,
-    max_step: float = 1.0,
+    matching: tuple[int, float, int, float, float, float],
     region: tuple[int, int, int, int] | None = None,
 ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]:
     """
@@ -1292,14 +1287,16 @@ def gradient_disparity(
         left: uint8 (H, W), gray, rectified, at least one pixel
         right: uint8 (H, W), gray, rectified, of the same size
         disparity: the predicted disparity, pixels, -16384 to 16384
-        levels: levels of the pyramid, 1 to 6
-        sigma: of the Gaussian, pixels of each level, 0.5 to 6
-        radius: of the square window that an equation is solved over, pixels, 0 to 7
-        min_reliability: smallest reliability (9) of a valid disparity, (gray levels / pixel²)², at
-            least 0
-        max_residual: largest difference that may remain in a window with its d, as a share of both
-            images' power in it, at least 0; not used with radius 0
-        max_step: how far from its start the finest level may find the disparity, pixels, at least 0
+        matching: a tuple (levels, sigma, radius, min_reliability, max_residual, max_step):
+            - levels: levels of the pyramid, 1 to 6
+            - sigma: of the Gaussian, pixels of each level, 0.5 to 6
+            - radius: of the square window that an equation is solved over, pixels, 0 to 7
+            - min_reliability: smallest reliability (9) of a valid disparity, (gray levels / pixel²)²,
+              at least 0
+            - max_residual: largest difference that may remain in a window with its d, as a share of
+              both images' power in it, at least 0; not used with radius 0
+            - max_step: how far from its start the finest level may find the disparity, pixels, at least
+              0
         region: (x0, y0, x1, y1), pixels of the left image, sides of 1 to 16384; None for all of it. It
             may extend beyond the image, where reliability is 0. The result is, to the last bit, that
             part of the result for the whole image
@@ -3907,12 +3904,7 @@ class Kernels(Protocol):
         left: numpy.typing.NDArray[numpy.uint8],
         right: numpy.typing.NDArray[numpy.uint8],
         disparity: float,
-        levels: int = 3,
-        sigma: float = 1.0,
-        radius: int = 2,
-        min_reliability: float = 0.3,
-        max_residual: float = 0.2,
-        max_step: float = 1.0,
+        matching: tuple[int, float, int, float, float, float],
         region: tuple[int, int, int, int] | None = None,
     ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]: ...
     def gradient_flow(

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 from tricue import _core, reference
 from tricue.kernels import Kernels
+from tricue.track.flow_depth.cues import GradientMatching
 
 Image = NDArray[np.uint8]
 Floats = NDArray[np.float64]
@@ -136,12 +137,12 @@ def test_disparity_stands_for_depth(kernels: Kernels, shift: float) -> None:
     right = np.rint(turned).clip(0, 255).astype(np.uint8)
 
     rectified = kernels.rectify_verged(right, float(angle), FOCAL, CENTER, shift)
-    found, _ = kernels.gradient_disparity(left, rectified, truth - shift)
+    found, _ = kernels.gradient_disparity(left, rectified, truth - shift, GradientMatching())
     inner = found[20:-20, 40:-60]
     assert np.isfinite(inner).mean() > 0.9
     assert np.nanmedian(abs(inner - (truth - shift))) < 0.1
     straight = kernels.rectify_verged(right, float(angle), FOCAL, CENTER, rows_only=True)
-    uneven, _ = kernels.gradient_disparity(left, straight, truth - FOCAL * np.tan(angle))
+    uneven, _ = kernels.gradient_disparity(left, straight, truth - FOCAL * np.tan(angle), GradientMatching())
     assert np.nanstd(uneven[20:-20, 40:-60]) > 4 * np.nanstd(inner)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import _core, reference
+from tricue.track.flow_depth.cues import GradientMatching
 
 Image = NDArray[np.uint8]
 Floats = NDArray[np.float32]
@@ -32,7 +33,7 @@ def pair(height: int) -> tuple[Image, Image]:
 
 def kernel(measure: Callable[..., tuple[Floats, Floats]]) -> Measure:
     """The disparities that a kernel measures."""
-    return lambda left, right: measure(left, right, PREDICTION)[0]
+    return lambda left, right: measure(left, right, PREDICTION, GradientMatching())[0]
 
 
 def script(left: Image, right: Image) -> Floats:

@@ -28,6 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 from tricue import _core
 from tricue.evaluation.one_pass import one_thread
+from tricue.track.flow_depth.cues import GradientMatching
 
 from benchmarks.quality.common import middlebury
 from benchmarks.quality.common.arguments import bare_parser
@@ -64,12 +65,13 @@ class Result(NamedTuple):
 
 def three_levels(left: Image, right: Image, prediction: float) -> Floats:
     """The default."""
-    return _core.gradient_disparity(left, right, prediction)[0]
+    return _core.gradient_disparity(left, right, prediction, GradientMatching())[0]
 
 
 def one_level(left: Image, right: Image, prediction: float) -> Floats:
     """The paper's method: one level, each pixel alone."""
-    return _core.gradient_disparity(left, right, prediction, levels=1, sigma=2.0, radius=0, max_step=2.0)[0]
+    matching = GradientMatching(levels=1, sigma=2.0, radius=0, max_step=2.0)
+    return _core.gradient_disparity(left, right, prediction, matching)[0]
 
 
 def block_matching(left: Image, right: Image, prediction: float) -> Floats:

@@ -15,6 +15,17 @@ from tricue.track.flow_depth.reduced_frame import ReducedFrame
 POOLING_RADIUS = 2  # cells, the radius for pooling constraints of the pyramid's flow
 
 
+class GradientMatching(NamedTuple):
+    """How ``gradient_disparity`` measures; see there."""
+
+    levels: int = 3
+    sigma: float = 1.0
+    radius: int = 2
+    min_reliability: float = 0.3
+    max_residual: float = 0.2
+    max_step: float = 1.0
+
+
 class CueMap(NamedTuple):
     """One observation per cell (h, w), NaN where missing, and its weight in histograms (h, w)."""
 
@@ -107,13 +118,5 @@ def _measure_disparity(
         disparity = np.ascontiguousarray(now.disparity[y0:y1, x0:x1])
         return CueMap(disparity, np.ones_like(disparity))
     assert now.right is not None
-    values, reliability = k.gradient_disparity(
-        now.gray,
-        now.right,
-        expected,
-        p.disparity_levels,
-        radius=p.disparity_radius,
-        max_step=p.max_disparity_step,
-        region=region,
-    )
-    return CueMap(values, reliability)
+    matching = GradientMatching(p.disparity_levels, radius=p.disparity_radius, max_step=p.max_disparity_step)
+    return CueMap(*k.gradient_disparity(now.gray, now.right, expected, matching, region))

@@ -19,15 +19,11 @@ def gradient_disparity(
     left: Image,
     right: Image,
     disparity: float,
-    levels: int = 3,
-    sigma: float = 1.0,
-    radius: int = 2,
-    min_reliability: float = 0.3,
-    max_residual: float = 0.2,
-    max_step: float = 1.0,
+    matching: tuple[int, float, int, float, float, float],
     region: Rectangle | None = None,
 ) -> tuple[Singles, Singles]:
     """Solves (7) in windows by least squares, level by level."""
+    levels, sigma, radius, min_reliability, max_residual, max_step = matching
     rows, columns = left.shape
     x0, y0, x1, y1 = (0, 0, columns, rows) if region is None else region
     _require(left, right, levels, radius, (x0, y0, x1, y1))
