@@ -100,6 +100,9 @@ def test_lines_can_be_read() -> None:
 WHOLE = """
 struct Range {
     double low, high;  ///< of the values, meters
+
+    /// The middle.
+    double middle() const { return (low + high) / 2; }
 };
 
 /// Adds an offset.

@@ -115,7 +115,7 @@ def _fields(inside: str) -> Iterator[Entry]:
         text = " ".join((before.replace("///", " ") or after).split())
         plain = re.sub(r"<.*>|\{.*?\}|=[^,]*", "", declaration)
         names = tuple(re.findall(r"(\w+)\s*(?:,|$)", plain))
-        if text and names:
+        if text and names and "(" not in plain:  # no member function
             yield Entry(names, text)
 
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "arrays.hpp"
+#include "color_space.hpp"
 #include "cues/color/best_ellipse.hpp"
 #include "cues/color/color_bins.hpp"
 #include "cues/color/ellipse_search.hpp"
@@ -19,11 +20,6 @@ namespace {
 
 using Triple = std::tuple<int, int, int>;
 
-ColorSpace color_space(const Triple& bins, int chroma) {
-    const auto [first, second, third] = bins;
-    return {{first, second, third}, chroma};
-}
-
 Array<double> image_mean_array(const Array<std::uint8_t>& image, int step) {
     const auto view = color_image(image, "image");
     return give(unlocked(std::ptrdiff_t{view.rows} * view.cols / std::max(step, 1),
@@ -31,14 +27,14 @@ Array<double> image_mean_array(const Array<std::uint8_t>& image, int step) {
 }
 
 Array<std::uint16_t> color_bins_arrays(const Array<std::uint8_t>& image, const RegionTuple& region,
-                                       const Triple& bins, int chroma, int step,
+                                       const SpaceTuple& space, int step,
                                        const std::optional<Array<double>>& gains) {
     const auto view = color_image(image, "image");
     const Region corners = region_of(region);
-    const ColorSpace space = color_space(bins, chroma);
+    const ColorSpace axes = color_space(space);
     const auto light = gains ? std::optional(channel_gains(*gains)) : std::nullopt;
     return give(unlocked(work_in(corners.clipped(view)),
-                         [&] { return color_bins(view, corners, space, step, light ? &*light : nullptr); }));
+                         [&] { return color_bins(view, corners, axes, step, light ? &*light : nullptr); }));
 }
 
 BinsView bins_image(const Array<std::uint16_t>& bins) {
@@ -87,49 +83,48 @@ std::tuple<int, int, double, double, double, Array<double>> best_ellipse_arrays(
             found.intersection, found.marked, give(std::move(found.histogram))};
 }
 
-Array<double> histogram_mean_arrays(const Array<double>& histogram, const Triple& bins, int chroma) {
+Array<double> histogram_mean_arrays(const Array<double>& histogram, const SpaceTuple& space) {
     const auto masses = vector(histogram, "histogram");
-    const ColorSpace space = color_space(bins, chroma);
-    return give(unlocked(masses.size(), [&] { return histogram_mean(masses, space); }));
+    const ColorSpace axes = color_space(space);
+    return give(unlocked(masses.size(), [&] { return histogram_mean(masses, axes); }));
 }
 
 std::tuple<Array<double>, Array<double>, Array<double>> learn_histogram_arrays(
     const Array<double>& histogram, const Array<double>& measured, double rate, const Array<double>& first,
-    double weight, const Triple& bins, int chroma) {
+    double weight, const SpaceTuple& space) {
     const auto before = vector(histogram, "histogram"), seen = vector(measured, "measured");
     const FirstColors kept{vector(first, "first"), weight};
-    const ColorSpace space = color_space(bins, chroma);
-    auto learned = unlocked(before.size(), [&] { return learn_histogram(before, seen, rate, kept, space); });
+    const ColorSpace axes = color_space(space);
+    auto learned = unlocked(before.size(), [&] { return learn_histogram(before, seen, rate, kept, axes); });
     return {give(std::move(learned.histogram)), give(std::move(learned.model)),
             give(std::move(learned.color))};
 }
 
-Array<double> shift_histogram_arrays(const Array<double>& histogram, const Triple& bins, int chroma,
+Array<double> shift_histogram_arrays(const Array<double>& histogram, const SpaceTuple& space,
                                      const Array<double>& mean) {
     const auto masses = vector(histogram, "histogram");
-    const ColorSpace space = color_space(bins, chroma);
+    const ColorSpace axes = color_space(space);
     const auto target = vector(mean, "mean");
-    return give(unlocked(masses.size(), [&] { return shift_histogram(masses, space, target); }));
+    return give(unlocked(masses.size(), [&] { return shift_histogram(masses, axes, target); }));
 }
 
 }  // namespace
 
 void define_color_search(py::module_& m) {
-    m.def("color_bins", color_bins_arrays, py::arg("image"), py::arg("region"), py::arg("bins"),
-          py::arg("chroma"), py::arg("step"), py::arg("gains") = py::none(), docs::color_bins);
+    m.def("color_bins", color_bins_arrays, py::arg("image"), py::arg("region"), py::arg("space"),
+          py::arg("step"), py::arg("gains") = py::none(), docs::color_bins);
     m.def("image_mean", image_mean_array, py::arg("image"), py::arg("step"), docs::image_mean);
     m.def("ellipse_search", ellipse_search_arrays, py::arg("bins"), py::arg("ellipse"), py::arg("grid"),
           py::arg("model"), py::arg("margin"), py::arg("mask"), docs::ellipse_search);
     m.def("best_ellipse", best_ellipse_arrays, py::arg("bins"), py::arg("ellipse"), py::arg("grid"),
           py::arg("model"), py::arg("margin"), py::arg("mask"), py::arg("weights"), py::arg("min_marked"),
           docs::best_ellipse);
-    m.def("histogram_mean", histogram_mean_arrays, py::arg("histogram"), py::arg("bins"), py::arg("chroma"),
+    m.def("histogram_mean", histogram_mean_arrays, py::arg("histogram"), py::arg("space"),
           docs::histogram_mean);
     m.def("learn_histogram", learn_histogram_arrays, py::arg("histogram"), py::arg("measured"),
-          py::arg("rate"), py::arg("first"), py::arg("weight"), py::arg("bins"), py::arg("chroma"),
-          docs::learn_histogram);
-    m.def("shift_histogram", shift_histogram_arrays, py::arg("histogram"), py::arg("bins"), py::arg("chroma"),
-          py::arg("mean"), docs::shift_histogram);
+          py::arg("rate"), py::arg("first"), py::arg("weight"), py::arg("space"), docs::learn_histogram);
+    m.def("shift_histogram", shift_histogram_arrays, py::arg("histogram"), py::arg("space"), py::arg("mean"),
+          docs::shift_histogram);
 }
 
 }  // namespace tricue::bindings

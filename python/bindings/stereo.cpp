@@ -7,6 +7,7 @@
 #include "camera/back_project.hpp"
 #include "camera/rectify_verged.hpp"
 #include "camera/reduce_gray.hpp"
+#include "color_space.hpp"
 #include "cues/stereo/ellipse_disparity.hpp"
 #include "cues/stereo/gradient_disparity.hpp"
 #include "cues/stereo/head_cells.hpp"
@@ -18,15 +19,28 @@ namespace tricue::bindings {
 namespace {
 
 using Bytes = Array<std::uint8_t>;
+using LimitsTuple = Tuple<int, int>;
+using MatchingTuple = Tuple<int, int, bool>;
+
+DisparityRange disparity_range(const LimitsTuple& limits) {
+    const auto [first, last] = unpack(limits, "limits");
+    return {first, last};
+}
+
+StereoMatching stereo_matching(const MatchingTuple& matching) {
+    const auto [window, uniqueness, prefilter] = unpack(matching, "matching");
+    return {window, uniqueness, prefilter};
+}
 
 Array<float> sad_disparity_arrays(const Bytes& left, const Bytes& right, const RegionTuple& region,
-                                  bool ellipse, int first, int last, int window, int uniqueness,
-                                  bool prefilter, int tolerance) {
+                                  bool ellipse, const LimitsTuple& limits, const MatchingTuple& matching,
+                                  int tolerance) {
     const auto view = gray_image(left, "left"), other = gray_image(right, "right");
     const StereoRegion part{region_of(region), ellipse};
-    const StereoMatching matching{window, uniqueness, prefilter, tolerance};
+    const DisparityRange range = disparity_range(limits);
+    const StereoMatching windows = stereo_matching(matching);
     return give(unlocked(work_in(part.place),
-                         [&] { return sad_disparity(view, other, part, {first, last}, matching); }));
+                         [&] { return sad_disparity(view, other, part, range, windows, tolerance); }));
 }
 
 /// Variances (3,) as one row of 3, covariances (N, 3, 3) as rows of 9.
@@ -87,41 +101,39 @@ Bytes reduce_gray_arrays(const Bytes& image, int step, const std::optional<Regio
 }
 
 using Gains = std::tuple<double, double, double>;
-using Triple = std::tuple<int, int, int>;
 
-std::tuple<Array<std::uint16_t>, Bytes> head_cells_arrays(const Bytes& left, const Bytes& right,
-                                                          const RegionTuple& region, int step,
-                                                          const Triple& bins, int chroma,
-                                                          const std::optional<Gains>& gains, double expected,
-                                                          double tolerance, int fill, int first, int last,
-                                                          int window, int uniqueness, bool prefilter) {
+std::tuple<Array<std::uint16_t>, Bytes> head_cells_arrays(
+    const Bytes& left, const Bytes& right, const RegionTuple& region, int step, const SpaceTuple& space,
+    const std::optional<Gains>& gains, const Tuple<double, double, int>& depth, const LimitsTuple& limits,
+    const MatchingTuple& matching) {
     const auto view = color_image(left, "left"), other = any_image(right, "right");
     const Region part = region_of(region);
-    const auto [first_axis, second_axis, third_axis] = bins;
-    const ColorSpace space{{first_axis, second_axis, third_axis}, chroma};
+    const ColorSpace colors = color_space(space);
     std::array<double, 3> given{};
     if (gains) given = {std::get<0>(*gains), std::get<1>(*gains), std::get<2>(*gains)};
-    const HeadDepth depth{static_cast<float>(expected), static_cast<float>(tolerance), fill};
-    const StereoMatching matching{window, uniqueness, prefilter, -1};
+    const auto [expected, tolerance, fill] = unpack(depth, "depth");
+    const HeadDepth head{static_cast<float>(expected), static_cast<float>(tolerance), fill};
+    const DisparityRange range = disparity_range(limits);
+    const StereoMatching windows = stereo_matching(matching);
     auto cells = unlocked(work_in(part, step), [&] {
-        return head_cells(view, other, part, step, space, gains ? &given : nullptr, depth, {first, last},
-                          matching);
+        return head_cells(view, other, part, step, colors, gains ? &given : nullptr, head, range, windows);
     });
     return {give(std::move(cells.bins)), give(std::move(cells.coherent))};
 }
 
 std::tuple<double, int, int> ellipse_disparity_arrays(const Bytes& left, const Bytes& right,
-                                                      const Array<double>& ellipse, int first, int last,
-                                                      int window, int uniqueness, bool prefilter,
-                                                      bool subpixel, bool median, double tolerance) {
+                                                      const Array<double>& ellipse, const LimitsTuple& limits,
+                                                      const MatchingTuple& matching,
+                                                      const Tuple<bool, bool, double>& statistic) {
     const auto view = any_image(left, "left"), other = any_image(right, "right");
     const auto where = vector(ellipse, "ellipse");
-    const StereoMatching matching{window, uniqueness, prefilter, -1};
-    const DisparityStatistic statistic{subpixel, median, static_cast<float>(tolerance)};
+    const DisparityRange range = disparity_range(limits);
+    const StereoMatching windows = stereo_matching(matching);
+    const auto [subpixel, median, tolerance] = unpack(statistic, "statistic");
+    const DisparityStatistic by{subpixel, median, static_cast<float>(tolerance)};
     const bool known = where.size() == 4 && where.allFinite();
-    const auto found = unlocked(known ? work_of(2 * where[2], 2 * where[3]) : 0, [&] {
-        return ellipse_disparity(view, other, where, {first, last}, matching, statistic);
-    });
+    const auto found = unlocked(known ? work_of(2 * where[2], 2 * where[3]) : 0,
+                                [&] { return ellipse_disparity(view, other, where, range, windows, by); });
     return {found.disparity, found.matched, found.near};
 }
 
@@ -129,8 +141,7 @@ std::tuple<double, int, int> ellipse_disparity_arrays(const Bytes& left, const B
 
 void define_stereo(py::module_& m) {
     m.def("sad_disparity", sad_disparity_arrays, py::arg("left"), py::arg("right"), py::arg("region"),
-          py::arg("ellipse"), py::arg("first"), py::arg("last"), py::arg("window") = 5,
-          py::arg("uniqueness") = 15, py::arg("prefilter") = true, py::arg("tolerance") = -1,
+          py::arg("ellipse"), py::arg("limits"), py::arg("matching"), py::arg("tolerance") = -1,
           docs::sad_disparity);
     m.def("back_project", back_project_arrays, py::arg("measurements"), py::arg("variances"),
           py::arg("camera"), py::arg("baseline"), docs::back_project);
@@ -143,12 +154,10 @@ void define_stereo(py::module_& m) {
     m.def("reduce_gray", reduce_gray_arrays, py::arg("image"), py::arg("step"),
           py::arg("region") = py::none(), docs::reduce_gray);
     m.def("head_cells", head_cells_arrays, py::arg("left"), py::arg("right"), py::arg("region"),
-          py::arg("step"), py::arg("bins"), py::arg("chroma"), py::arg("gains"), py::arg("expected"),
-          py::arg("tolerance"), py::arg("fill"), py::arg("first"), py::arg("last"), py::arg("window"),
-          py::arg("uniqueness"), py::arg("prefilter"), docs::head_cells);
+          py::arg("step"), py::arg("space"), py::arg("gains"), py::arg("depth"), py::arg("limits"),
+          py::arg("matching"), docs::head_cells);
     m.def("ellipse_disparity", ellipse_disparity_arrays, py::arg("left"), py::arg("right"),
-          py::arg("ellipse"), py::arg("first"), py::arg("last"), py::arg("window"), py::arg("uniqueness"),
-          py::arg("prefilter"), py::arg("subpixel"), py::arg("median"), py::arg("tolerance"),
+          py::arg("ellipse"), py::arg("limits"), py::arg("matching"), py::arg("statistic"),
           docs::ellipse_disparity);
 }
 

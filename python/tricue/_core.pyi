@@ -339,8 +339,7 @@ def changed_depth(
 def color_bins(
     image: numpy.typing.NDArray[numpy.uint8],
     region: tuple[int, int, int, int],
-    bins: tuple[int, int, int],
-    chroma: int,
+    space: tuple[tuple[int, int, int], int],
     step: int,
     gains: numpy.typing.NDArray[numpy.float64] | None = None,
 ) -> numpy.typing.NDArray[numpy.uint16]:
@@ -354,9 +353,10 @@ def color_bins(
     Args:
         image: uint8 (H, W, 3) BGR, may be empty
         region: (x0, y0, x1, y1), pixels; may extend beyond the image; sides of at most 32768
-        bins: (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
-        chroma: the first two axes span [-chroma, chroma), color levels, 1 to 255; values beyond go to
-            the end bins
+        space: a tuple (bins, chroma):
+            - bins: (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
+            - chroma: the first two axes span [-chroma, chroma), color levels, 1 to 255; values beyond
+              go to the end bins
         step: pixels from one sample to the next, 1 to 1024
         gains: factors (3,) of blue, green and red that turn the colors into those of another light (von
             Kries), finite, 0 or more; products are rounded half to even and clamped to 255; None for 1
@@ -950,14 +950,9 @@ def ellipse_disparity(
     left: numpy.typing.NDArray[numpy.uint8],
     right: numpy.typing.NDArray[numpy.uint8],
     ellipse: numpy.typing.NDArray[numpy.float64],
-    first: int,
-    last: int,
-    window: int,
-    uniqueness: int,
-    prefilter: bool,
-    subpixel: bool,
-    median: bool,
-    tolerance: float,
+    limits: tuple[int, int],
+    matching: tuple[int, int, bool],
+    statistic: tuple[bool, bool, float],
 ) -> tuple[float, int, int]:
     """
     The disparity of an ellipse: the median or the mean (5) of its pixels' disparities.
@@ -971,15 +966,20 @@ def ellipse_disparity(
         right: uint8 (H, W, 3) BGR, or gray (H, W), of the same size
         ellipse: float64 (4,): center x, y, semi-axes along x (minor) and y (major), pixels of the left
             image, finite, axes above 0 and at most 4096; may extend beyond the image
-        first, last: range of disparities, both included, at most 4096 of them; first may be negative
-        window: side, pixels, odd: 1 to 31 with the prefilter, 1 to 15 without, so that sums fit 16 bits
-        uniqueness: percent, 0 to 100; 0 rejects nothing
-        prefilter: whether x-Sobel responses clipped at ±31, which lighting changes less, are compared
-            instead of gray levels
-        subpixel: whether disparities keep their fractions; else each becomes the nearest whole number,
-            of halves the smaller
-        median: their median, else their mean
-        tolerance: a pixel is near that disparity if it differs by at most this, pixels, 0 or more
+        limits: a tuple (first, last):
+            - first, last: range of disparities, both included, at most 4096 of them; first may be
+              negative
+        matching: a tuple (window, uniqueness, prefilter):
+            - window: side, pixels, odd: 1 to 31 with the prefilter, 1 to 15 without, so that sums fit
+              16 bits
+            - uniqueness: percent, 0 to 100; 0 rejects nothing
+            - prefilter: whether x-Sobel responses clipped at ±31, which lighting changes less, are
+              compared instead of gray levels
+        statistic: a tuple (subpixel, median, tolerance):
+            - subpixel: whether disparities keep their fractions; else each becomes the nearest whole
+              number, of halves the smaller
+            - median: whether it is their median, else it is their mean
+            - tolerance: a pixel is near that disparity if it differs by at most this, pixels, 0 or more
 
     Returns:
         disparity: pixels; NaN if no pixel has one
@@ -1399,26 +1399,20 @@ def head_cells(
     right: numpy.typing.NDArray[numpy.uint8],
     region: tuple[int, int, int, int],
     step: int,
-    bins: tuple[int, int, int],
-    chroma: int,
+    space: tuple[tuple[int, int, int], int],
     gains: tuple[float, float, float] | None,
-    expected: float,
-    tolerance: float,
-    fill: int,
-    first: int,
-    last: int,
-    window: int,
-    uniqueness: int,
-    prefilter: bool,
+    depth: tuple[float, float, int],
+    limits: tuple[int, int],
+    matching: tuple[int, int, bool],
 ) -> tuple[numpy.typing.NDArray[numpy.uint16], numpy.typing.NDArray[numpy.uint8]]:
     """
     The cells of a rectangle: the color bin of each, and whether it is at a head's depth.
 
     A cell is step x step pixels, and has the color of its middle one (color_bins). Its disparity is
-    found by sad_disparity between the means of gray cells (reduce_gray). It is at the head's depth if
-    that disparity differs from the expected one by at most the tolerance. A cell without a disparity,
-    as in hair of one color, gets the majority of the cells around it that have one; a tie counts
-    against it. No cell outside the image is at the head's depth.
+    found by sad_disparity between the means of gray cells (reduce_gray), all lengths of the search in
+    cells. It is at the head's depth if that disparity differs from the expected one by at most the
+    tolerance. A cell without a disparity, as in hair of one color, gets the majority of the cells
+    around it that have one; a tie counts against it. No cell outside the image is at the head's depth.
 
     Args:
         left: uint8 (H, W, 3) BGR, rectified, at least one pixel
@@ -1426,17 +1420,24 @@ def head_cells(
         region: (x0, y0, x1, y1), cells, sides of 1 to 16384, and of at most 32768 pixels; may extend
             beyond the image
         step: side of a cell, pixels, 1 to 1024 and to the smaller side of the image
-        bins: (n_0, n_1, n_2), as color_bins takes them
-        chroma: as color_bins takes it
+        space: a tuple (bins, chroma):
+            - bins: (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
+            - chroma: the first two axes span [-chroma, chroma), color levels, 1 to 255; values beyond
+              go to the end bins
         gains: as color_bins takes them, or None
-        expected: the head's disparity, cells, finite
-        tolerance: largest difference of a cell's disparity from the head's, cells, 0 or more
-        fill: side of the square by whose majority gaps are filled, cells, odd, 1 to 127
-        first, last: range of disparities, cells, both included, at most 4096 of them
-        window: side of the matching window, cells, as sad_disparity takes it
-        uniqueness: percent, 0 to 100; 0 rejects nothing
-        prefilter: whether x-Sobel responses clipped at ±31, which lighting changes less, are compared
-            instead of gray levels
+        depth: a tuple (expected, tolerance, fill):
+            - expected: the head's disparity, cells, finite
+            - tolerance: largest difference of a cell's disparity from it, cells, 0 or more
+            - fill: side of the square by whose majority gaps are filled, cells, odd, 1 to 127
+        limits: a tuple (first, last):
+            - first, last: range of disparities, both included, at most 4096 of them; first may be
+              negative
+        matching: a tuple (window, uniqueness, prefilter):
+            - window: side, pixels, odd: 1 to 31 with the prefilter, 1 to 15 without, so that sums fit
+              16 bits
+            - uniqueness: percent, 0 to 100; 0 rejects nothing
+            - prefilter: whether x-Sobel responses clipped at ±31, which lighting changes less, are
+              compared instead of gray levels
 
     Returns:
         bins: uint16 (h, w), as color_bins gives them
@@ -1450,7 +1451,7 @@ def head_cells(
     """
 
 def histogram_mean(
-    histogram: numpy.typing.NDArray[numpy.float64], bins: tuple[int, int, int], chroma: int
+    histogram: numpy.typing.NDArray[numpy.float64], space: tuple[tuple[int, int, int], int]
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     Mean color (B - G, G - R, B + G + R) of a histogram over that space.
@@ -1461,8 +1462,10 @@ def histogram_mean(
     Args:
         histogram: float64 (L,), L = n_0 n_1 n_2, in the order of color_bins; finite, none negative, a
             sum above 0
-        bins: (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
-        chroma: the first two axes span [-chroma, chroma), color levels, 1 to 255
+        space: a tuple (bins, chroma):
+            - bins: (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
+            - chroma: the first two axes span [-chroma, chroma), color levels, 1 to 255; values beyond
+              go to the end bins
 
     Returns:
         float64 (3,), color levels
@@ -1681,8 +1684,7 @@ def learn_histogram(
     rate: float,
     first: numpy.typing.NDArray[numpy.float64],
     weight: float,
-    bins: tuple[int, int, int],
-    chroma: int,
+    space: tuple[tuple[int, int, int], int],
 ) -> tuple[
     numpy.typing.NDArray[numpy.float64],
     numpy.typing.NDArray[numpy.float64],
@@ -1698,8 +1700,10 @@ def learn_histogram(
         rate: a, 0 to 1; 0 learns nothing
         first: float64 (L,), F
         weight: w, 0 to 1
-        bins: (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
-        chroma: the first two axes span [-chroma, chroma), color levels, 1 to 255
+        space: a tuple (bins, chroma):
+            - bins: (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
+            - chroma: the first two axes span [-chroma, chroma), color levels, 1 to 255; values beyond
+              go to the end bins
 
     Returns:
         histogram: float64 (L,)
@@ -2866,11 +2870,8 @@ def sad_disparity(
     right: numpy.typing.NDArray[numpy.uint8],
     region: tuple[int, int, int, int],
     ellipse: bool,
-    first: int,
-    last: int,
-    window: int = 5,
-    uniqueness: int = 15,
-    prefilter: bool = True,
+    limits: tuple[int, int],
+    matching: tuple[int, int, bool],
     tolerance: int = -1,
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
@@ -2897,11 +2898,15 @@ def sad_disparity(
         region: (x0, y0, x1, y1), pixels of the left image, sides of 1 to 16384; may extend beyond the
             image
         ellipse: whether only pixels whose centers lie in the ellipse inscribed in the region count
-        first, last: range of disparities, both included, at most 4096 of them; first may be negative
-        window: side, pixels, odd: 1 to 31 with the prefilter, 1 to 15 without, so that sums fit 16 bits
-        uniqueness: percent, 0 to 100; 0 rejects nothing
-        prefilter: whether x-Sobel responses clipped at ±31, which lighting changes less, are compared
-            instead of gray levels
+        limits: a tuple (first, last):
+            - first, last: range of disparities, both included, at most 4096 of them; first may be
+              negative
+        matching: a tuple (window, uniqueness, prefilter):
+            - window: side, pixels, odd: 1 to 31 with the prefilter, 1 to 15 without, so that sums fit
+              16 bits
+            - uniqueness: percent, 0 to 100; 0 rejects nothing
+            - prefilter: whether x-Sobel responses clipped at ±31, which lighting changes less, are
+              compared instead of gray levels
         tolerance: of the left-right check, pixels; negative for no check
 
     Returns:
@@ -3095,8 +3100,7 @@ def segment_depth(
 
 def shift_histogram(
     histogram: numpy.typing.NDArray[numpy.float64],
-    bins: tuple[int, int, int],
-    chroma: int,
+    space: tuple[tuple[int, int, int], int],
     mean: numpy.typing.NDArray[numpy.float64],
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
@@ -3109,8 +3113,10 @@ def shift_histogram(
     Args:
         histogram: float64 (L,), L = n_0 n_1 n_2, in the order of color_bins; finite, none negative, a
             sum above 0
-        bins: (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
-        chroma: the first two axes span [-chroma, chroma), color levels, 1 to 255
+        space: a tuple (bins, chroma):
+            - bins: (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
+            - chroma: the first two axes span [-chroma, chroma), color levels, 1 to 255; values beyond
+              go to the end bins
         mean: float64 (3,): B - G, G - R, B + G + R, color levels, as histogram_mean gives it; finite
 
     Returns:
@@ -3684,8 +3690,7 @@ class Kernels(Protocol):
         self,
         image: numpy.typing.NDArray[numpy.uint8],
         region: tuple[int, int, int, int],
-        bins: tuple[int, int, int],
-        chroma: int,
+        space: tuple[tuple[int, int, int], int],
         step: int,
         gains: numpy.typing.NDArray[numpy.float64] | None = None,
     ) -> numpy.typing.NDArray[numpy.uint16]: ...
@@ -3815,14 +3820,9 @@ class Kernels(Protocol):
         left: numpy.typing.NDArray[numpy.uint8],
         right: numpy.typing.NDArray[numpy.uint8],
         ellipse: numpy.typing.NDArray[numpy.float64],
-        first: int,
-        last: int,
-        window: int,
-        uniqueness: int,
-        prefilter: bool,
-        subpixel: bool,
-        median: bool,
-        tolerance: float,
+        limits: tuple[int, int],
+        matching: tuple[int, int, bool],
+        statistic: tuple[bool, bool, float],
     ) -> tuple[float, int, int]: ...
     def ellipse_search(
         self,
@@ -3935,20 +3935,14 @@ class Kernels(Protocol):
         right: numpy.typing.NDArray[numpy.uint8],
         region: tuple[int, int, int, int],
         step: int,
-        bins: tuple[int, int, int],
-        chroma: int,
+        space: tuple[tuple[int, int, int], int],
         gains: tuple[float, float, float] | None,
-        expected: float,
-        tolerance: float,
-        fill: int,
-        first: int,
-        last: int,
-        window: int,
-        uniqueness: int,
-        prefilter: bool,
+        depth: tuple[float, float, int],
+        limits: tuple[int, int],
+        matching: tuple[int, int, bool],
     ) -> tuple[numpy.typing.NDArray[numpy.uint16], numpy.typing.NDArray[numpy.uint8]]: ...
     def histogram_mean(
-        self, histogram: numpy.typing.NDArray[numpy.float64], bins: tuple[int, int, int], chroma: int
+        self, histogram: numpy.typing.NDArray[numpy.float64], space: tuple[tuple[int, int, int], int]
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def hog_color_cells(
         self, patch: numpy.typing.NDArray[numpy.uint8], taper: numpy.typing.NDArray[numpy.float32]
@@ -4001,8 +3995,7 @@ class Kernels(Protocol):
         rate: float,
         first: numpy.typing.NDArray[numpy.float64],
         weight: float,
-        bins: tuple[int, int, int],
-        chroma: int,
+        space: tuple[tuple[int, int, int], int],
     ) -> tuple[
         numpy.typing.NDArray[numpy.float64],
         numpy.typing.NDArray[numpy.float64],
@@ -4316,11 +4309,8 @@ class Kernels(Protocol):
         right: numpy.typing.NDArray[numpy.uint8],
         region: tuple[int, int, int, int],
         ellipse: bool,
-        first: int,
-        last: int,
-        window: int = 5,
-        uniqueness: int = 15,
-        prefilter: bool = True,
+        limits: tuple[int, int],
+        matching: tuple[int, int, bool],
         tolerance: int = -1,
     ) -> numpy.typing.NDArray[numpy.float32]: ...
     def sample_ellipses(
@@ -4370,8 +4360,7 @@ class Kernels(Protocol):
     def shift_histogram(
         self,
         histogram: numpy.typing.NDArray[numpy.float64],
-        bins: tuple[int, int, int],
-        chroma: int,
+        space: tuple[tuple[int, int, int], int],
         mean: numpy.typing.NDArray[numpy.float64],
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def skin_blobs(

@@ -62,8 +62,8 @@ def _call_stages(k: Any) -> None:
     """Call the kernels that trackers don't: one of an experiment, and the stages of larger kernels."""
     image = np.ascontiguousarray(stress_scene("fast", 0).frames[0].color)
     k.skin_boundary(image, image[0, 0])
-    bins = k.color_bins(image, (4, 3, 60, 50), (8, 8, 4), 64, 1)
-    k.histogram_mean(np.bincount(bins.ravel(), minlength=256).astype(float), (8, 8, 4), 64)
+    bins = k.color_bins(image, (4, 3, 60, 50), ((8, 8, 4), 64), 1)
+    k.histogram_mean(np.bincount(bins.ravel(), minlength=256).astype(float), ((8, 8, 4), 64))
     scene = walker(0, 1, "tof")
     depth, lens = np.ascontiguousarray(scene.frames[0].depth), scene.intrinsics
     camera, plane = lens.vector, np.array([0.0, -1.0, 0.0, 1.0])

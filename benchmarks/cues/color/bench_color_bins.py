@@ -14,10 +14,10 @@ Image = NDArray[np.uint8]
 
 
 def script(
-    image: Image, region: tuple[int, int, int, int], bins: tuple[int, int, int], chroma: int, step: int
+    image: Image, region: tuple[int, int, int, int], space: tuple[tuple[int, int, int], int], step: int
 ) -> NDArray[np.uint16]:
     """The baseline: slices and differences, and shifts instead of divisions by powers of two."""
-    x0, y0, x1, y1 = region
+    (x0, y0, x1, y1), (bins, chroma) = region, space
     b, g, r = np.moveaxis(image[y0:y1:step, x0:x1:step].astype(np.int32), 2, 0)
     first = np.clip(b - g + chroma, 0, 2 * chroma - 1) * bins[0] // (2 * chroma)
     second = np.clip(g - r + chroma, 0, 2 * chroma - 1) * bins[1] // (2 * chroma)
@@ -34,5 +34,5 @@ def script(
 )
 def bench_color_bins(benchmark: Any, color_bins: Callable[..., Any], frame: Image) -> None:
     """All find the same bins."""
-    arguments = (frame, (100, 80, 160, 136), (32, 32, 4), 64, 1)
+    arguments = (frame, (100, 80, 160, 136), ((32, 32, 4), 64), 1)
     assert_array_equal(benchmark(color_bins, *arguments), reference.color_bins(*arguments))

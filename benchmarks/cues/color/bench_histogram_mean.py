@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 from tricue import _core, reference
 
 Floats = NDArray[np.float64]
-BINS, CHROMA = (32, 32, 4), 64
+SPACE = (32, 32, 4), 64
 
 
-def script(histogram: Floats, bins: tuple[int, int, int], chroma: int) -> Floats:
+def script(histogram: Floats, space: tuple[tuple[int, int, int], int]) -> Floats:
     """The baseline: the marginals, one tensor product per axis."""
+    bins, chroma = space
     cube = histogram.reshape(bins)
     chromas = [-chroma + (np.arange(n) + 0.5) * 2 * chroma / n - 0.5 for n in bins[:2]]
     light = (np.arange(bins[2]) + 0.5) * 766 / bins[2] - 0.5
@@ -35,5 +36,5 @@ def bench_histogram_mean(
 ) -> None:
     """All find the same mean."""
     histogram = np.bincount(region_bins.ravel(), minlength=4096).astype(np.float64)
-    mean = benchmark(histogram_mean, histogram, BINS, CHROMA)
-    assert_allclose(mean, reference.histogram_mean(histogram, BINS, CHROMA), rtol=0, atol=1e-9)
+    mean = benchmark(histogram_mean, histogram, SPACE)
+    assert_allclose(mean, reference.histogram_mean(histogram, SPACE), rtol=0, atol=1e-9)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from tricue import _core, reference
 
 Floats = NDArray[np.float64]
-BINS, CHROMA = (32, 32, 4), 64
+SPACE = (32, 32, 4), 64
 
 
 def script(
@@ -20,10 +20,10 @@ def script(
     rate: float,
     first: Floats,
     weight: float,
-    bins: tuple[int, int, int],
-    chroma: int,
+    space: tuple[tuple[int, int, int], int],
 ) -> tuple[Floats, Floats, Floats]:
     """The baseline: mixtures, and the marginals, one tensor product per axis."""
+    bins, chroma = space
     learned = histogram + rate * (measured - histogram)
     cube = learned.reshape(bins)
     chromas = [-chroma + (np.arange(n) + 0.5) * 2 * chroma / n - 0.5 for n in bins[:2]]
@@ -45,7 +45,7 @@ def bench_learn_histogram(
 ) -> None:
     """All learn the same, and find the same mean."""
     counts = np.bincount(region_bins.ravel(), minlength=4096).astype(np.float64)
-    arguments = counts, counts[::-1].copy(), 0.3, counts[::3].repeat(3)[:4096], 0.15, BINS, CHROMA
+    arguments = counts, counts[::-1].copy(), 0.3, counts[::3].repeat(3)[:4096], 0.15, SPACE
     for one, other in zip(
         benchmark(learn_histogram, *arguments), reference.learn_histogram(*arguments), strict=True
     ):

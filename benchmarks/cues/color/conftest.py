@@ -10,7 +10,7 @@ from tricue import _core
 @pytest.fixture(scope="session")
 def region_bins(frame: NDArray[np.uint8]) -> NDArray[np.uint16]:
     """60x56 pixels over 32 x 32 x 4 bins: room for an ellipse of 30x36, its ring, and 16x4 places of it."""
-    return _core.color_bins(frame, (100, 80, 160, 136), (32, 32, 4), 64, 1)
+    return _core.color_bins(frame, (100, 80, 160, 136), ((32, 32, 4), 64), 1)
 
 
 @pytest.fixture(scope="session")

@@ -48,6 +48,7 @@ def script(left: Image, right: Image, *arguments: Any) -> tuple[float, int, int]
 )
 def bench_ellipse_disparity(benchmark: Any, ellipse_disparity: Callable[..., Any]) -> None:
     """All find the same disparity, with nearly all pixels close to it."""
-    found = benchmark(ellipse_disparity, *pair(), ELLIPSE, FIRST, LAST, WINDOW, 5, True, True, True, 2.4)
+    search = (FIRST, LAST), (WINDOW, 5, True)
+    found = benchmark(ellipse_disparity, *pair(), ELLIPSE, *search, (True, True, 2.4))
     assert abs(found[0] - 32) < 0.1
     assert found[2] > 0.95 * found[1] > 0.9 * np.pi * 30 * 36 * 0.95

@@ -16,7 +16,7 @@ Image = NDArray[np.uint8]
 REGION = (60, 30, 120, 86)
 SPACE = (16, 16, 8), 64
 DISPARITY, TOLERANCE, FILL = 8.0, 0.6, 7
-SEARCH = 4, 12, 5, 5, True
+SEARCH = (4, 12), (5, 5, True)
 
 
 def pair() -> tuple[Image, Image]:
@@ -28,7 +28,7 @@ def pair() -> tuple[Image, Image]:
 
 def script(left: Image, right: Image, *arguments: Any) -> tuple[NDArray[np.uint16], Image]:
     """The baseline: cv2's gray levels and box filter, and our block matching, as StereoBM has no regions."""
-    bins = _core.color_bins(left, REGION, *SPACE, 1)
+    bins = _core.color_bins(left, REGION, SPACE, 1)
     gray = cv2.cvtColor(left, cv2.COLOR_BGR2GRAY), cv2.cvtColor(right, cv2.COLOR_BGR2GRAY)
     disparities = _core.sad_disparity(*gray, REGION, False, *SEARCH)
     off = np.abs(disparities - np.float32(DISPARITY))
@@ -45,7 +45,7 @@ def script(left: Image, right: Image, *arguments: Any) -> tuple[NDArray[np.uint1
 )
 def bench_head_cells(benchmark: Any, head_cells: Callable[..., Any]) -> None:
     """All find the same cells."""
-    arguments = (*pair(), REGION, 1, *SPACE, None, DISPARITY, TOLERANCE, FILL, *SEARCH)
+    arguments = (*pair(), REGION, 1, SPACE, None, (DISPARITY, TOLERANCE, FILL), *SEARCH)
     for found, expected in zip(
         benchmark(head_cells, *arguments), reference.head_cells(*arguments), strict=True
     ):

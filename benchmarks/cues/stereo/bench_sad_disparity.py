@@ -15,6 +15,7 @@ Disparity = NDArray[np.float32]
 Matcher = Callable[[Image, Image], Disparity]
 
 COUNT, WINDOW = 16, 5
+MATCHING = WINDOW, 15, True
 WHOLE = (COUNT - 1, 0, 160, 120)  # the columns that StereoBM computes
 HEAD = (70, 40, 100, 76)
 
@@ -30,12 +31,12 @@ def pair() -> tuple[Image, Image]:
 
 def whole(kernel: Callable[..., Disparity]) -> Matcher:
     """The part of the image that StereoBM computes."""
-    return lambda left, right: kernel(left, right, WHOLE, False, 0, COUNT - 1, WINDOW, 15)
+    return lambda left, right: kernel(left, right, WHOLE, False, (0, COUNT - 1), MATCHING)
 
 
 def head(kernel: Callable[..., Disparity]) -> Matcher:
     """An ellipse, and 9 disparities."""
-    return lambda left, right: kernel(left, right, HEAD, True, 4, 12, WINDOW, 15)
+    return lambda left, right: kernel(left, right, HEAD, True, (4, 12), MATCHING)
 
 
 def baseline(region: tuple[int, int, int, int]) -> Matcher:

@@ -77,7 +77,7 @@ class ColorSearch:
         left, top = int(np.floor(x - minor)) - across - 1, int(np.floor(y - major)) - down - 1
         right, bottom = int(np.ceil(x + minor)) + across + 1, int(np.ceil(y + major)) + down + 1
         region = (left, top, right, bottom)
-        return left, top, _core.color_bins(image, region, self.params.bins, self.params.chroma, 1)
+        return left, top, _core.color_bins(image, region, (self.params.bins, self.params.chroma), 1)
 
     def _histogram(self, image: NDArray[np.uint8]) -> Floats:
         left, top, bins = self._bins(image, 0, 0)

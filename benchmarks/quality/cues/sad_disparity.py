@@ -53,15 +53,13 @@ def measure(
     matcher = cv2.StereoBM.create(pair.disparities, window)
     matcher.setUniquenessRatio(uniqueness)
     matcher.setTextureThreshold(0)
-    region = (pair.disparities - 1, 0, width, height)
+    region, limits = (pair.disparities - 1, 0, width, height), (0, pair.disparities - 1)
 
     def theirs() -> NDArray[np.generic]:
         return np.asarray(matcher.compute(pair.left, right))
 
     def ours() -> NDArray[np.generic]:
-        return _core.sad_disparity(
-            pair.left, right, region, False, 0, pair.disparities - 1, window, uniqueness
-        )
+        return _core.sad_disparity(pair.left, right, region, False, limits, (window, uniqueness, True))
 
     seconds = fastest((theirs, ours), rounds)
     fixed = theirs()[:, pair.disparities - 1 :].astype(np.float32) / STEREO_BM_FRACTION

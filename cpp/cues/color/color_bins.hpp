@@ -22,8 +22,6 @@ using Bins = Eigen::Array<std::uint16_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::
 ///
 /// @param image uint8 (H, W, 3) BGR, may be empty
 /// @param region (x0, y0, x1, y1), pixels; may extend beyond the image; sides of at most 32768
-/// @param bins (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
-/// @param chroma the first two axes span [-chroma, chroma), color levels, 1 to 255; values beyond go to the end bins
 /// @param step pixels from one sample to the next, 1 to 1024
 /// @param gains factors (3,) of blue, green and red that turn the colors into those of another light (von Kries), finite, 0 or
 ///     more; products are rounded half to even and clamped to 255; None for 1

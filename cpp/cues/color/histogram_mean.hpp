@@ -11,8 +11,6 @@ namespace tricue {
 /// A bin stands for the mean of the whole levels in it: with as many bins as levels the result is the mean of the pixels.
 ///
 /// @param histogram float64 (L,), L = n_0 n_1 n_2, in the order of color_bins; finite, none negative, a sum above 0
-/// @param bins (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
-/// @param chroma the first two axes span [-chroma, chroma), color levels, 1 to 255
 /// @returns float64 (3,), color levels
 /// @throws std::invalid_argument on another size or other values
 /// Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, μ of equation (7).

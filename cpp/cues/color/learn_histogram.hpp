@@ -25,8 +25,6 @@ struct LearnedHistogram {
 /// @param rate a, 0 to 1; 0 learns nothing
 /// @param first float64 (L,), F
 /// @param weight w, 0 to 1
-/// @param bins (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
-/// @param chroma the first two axes span [-chroma, chroma), color levels, 1 to 255
 /// @throws std::invalid_argument on other sizes, a rate or weight out of range, or where the result isn't finite, has a negative
 ///     number, or has no sum above 0
 /// Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, equation (2) and μ of equation (7); the mixture is ours.

@@ -12,8 +12,6 @@ namespace tricue {
 /// Mass that would leave an axis stays in its end bin: the sum never changes, and the mean is met unless mass was clamped.
 ///
 /// @param histogram float64 (L,), L = n_0 n_1 n_2, in the order of color_bins; finite, none negative, a sum above 0
-/// @param bins (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
-/// @param chroma the first two axes span [-chroma, chroma), color levels, 1 to 255
 /// @param mean float64 (3,): B - G, G - R, B + G + R, color levels, as histogram_mean gives it; finite
 /// @returns float64 (L,) of the same sum
 /// @throws std::invalid_argument on other sizes or values

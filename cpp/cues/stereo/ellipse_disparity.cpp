@@ -77,20 +77,20 @@ int count_near(const float* values, std::size_t n, float disparity, float tolera
 }  // namespace
 
 EllipseDisparity ellipse_disparity(const ImageView& left, const ImageView& right, VectorRef ellipse,
-                                   const DisparityRange& range, const StereoMatching& matching,
+                                   const DisparityRange& limits, const StereoMatching& matching,
                                    const DisparityStatistic& statistic) {
     if (!(statistic.tolerance >= 0.0F)) refuse("tolerance", "0 or more", statistic.tolerance);
     require_ellipse(ellipse);
     const EllipseShape shape(ellipse.data(), 1.0);
     constexpr EllipseDisparity kNothing{std::numeric_limits<double>::quiet_NaN(), 0, 0};
     if (shape.area == 0) return kNothing;
-    Floats found = cell_disparities({left, right, 1}, shape, CenterPixel(ellipse.data()), range, matching);
+    Floats found = cell_disparities({left, right, 1}, shape, CenterPixel(ellipse.data()), limits, matching);
     const std::size_t count =
         pick_matched(found.data(), static_cast<std::size_t>(found.size()), statistic.subpixel);
     if (count == 0) return kNothing;
     const Values matched{found.data(), count};
-    const double disparity = statistic.median ? take_median(matched, static_cast<float>(range.first) - 1.0F,
-                                                            static_cast<float>(range.last) + 1.0F)
+    const double disparity = statistic.median ? take_median(matched, static_cast<float>(limits.first) - 1.0F,
+                                                            static_cast<float>(limits.last) + 1.0F)
                                               : take_mean(matched);
     return {disparity, static_cast<int>(count),
             count_near(matched.data, count, static_cast<float>(disparity), statistic.tolerance)};

@@ -9,10 +9,10 @@ namespace tricue {
 
 /// How the disparity of an ellipse is computed from those of its pixels.
 struct DisparityStatistic {
-    bool
-        subpixel;  ///< whether disparities keep their fractions; else each becomes the nearest whole number, of halves the smaller
-    bool median;   ///< their median, else their mean
-    float tolerance;  ///< pixels, by which a pixel near that disparity may differ from it, 0 or more
+    /// whether disparities keep their fractions; else each becomes the nearest whole number, of halves the smaller
+    bool subpixel;
+    bool median;      ///< whether it is their median, else it is their mean
+    float tolerance;  ///< a pixel is near that disparity if it differs by at most this, pixels, 0 or more
 };
 
 struct EllipseDisparity {
@@ -30,11 +30,10 @@ struct EllipseDisparity {
 /// @param right uint8 (H, W, 3) BGR, or gray (H, W), of the same size
 /// @param ellipse float64 (4,): center x, y, semi-axes along x (minor) and y (major), pixels of the left image, finite, axes above 0
 ///     and at most 4096; may extend beyond the image
-/// @param tolerance a pixel is near that disparity if it differs by at most this, pixels, 0 or more
 /// @throws std::invalid_argument on images of different sizes, or values out of range
 /// Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.2, equations (3) to (5); the median is ours.
 EllipseDisparity ellipse_disparity(const ImageView& left, const ImageView& right, VectorRef ellipse,
-                                   const DisparityRange& range, const StereoMatching& matching,
+                                   const DisparityRange& limits, const StereoMatching& matching,
                                    const DisparityStatistic& statistic);
 
 }  // namespace tricue

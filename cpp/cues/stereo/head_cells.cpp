@@ -42,8 +42,8 @@ void clear_outside(const Region& region, int rows, int cols, CellMask& coherent)
 
 HeadCells head_cells(const ImageView& left, const ImageView& right, const Region& region, int step,
                      const ColorSpace& space, const std::array<double, 3>* gains, const HeadDepth& depth,
-                     const DisparityRange& range, const StereoMatching& matching) {
-    const Floats disparities = cell_disparities({left, right, step}, {region, false}, range, matching);
+                     const DisparityRange& limits, const StereoMatching& matching) {
+    const Floats disparities = cell_disparities({left, right, step}, {region, false}, limits, matching);
     HeadCells cells{color_bins(left, to_pixels(region, step), space, step, gains),
                     coherent_cells(disparities, depth.expected, depth.tolerance, depth.fill)};
     clear_outside(region, left.rows / step, left.cols / step, cells.coherent);

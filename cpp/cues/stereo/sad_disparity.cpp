@@ -6,8 +6,8 @@
 namespace tricue {
 
 Floats sad_disparity(const ImageView& left, const ImageView& right, const StereoRegion& region,
-                     const DisparityRange& range, const StereoMatching& matching) {
-    return cell_disparities({left, right, 1}, region, range, matching);
+                     const DisparityRange& limits, const StereoMatching& matching, int tolerance) {
+    return cell_disparities({left, right, 1}, region, limits, matching, tolerance);
 }
 
 }  // namespace tricue

@@ -18,12 +18,12 @@ struct DisparityRange {
     int first, last;  ///< range of disparities, both included, at most 4096 of them; first may be negative
 };
 
+/// How two images are compared.
 struct StereoMatching {
     int window;  ///< side, pixels, odd: 1 to 31 with the prefilter, 1 to 15 without, so that sums fit 16 bits
     int uniqueness;  ///< percent, 0 to 100; 0 rejects nothing
     /// whether x-Sobel responses clipped at ±31, which lighting changes less, are compared instead of gray levels
     bool prefilter;
-    int tolerance;  ///< of the left-right check, pixels; negative for no check
 };
 
 /// Block matching by sums of absolute differences: the disparity d of each pixel of a region, x_right = x_left - d, equations (3),
@@ -44,11 +44,12 @@ struct StereoMatching {
 /// @param right uint8 (H, W), gray, rectified, of the same size
 /// @param region (x0, y0, x1, y1), pixels of the left image, sides of 1 to 16384; may extend beyond the image
 /// @param ellipse whether only pixels whose centers lie in the ellipse inscribed in the region count
+/// @param tolerance of the left-right check, pixels; negative for no check
 /// @returns float32 (h, w) of the region, pixels
 /// @throws std::invalid_argument on images without pixels or of different sizes, or numbers out of range
 /// Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.2; prefilter and uniqueness are those of Konolige's block
 /// matcher in OpenCV.
 Floats sad_disparity(const ImageView& left, const ImageView& right, const StereoRegion& region,
-                     const DisparityRange& range, const StereoMatching& matching);
+                     const DisparityRange& limits, const StereoMatching& matching, int tolerance);
 
 }  // namespace tricue

@@ -16,6 +16,7 @@ from tricue.camera.rig import StereoRig
 from tricue.draw.canvas import STATUS_COLORS, WHITE, choose_font_scale, put_text, to_gray
 from tricue.draw.depth_pictures import depth_picture
 from tricue.draw.overlays import overlay
+from tricue.track.base.stereo_matching import StereoMatching
 from tricue.track.base.track import Track
 
 Disparity = NDArray[np.float32]
@@ -25,7 +26,7 @@ DISPARITY_RANGE = 0.3  # on each side of the target's disparity, as a share of i
 MIN_DISPARITY_RANGE = 4.0  # pixels
 COLUMNS_PER_WINDOW_STEP = 160  # the matching window grows by 2 pixels per this many columns
 MATCHING_WINDOW, MAX_MATCHING_WINDOW = 5, 31  # pixels
-MATCHING_UNIQUENESS, NO_LEFT_RIGHT_CHECK = 10, -1  # arguments of the kernel sad_disparity
+MATCHING_UNIQUENESS = 10  # percent
 MAX_INSET_SHARE = 0.35  # of the image's height and width
 INSET_MARGIN = 8  # pixels between the inset and the image's edge
 _UNMATCHED_BRIGHTNESS = 0.5
@@ -83,7 +84,7 @@ def measure_disparity(frame: Frame, track: Track, rig: StereoRig) -> DisparityPa
     )
     pair = to_gray(frame.color), to_gray(frame.right)
     match = kernels.load("native").sad_disparity
-    found = match(*pair, region, False, first, last, window, MATCHING_UNIQUENESS, True, NO_LEFT_RIGHT_CHECK)
+    found = match(*pair, region, False, (first, last), StereoMatching(window, MATCHING_UNIQUENESS))
     return DisparityPatch(*region[:2], found, expected)
 
 

@@ -30,7 +30,7 @@ def test_twin_learns_the_same(
     of up to 1728 levels below 766.
     """
     histogram, measured = two(bins, seed)
-    arguments = histogram, measured, rate, two(bins, seed + 1)[0], weight, bins, chroma
+    arguments = histogram, measured, rate, two(bins, seed + 1)[0], weight, (bins, chroma)
     native, twin = _core.learn_histogram(*arguments), reference.learn_histogram(*arguments)
     assert_array_equal(native[0], twin[0])
     assert_array_equal(native[1], twin[1])
@@ -41,12 +41,12 @@ def test_twin_learns_the_same(
 def test_agrees_with_mixtures(bins: tuple[int, int, int], rate: float, weight: float, seed: int) -> None:
     """It is (1 - a) M + a C, the model that mixed with F, both of sum 1, and the color histogram_mean's."""
     (old, new), first = two(bins, seed), two(bins, seed + 1)[0]
-    learned, model, color = _core.learn_histogram(old, new, rate, first, weight, bins, 64)
+    learned, model, color = _core.learn_histogram(old, new, rate, first, weight, (bins, 64))
     assert_allclose(learned, (1 - rate) * old + rate * new, rtol=1e-12, atol=1e-15)
     assert_allclose(model, (1 - weight) * learned + weight * first, rtol=1e-12, atol=1e-15)
     assert learned.sum() == pytest.approx(1, abs=1e-12)
     assert model.sum() == pytest.approx(1, abs=1e-12)
-    assert_array_equal(color, _core.histogram_mean(learned, bins, 64))
+    assert_array_equal(color, _core.histogram_mean(learned, (bins, 64)))
 
 
 def test_rates_and_weights_of_0_and_1(kernels: Kernels) -> None:
@@ -55,10 +55,10 @@ def test_rates_and_weights_of_0_and_1(kernels: Kernels) -> None:
     """
     (old, new), first = two((4, 3, 2), 5), two((4, 3, 2), 6)[0]
     kept = old.copy(), new.copy(), first.copy()
-    learned, model, _ = kernels.learn_histogram(old, new, 0.0, first, 1.0, (4, 3, 2), 64)
+    learned, model, _ = kernels.learn_histogram(old, new, 0.0, first, 1.0, ((4, 3, 2), 64))
     assert_array_equal(learned, old)
     assert_array_equal(model, first)
-    learned, model, _ = kernels.learn_histogram(old, new, 1.0, first, 0.0, (4, 3, 2), 64)
+    learned, model, _ = kernels.learn_histogram(old, new, 1.0, first, 0.0, ((4, 3, 2), 64))
     assert_allclose(learned, new, rtol=0, atol=1e-16)
     assert_array_equal(model, learned)
     assert_array_equal((old, new, first), kept)
@@ -74,8 +74,8 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"measured": np.full(8, np.nan)}, "histogram: expected finite numbers, got nan"),
     ({"histogram": np.zeros(8), "measured": np.zeros(8)}, "histogram: expected a finite sum above 0, got 0"),
     ({"measured": np.full(8, -9.0)}, "histogram: expected no negative number"),
-    ({"bins": (2, 0, 4)}, "bins: expected 1 to 256 on each axis"),
-    ({"chroma": 0}, "chroma: expected 1 to 255, got 0"),
+    ({"space": ((2, 0, 4), 64)}, "bins: expected 1 to 256 on each axis"),
+    ({"space": ((2, 2, 2), 0)}, "chroma: expected 1 to 255, got 0"),
 ]
 
 
@@ -83,6 +83,6 @@ BAD: list[tuple[dict[str, Any], str]] = [
 def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> None:
     """Wrong values and shapes are named."""
     arguments = {"histogram": np.ones(8), "measured": np.ones(8), "rate": 0.5}
-    arguments |= {"first": np.ones(8), "weight": 0.2, "bins": (2, 2, 2), "chroma": 64}
+    arguments |= {"first": np.ones(8), "weight": 0.2, "space": ((2, 2, 2), 64)}
     with pytest.raises(ValueError, match=message):
         kernels.learn_histogram(**arguments | changes)

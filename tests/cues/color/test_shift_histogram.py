@@ -15,6 +15,7 @@ from tricue.kernels import Kernels
 
 Floats = NDArray[np.float64]
 spaces = st.tuples(*[st.integers(1, 8)] * 3)
+SPACE = (32, 32, 4), 64
 WIDTHS = np.array([4.0, 4.0, 766 / 4])
 
 
@@ -38,7 +39,7 @@ def test_twin_moves_the_same(
     bins: tuple[int, int, int], chroma: int, seed: int, color: float, light: float
 ) -> None:
     """Native and reference agree wherever the mean is put; a share of a bin is rounded with its offset."""
-    arguments = (some_histogram(seed, bins), bins, chroma, np.array([color, -color / 2, light]))
+    arguments = (some_histogram(seed, bins), (bins, chroma), np.array([color, -color / 2, light]))
     native, twin = _core.shift_histogram(*arguments), reference.shift_histogram(*arguments)
     assert_allclose(native, twin, rtol=0, atol=1e-10)
 
@@ -47,8 +48,8 @@ def test_agrees_with_scipy(kernels: Kernels) -> None:
     """Away from the ends it is ndimage.shift with linear interpolation."""
     histogram = blob(slice(8, 20), slice(9, 18))
     offset = np.array([3.3, -2.75, 0.4])
-    mean = kernels.histogram_mean(histogram.ravel(), (32, 32, 4), 64) + offset * WIDTHS
-    shifted = kernels.shift_histogram(histogram.ravel(), (32, 32, 4), 64, mean)
+    mean = kernels.histogram_mean(histogram.ravel(), SPACE) + offset * WIDTHS
+    shifted = kernels.shift_histogram(histogram.ravel(), SPACE, mean)
     expected = ndimage.shift(histogram, offset, order=1)
     assert_allclose(shifted.reshape(32, 32, 4), expected, rtol=0, atol=1e-12)
 
@@ -57,7 +58,7 @@ def test_example_by_hand(kernels: Kernels) -> None:
     """A quarter of a bin to the right leaves three quarters; what would leave the axis stays in its end."""
     histogram = np.array([0.0, 1, 0, 1])  # bins of 32 levels, means -48.5, -16.5, 15.5, 47.5, so 15.5
     assert_allclose(
-        kernels.shift_histogram(histogram, (4, 1, 1), 64, np.array([23.5, -0.5, 382.5])), [0, 0.75, 0.25, 1]
+        kernels.shift_histogram(histogram, ((4, 1, 1), 64), np.array([23.5, -0.5, 382.5])), [0, 0.75, 0.25, 1]
     )
 
 
@@ -67,10 +68,10 @@ def test_mean_is_met(seed: int) -> None:
     """A histogram that stays clear of the ends gets the mean that was asked for, and keeps its sum."""
     rng = np.random.default_rng(seed)
     histogram = blob(slice(10, 22), slice(8, 21)).ravel()
-    mean = _core.histogram_mean(histogram, (32, 32, 4), 64) + rng.uniform(-1, 1, 3) * [28, 28, 190]
+    mean = _core.histogram_mean(histogram, SPACE) + rng.uniform(-1, 1, 3) * [28, 28, 190]
     for kernels in (_core, reference):
-        shifted = kernels.shift_histogram(histogram, (32, 32, 4), 64, mean)
-        assert_allclose(kernels.histogram_mean(shifted, (32, 32, 4), 64), mean, rtol=0, atol=1e-9)
+        shifted = kernels.shift_histogram(histogram, SPACE, mean)
+        assert_allclose(kernels.histogram_mean(shifted, SPACE), mean, rtol=0, atol=1e-9)
         assert abs(shifted.sum() - histogram.sum()) < 1e-10
 
 
@@ -78,7 +79,7 @@ def test_mean_is_met(seed: int) -> None:
 def test_sum_stays(bins: tuple[int, int, int], seed: int, first: float, second: float, third: float) -> None:
     """However far it is moved, over the ends too, no mass is lost and none is negative."""
     histogram = some_histogram(seed, bins)
-    shifted = _core.shift_histogram(histogram, bins, 64, np.array([first, second, third]))
+    shifted = _core.shift_histogram(histogram, (bins, 64), np.array([first, second, third]))
     assert_allclose(shifted.sum(), histogram.sum(), rtol=1e-12)
     assert shifted.min() >= 0
 
@@ -86,7 +87,7 @@ def test_sum_stays(bins: tuple[int, int, int], seed: int, first: float, second: 
 def test_far_away_is_the_end(kernels: Kernels) -> None:
     """A mean far beyond the axes gathers everything in one corner."""
     histogram = some_histogram(1, (5, 4, 3))
-    shifted = kernels.shift_histogram(histogram, (5, 4, 3), 64, np.array([1e300, -1e300, 1e300]))
+    shifted = kernels.shift_histogram(histogram, ((5, 4, 3), 64), np.array([1e300, -1e300, 1e300]))
     assert_array_equal(np.flatnonzero(shifted), [4 * 12 + 0 * 3 + 2])
     assert_allclose(shifted.sum(), histogram.sum())
 
@@ -94,15 +95,15 @@ def test_far_away_is_the_end(kernels: Kernels) -> None:
 def test_its_own_mean_leaves_it(kernels: Kernels) -> None:
     """To the mean that it has it isn't moved, but for rounding."""
     histogram = blob(slice(4, 30), slice(5, 29)).ravel()
-    mean = kernels.histogram_mean(histogram, (32, 32, 4), 64)
-    assert_allclose(kernels.shift_histogram(histogram, (32, 32, 4), 64, mean), histogram, rtol=0, atol=1e-12)
+    mean = kernels.histogram_mean(histogram, SPACE)
+    assert_allclose(kernels.shift_histogram(histogram, SPACE, mean), histogram, rtol=0, atol=1e-12)
 
 
 BAD: list[tuple[dict[str, Any], str]] = [
     ({"histogram": np.ones(7)}, r"histogram: expected shape \(8,\), got \(7,\)"),
     ({"histogram": np.zeros(8)}, "histogram: expected a finite sum above 0, got 0"),
-    ({"bins": (2, 2, 300)}, "bins: expected 1 to 256 on each axis"),
-    ({"chroma": 256}, "chroma: expected 1 to 255, got 256"),
+    ({"space": ((2, 2, 300), 64)}, "bins: expected 1 to 256 on each axis"),
+    ({"space": ((2, 2, 2), 256)}, "chroma: expected 1 to 255, got 256"),
     ({"mean": np.zeros(2)}, r"mean: expected shape \(3,\), got \(2,\)"),
     ({"mean": np.array([0, np.nan, 0])}, "mean: expected finite numbers, got nan"),
 ]
@@ -111,7 +112,7 @@ BAD: list[tuple[dict[str, Any], str]] = [
 @pytest.mark.parametrize(("changes", "message"), BAD)
 def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> None:
     """Wrong values and shapes are named."""
-    arguments = {"histogram": np.ones(8), "bins": (2, 2, 2), "chroma": 64, "mean": np.zeros(3)} | changes
+    arguments = {"histogram": np.ones(8), "space": ((2, 2, 2), 64), "mean": np.zeros(3)} | changes
     with pytest.raises(ValueError, match=message):
         kernels.shift_histogram(**arguments)
 
@@ -119,4 +120,4 @@ def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> Non
 def test_native_refuses_other_types() -> None:
     """Another type is named, not converted."""
     with pytest.raises(TypeError, match=r"mean: expected float64 \(N,\), got int64"):
-        _core.shift_histogram(np.ones(8), (2, 2, 2), 64, np.zeros(3, int))  # type: ignore[arg-type]
+        _core.shift_histogram(np.ones(8), ((2, 2, 2), 64), np.zeros(3, int))  # type: ignore[arg-type]

@@ -14,7 +14,6 @@ from tricue.kernels import Kernels
 from tricue.reference.base.ellipse_shape import mask_of
 
 Image = NDArray[np.uint8]
-SEARCH = ("first", "last", "window", "uniqueness", "prefilter")
 
 
 def case(seed: int) -> dict[str, Any]:
@@ -35,14 +34,9 @@ def case(seed: int) -> dict[str, Any]:
         "left": left,
         "right": right,
         "ellipse": rng.uniform((-12, -12, 0.2, 0.2), (100, 60, 30, 25)).round(int(rng.integers(0, 3))) + 1e-3,
-        "first": first,
-        "last": first + int(rng.integers(0, 40)),
-        "window": int(rng.choice([1, 3, 5, 11])),
-        "uniqueness": int(rng.choice([0, 5, 15])),
-        "prefilter": bool(rng.integers(0, 2)),
-        "subpixel": bool(rng.integers(0, 2)),
-        "median": bool(rng.integers(0, 2)),
-        "tolerance": float(rng.choice([0, 0.6, 2])),
+        "limits": (first, first + int(rng.integers(0, 40))),
+        "matching": (int(rng.choice([1, 3, 5, 11])), int(rng.choice([0, 5, 15])), bool(rng.integers(0, 2))),
+        "statistic": (bool(rng.integers(0, 2)), bool(rng.integers(0, 2)), float(rng.choice([0, 0.6, 2]))),
     }
 
 
@@ -64,11 +58,13 @@ def test_agrees_with_numpy_on_the_whole_images(seed: int) -> None:
     arguments = case(seed)
     gray = [_core.reduce_gray(arguments[name], 1) for name in ("left", "right")]
     height, width = gray[0].shape
-    found = _core.sad_disparity(*gray, (0, 0, width, height), False, *(arguments[name] for name in SEARCH))
+    search = arguments["limits"], arguments["matching"]
+    found = _core.sad_disparity(*gray, (0, 0, width, height), False, *search)
     x, y, minor, major = arguments["ellipse"]
     row, column = np.mgrid[:height, :width] + 0.5
     matched = found[(((column - x) / minor) ** 2 + ((row - y) / major) ** 2 <= 1) & np.isfinite(found)]
-    if not arguments["subpixel"]:
+    subpixel, median, tolerance = arguments["statistic"]
+    if not subpixel:
         matched = np.ceil(matched - np.float32(0.5))
     disparity, count, near = _core.ellipse_disparity(**arguments)
     assert count == matched.size
@@ -76,12 +72,12 @@ def test_agrees_with_numpy_on_the_whole_images(seed: int) -> None:
         assert math.isnan(disparity)
         assert near == 0
         return
-    if arguments["median"]:
+    if median:
         assert disparity == np.median(matched)
     else:
         assert disparity == pytest.approx(matched.mean(), rel=1e-5, abs=1e-5)
     off = np.abs(matched - np.float32(disparity))
-    assert near == np.count_nonzero(off <= np.float32(arguments["tolerance"]))
+    assert near == np.count_nonzero(off <= np.float32(tolerance))
 
 
 @pytest.mark.parametrize("median", [True, False])
@@ -90,9 +86,13 @@ def test_a_shifted_picture_has_that_disparity(kernels: Kernels, disparity: int, 
     """What lies at one disparity has it, and all pixels of the ellipse are near it."""
     left = np.random.default_rng(2).integers(0, 256, (60, 160, 3)).astype(np.uint8)
     found = kernels.ellipse_disparity(
-        left, np.roll(left, -disparity, 1), np.array([80.0, 32, 10, 12]), disparity - 5, disparity + 6, 5, 5,
-        True, False, median, 0.0,
-    )  # fmt: skip
+        left,
+        np.roll(left, -disparity, 1),
+        np.array([80.0, 32, 10, 12]),
+        (disparity - 5, disparity + 6),
+        (5, 5, True),
+        (False, median, 0.0),
+    )
     assert found[0] == disparity
     assert found[1] == found[2]
     assert found[1] == pytest.approx(np.pi * 10 * 12, rel=0.03)
@@ -103,9 +103,9 @@ def test_the_median_leaves_out_what_is_behind(kernels: Kernels) -> None:
     left = np.random.default_rng(3).integers(0, 256, (60, 160, 3)).astype(np.uint8)
     right = np.roll(left, -10, 1)
     right[:27] = np.roll(left, -4, 1)[:27]
-    arguments = (left, right, np.array([75.0, 32, 15, 12]), 0, 14, 5, 5, True, False)
-    median, _, near = kernels.ellipse_disparity(*arguments, True, 0.5)
-    mean, count, _ = kernels.ellipse_disparity(*arguments, False, 0.5)
+    arguments = (left, right, np.array([75.0, 32, 15, 12]), (0, 14), (5, 5, True))
+    median, _, near = kernels.ellipse_disparity(*arguments, (False, True, 0.5))
+    mean, count, _ = kernels.ellipse_disparity(*arguments, (False, False, 0.5))
     assert median == 10
     assert 7 < mean < 9.5
     assert 0.6 < near / count < 0.8
@@ -119,7 +119,8 @@ def test_the_pixels_are_those_of_the_color_search(seed: int) -> None:
     rng = np.random.default_rng(seed)
     ellipse = rng.uniform((0, 0, 0.2, 0.2), (60, 40, 9, 9))
     image = np.zeros((40, 60), np.uint8)
-    _, count, near = _core.ellipse_disparity(image, image, ellipse, 0, 0, 1, 0, False, True, False, 0.0)
+    rest = (0, 0), (1, 0, False), (True, False, 0.0)
+    _, count, near = _core.ellipse_disparity(image, image, ellipse, *rest)
     assert count == near == mask_of(ellipse, image.shape).sum()
 
 
@@ -127,7 +128,7 @@ def test_the_pixels_are_those_of_the_color_search(seed: int) -> None:
 def test_an_ellipse_outside_or_between_pixels_has_none(kernels: Kernels, place: tuple[float, float]) -> None:
     """Far from the image, or so small that it contains no pixel's center, it has no disparity."""
     image = np.zeros((40, 60, 3), np.uint8)
-    rest = (0, 4, 5, 0, False, True, False, 0.0)
+    rest = (0, 4), (5, 0, False), (True, False, 0.0)
     for ellipse in (np.array([*place, 5, 6]), np.array([20.0, 20.0, 0.4, 0.4])):
         disparity, count, near = kernels.ellipse_disparity(image, image, ellipse, *rest)
         assert math.isnan(disparity)
@@ -135,16 +136,16 @@ def test_an_ellipse_outside_or_between_pixels_has_none(kernels: Kernels, place: 
 
 
 BAD: list[tuple[dict[str, Any], str]] = [
-    ({"tolerance": -1.0}, "tolerance: expected 0 or more"),
-    ({"tolerance": np.nan}, "tolerance: expected 0 or more"),
+    ({"statistic": (True, True, -1.0)}, "tolerance: expected 0 or more"),
+    ({"statistic": (True, True, np.nan)}, "tolerance: expected 0 or more"),
     ({"right": np.zeros((12, 15, 3), np.uint8)}, "right: expected the left image's shape"),
     ({"ellipse": np.array([2.0, 2, 0, 4])}, "ellipse: expected semi-axes above 0"),
     ({"ellipse": np.array([2.0, 2, 3, 4097])}, "ellipse: expected semi-axes of at most 4096 pixels, got"),
     ({"ellipse": np.array([2.0, np.nan, 3, 4])}, "ellipse: expected finite numbers"),
     ({"ellipse": np.ones(3)}, r"ellipse: expected shape \(4,\)"),
-    ({"last": -1}, "last: expected at least first"),
-    ({"window": 4}, "window: expected an odd number"),
-    ({"uniqueness": 101}, "uniqueness: expected 0 to 100"),
+    ({"limits": (0, -1)}, "last: expected at least first"),
+    ({"matching": (4, 5, True)}, "window: expected an odd number"),
+    ({"matching": (5, 101, True)}, "uniqueness: expected 0 to 100"),
 ]
 
 
@@ -153,6 +154,6 @@ def test_bad_values_are_refused(kernels: Kernels, changes: dict[str, Any], text:
     """Errors name the argument, what was expected and what came."""
     image = np.zeros((12, 16, 3), np.uint8)
     ellipse = np.array([3.0, 3, 2, 2.5])
-    arguments = case(0) | {"left": image, "right": image, "ellipse": ellipse, "first": 0, "last": 4}
+    arguments = case(0) | {"left": image, "right": image, "ellipse": ellipse, "limits": (0, 4)}
     with pytest.raises(ValueError, match=text):
         kernels.ellipse_disparity(**arguments | changes)

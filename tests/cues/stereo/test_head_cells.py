@@ -14,8 +14,8 @@ from tricue import _core, reference
 from tricue.kernels import Kernels
 
 Image = NDArray[np.uint8]
-SPACE = {"bins": (8, 8, 4), "chroma": 64}
-MATCHING = {"window": 5, "uniqueness": 5, "prefilter": True}
+SPACE = (8, 8, 4), 64
+MATCHING = 5, 5, True  # window, uniqueness, prefilter
 
 
 def case(seed: int) -> dict[str, Any]:
@@ -36,16 +36,11 @@ def case(seed: int) -> dict[str, Any]:
         "right": right,
         "region": (x, y, x + int(rng.integers(1, 40)), y + int(rng.integers(1, 40))),
         "step": step,
-        **SPACE,
+        "space": SPACE,
         "gains": tuple(rng.uniform(0, 2, 3).tolist()) if rng.random() < 0.5 else None,
-        "expected": float(rng.integers(-2, 8)),
-        "tolerance": float(rng.choice([0, 0.5, 1])),
-        "fill": int(rng.choice([1, 3, 7, 41])),
-        "first": first,
-        "last": first + int(rng.integers(0, 12)),
-        "window": int(rng.choice([1, 3, 5, 9])),
-        "uniqueness": int(rng.choice([0, 5, 100])),
-        "prefilter": prefilter,
+        "depth": (float(rng.integers(-2, 8)), float(rng.choice([0, 0.5, 1])), int(rng.choice([1, 3, 7, 41]))),
+        "limits": (first, first + int(rng.integers(0, 12))),
+        "matching": (int(rng.choice([1, 3, 5, 9])), int(rng.choice([0, 5, 100])), prefilter),
     }
 
 
@@ -72,14 +67,14 @@ def test_agrees_with_the_single_kernels_and_scipy(seed: int) -> None:
     bins, coherent = _core.head_cells(**arguments)
     pixels = (step * x0, step * y0, step * x1, step * y1)
     gains = None if arguments["gains"] is None else np.array(arguments["gains"])
-    assert_array_equal(bins, _core.color_bins(left, pixels, *SPACE.values(), step, gains))
+    assert_array_equal(bins, _core.color_bins(left, pixels, SPACE, step, gains))
 
     gray = _core.reduce_gray(left, step), _core.reduce_gray(right, step)
-    search = [arguments[name] for name in ("first", "last", *MATCHING)]
+    search = arguments["limits"], arguments["matching"]
     plane = _core.sad_disparity(*gray, arguments["region"], False, *search)
-    near = np.abs(plane - np.float32(arguments["expected"])) <= arguments["tolerance"]
+    expected, tolerance, fill = arguments["depth"]
+    near = np.abs(plane - np.float32(expected)) <= tolerance
     votes = np.where(np.isnan(plane), 0, np.where(near, 1.0, -1.0))
-    fill = arguments["fill"]
     sums = np.rint(ndimage.uniform_filter(votes, fill, mode="constant") * fill**2)
     rows, columns = np.mgrid[y0:y1, x0:x1]
     inside = (rows >= 0) & (rows < gray[0].shape[0]) & (columns >= 0) & (columns < gray[0].shape[1])
@@ -94,9 +89,8 @@ def test_gaps_are_filled_by_the_majority(kernels: Kernels) -> None:
     for disparity in (5, 9):
         right = np.roll(left, -disparity, 1)
         _, coherent = kernels.head_cells(
-            left, right, (25, 5, 55, 35), 1, **SPACE, gains=None, expected=5.0, tolerance=0.6, fill=31,
-            first=1, last=10, **MATCHING,
-        )  # fmt: skip
+            left, right, (25, 5, 55, 35), 1, SPACE, None, (5.0, 0.6, 31), (1, 10), MATCHING
+        )
         assert coherent[8:22, 8:22].all() == (disparity == 5)
         assert coherent[8:22, 8:22].any() == (disparity == 5)
 
@@ -105,9 +99,8 @@ def test_nothing_is_outside_the_image(kernels: Kernels) -> None:
     """Cells beyond the edge have no bin, and aren't at the head's depth, though all beside them are."""
     left = np.random.default_rng(1).integers(0, 256, (24, 60, 3)).astype(np.uint8)
     bins, coherent = kernels.head_cells(
-        left, np.roll(left, -4, 1), (-5, -6, 65, 30), 1, **SPACE, gains=None, expected=4.0, tolerance=1.0,
-        fill=41, first=0, last=8, **MATCHING,
-    )  # fmt: skip
+        left, np.roll(left, -4, 1), (-5, -6, 65, 30), 1, SPACE, None, (4.0, 1.0, 41), (0, 8), MATCHING
+    )
     inside = np.zeros((36, 70), np.bool_)
     inside[6:30, 5:65] = True
     assert_array_equal(bins != 65535, inside)
@@ -116,21 +109,21 @@ def test_nothing_is_outside_the_image(kernels: Kernels) -> None:
 
 
 BAD: list[tuple[dict[str, Any], str]] = [
-    ({"expected": np.nan}, "expected: expected a finite number"),
-    ({"tolerance": -1.0}, "tolerance: expected 0 or more"),
-    ({"tolerance": np.nan}, "tolerance: expected 0 or more"),
-    ({"fill": 4}, "fill: expected an odd number from 1 to 127, got 4"),
-    ({"fill": -1}, "fill: expected an odd number from 1 to 127"),
-    ({"fill": 129}, "fill: expected an odd number from 1 to 127"),
+    ({"depth": (np.nan, 1.0, 7)}, "expected: expected a finite number"),
+    ({"depth": (5.0, -1.0, 7)}, "tolerance: expected 0 or more"),
+    ({"depth": (5.0, np.nan, 7)}, "tolerance: expected 0 or more"),
+    ({"depth": (5.0, 1.0, 4)}, "fill: expected an odd number from 1 to 127, got 4"),
+    ({"depth": (5.0, 1.0, -1)}, "fill: expected an odd number from 1 to 127"),
+    ({"depth": (5.0, 1.0, 129)}, "fill: expected an odd number from 1 to 127"),
     ({"step": 0}, "step: expected 1 to the image's smaller side, got 0"),
     ({"step": 13}, "step: expected 1 to the image's smaller side, got 13"),
     ({"right": np.zeros((12, 15, 3), np.uint8)}, r"right: expected the left image's shape"),
     ({"left": np.zeros((0, 16, 3), np.uint8)}, "left: expected at least one pixel"),
     ({"region": (0, 0, 0, 4)}, "region: expected a width and height"),
     ({"region": (2**30, 0, 2**30 + 4, 4)}, "region: expected corners within a billion pixels"),
-    ({"last": -1}, "last: expected at least first"),
-    ({"window": 4}, "window: expected an odd number"),
-    ({"bins": (8, 0, 4)}, "bins: expected 1 to 256 on each axis"),
+    ({"limits": (0, -1)}, "last: expected at least first"),
+    ({"matching": (4, 5, True)}, "window: expected an odd number"),
+    ({"space": ((8, 0, 4), 64)}, "bins: expected 1 to 256 on each axis"),
     ({"gains": (1.0, -1.0, 1.0)}, "gains: expected finite numbers, none negative"),
 ]
 
@@ -139,8 +132,8 @@ BAD: list[tuple[dict[str, Any], str]] = [
 def test_bad_values_are_refused(kernels: Kernels, changes: dict[str, Any], text: str) -> None:
     """Errors name the argument, what was expected and what came."""
     image = np.zeros((12, 16, 3), np.uint8)
-    arguments = {"left": image, "right": image, "region": (0, 0, 4, 5), "step": 1, **SPACE, "gains": None}
-    arguments |= {"expected": 5.0, "tolerance": 1.0, "fill": 7, "first": 0, "last": 4, **MATCHING}
+    arguments = {"left": image, "right": image, "region": (0, 0, 4, 5), "step": 1, "space": SPACE}
+    arguments |= {"gains": None, "depth": (5.0, 1.0, 7), "limits": (0, 4), "matching": MATCHING}
     if "left" in changes:
         changes = changes | {"right": changes["left"]}
     if "region" in changes and changes["region"][0] > 0:

@@ -18,6 +18,8 @@ Image = NDArray[np.uint8]
 Floats = NDArray[np.float64]
 Disparity = NDArray[np.float32]
 
+MATCHING, UNREJECTED = (5, 15, True), (5, 0, True)  # window, uniqueness, prefilter
+
 # name: truth's gray levels per pixel, disparities that StereoBM searches
 MIDDLEBURY = {"tsukuba": (16, 16), "venus": (8, 32), "sawtooth": (8, 32), "bull": (8, 32), "cones": (4, 64)}
 
@@ -39,11 +41,12 @@ def case(seed: int, **changes: Any) -> dict[str, Any]:
         "right": right,
         "region": (x, y, x + int(rng.integers(1, 90)), y + int(rng.integers(1, 50))),
         "ellipse": bool(rng.integers(0, 2)),
-        "first": first,
-        "last": first + int(rng.integers(0, 40)),
-        "window": int(rng.choice([1, 3, 5, 7, 9, 11, 15, *([31] * prefilter)])),
-        "uniqueness": int(rng.choice([0, 5, 15, 100])),
-        "prefilter": prefilter,
+        "limits": (first, first + int(rng.integers(0, 40))),
+        "matching": (
+            int(rng.choice([1, 3, 5, 7, 9, 11, 15, *([31] * prefilter)])),
+            int(rng.choice([0, 5, 15, 100])),
+            prefilter,
+        ),
         "tolerance": int(rng.integers(-1, 3)),
     } | changes
 
@@ -84,7 +87,7 @@ def test_twin_matches_the_same_at_any_width(width: int, window: int) -> None:
     left, right = clouds(0, (12, 170)), clouds(1, (12, 170))
     last = 40 if window < 9 else 20  # the twin takes each pixel of a window by itself
     for x in (2, 66):
-        arguments = (left, right, (x, 3, x + width, 5), False, 1, last, window, 10)
+        arguments = (left, right, (x, 3, x + width, 5), False, (1, last), (window, 10, True))
         assert_array_equal(_core.sad_disparity(*arguments), reference.sad_disparity(*arguments))
 
 
@@ -93,7 +96,7 @@ def test_strided_rows(kernels: Kernels, prefilter: bool) -> None:
     """Padded rows and every second row are read as they look."""
     left, right = clouds(0, (60, 90)), clouds(1, (60, 90))
     for view in (np.s_[5:50, 7:70], np.s_[::2]):
-        arguments = ((4, 3, 44, 18), True, 0, 9, 5, 0, prefilter)
+        arguments = ((4, 3, 44, 18), True, (0, 9), (5, 0, prefilter))
         expected = kernels.sad_disparity(left[view].copy(), right[view].copy(), *arguments)
         assert_array_equal(kernels.sad_disparity(left[view], right[view], *arguments), expected)
 
@@ -104,7 +107,7 @@ def test_finds_a_whole_shift(kernels: Kernels, shift: int, prefilter: bool) -> N
     """Where the right image is the left one moved by d, the cost of d is 0, and no other is."""
     wide = clouds(2, (40, 200))
     left, right = wide[:, 50:150], wide[:, 50 + shift : 150 + shift]
-    found = kernels.sad_disparity(left, right, (45, 5, 85, 35), False, -10, 43, 5, 0, prefilter)
+    found = kernels.sad_disparity(left, right, (45, 5, 85, 35), False, (-10, 43), (5, 0, prefilter))
     assert_array_equal(found.round(), np.full((30, 40), shift))
 
 
@@ -113,7 +116,8 @@ def test_finds_a_fraction(kernels: Kernels, blur: float) -> None:
     """At every tenth of a pixel the median is within 0.05 px: nothing draws it to whole numbers."""
     for tenth in range(10):
         disparity = 4 + tenth / 10
-        found = kernels.sad_disparity(*shifted_pair(disparity, blur), (20, 10, 180, 70), False, 0, 9)
+        pair = shifted_pair(disparity, blur)
+        found = kernels.sad_disparity(*pair, (20, 10, 180, 70), False, (0, 9), MATCHING)
         assert abs(np.nanmedian(found) - disparity) < 0.05
 
 
@@ -135,7 +139,7 @@ def test_agrees_with_opencv_step_by_step(kernels: Kernels) -> None:
             for d in range(20)
         ]
     )[:, 5:-5, 25:-5]
-    found = kernels.sad_disparity(left, right, (25, 5, 115, 45), False, 0, 19, 7, 0)
+    found = kernels.sad_disparity(left, right, (25, 5, 115, 45), False, (0, 19), (7, 0, True))
     whole = np.rint(found).astype(int)
     half = np.abs(found - np.floor(found) - 0.5) < 1e-6  # may be rounded either way
     least = np.take_along_axis(costs, whole[None], 0)[0]
@@ -161,7 +165,8 @@ def test_no_worse_than_stereobm(data: Path, pair: str, gain: float) -> None:
     matcher.setUniquenessRatio(0)
     matcher.setTextureThreshold(0)
     theirs = matcher.compute(left, right).astype(np.float32) / 16
-    ours = _core.sad_disparity(left, right, (0, 0, width, height), False, 0, count - 1, window, 0)
+    limits, matching = (0, count - 1), (window, 0, True)
+    ours = _core.sad_disparity(left, right, (0, 0, width, height), False, limits, matching)
     same = (theirs >= 0) & (truth <= count - 2)
     assert same.mean() > 0.6
 
@@ -196,7 +201,7 @@ def test_a_wide_search_is_that_of_its_parts(seed: int) -> None:
     left = rng.integers(0, 256, (9, 900)).astype(np.uint8) // int(rng.choice([1, 64]))
     right = np.roll(left, -int(rng.integers(0, 700)), 1)
     first, last = int(rng.integers(-900, 100)), int(rng.integers(2500, 3000))
-    changes = {"left": left, "right": right, "first": first, "last": last, "tolerance": -1}
+    changes = {"left": left, "right": right, "limits": (first, last), "tolerance": -1}
     arguments = case(seed, **changes, region=(-5, 0, 905, 9), ellipse=False)
     whole = _core.sad_disparity(**arguments)
     edges = range(-5, 905, 70)
@@ -207,7 +212,7 @@ def test_a_wide_search_is_that_of_its_parts(seed: int) -> None:
 def test_the_ellipse_is_inscribed(kernels: Kernels) -> None:
     """Those pixels are measured whose centers lie in it, pi / 4 of them, as many as at the other side."""
     image = clouds(6, (90, 120))
-    inside = ~np.isnan(kernels.sad_disparity(image, image, (20, 10, 91, 70), True, -2, 2, 5, 0))
+    inside = ~np.isnan(kernels.sad_disparity(image, image, (20, 10, 91, 70), True, (-2, 2), UNREJECTED))
     v, u = np.mgrid[:60, :71] + 0.5
     assert_array_equal(inside, ((u - 35.5) / 35.5) ** 2 + ((v - 30) / 30) ** 2 <= 1)
     assert_array_equal(inside, inside[::-1, ::-1])
@@ -220,22 +225,22 @@ def test_light_cancels(kernels: Kernels, change: int) -> None:
     left, right = clouds(7, (40, 80)), clouds(8, (40, 80))
     left, right = left // 2 + 60, right // 2 + 60
     other = (right.astype(int) + change).astype(np.uint8)
-    arguments = ((10, 0, 80, 40), False, 0, 9, 5, 0)
-    expected = kernels.sad_disparity(left, right, *arguments)
-    assert_array_equal(kernels.sad_disparity(left, other, *arguments), expected)
-    raw = kernels.sad_disparity(left, other, *arguments, False)
-    assert not np.array_equal(raw, kernels.sad_disparity(left, right, *arguments, False))
+    arguments = ((10, 0, 80, 40), False, (0, 9))
+    expected = kernels.sad_disparity(left, right, *arguments, UNREJECTED)
+    assert_array_equal(kernels.sad_disparity(left, other, *arguments, UNREJECTED), expected)
+    raw = kernels.sad_disparity(left, other, *arguments, (5, 0, False))
+    assert not np.array_equal(raw, kernels.sad_disparity(left, right, *arguments, (5, 0, False)))
 
 
 def test_checks_only_reject(kernels: Kernels) -> None:
     """More uniqueness and less tolerance leave fewer pixels, and what they leave as it was."""
     left, right = clouds(9, (40, 90)), np.roll(clouds(9, (40, 90)), -4, 1)
     right = (right + np.random.default_rng(0).normal(0, 25, right.shape)).clip(0, 255).astype(np.uint8)
-    arguments = (left, right, (20, 0, 90, 40), False, 0, 15, 3)
-    every = kernels.sad_disparity(*arguments, 0)
+    arguments = (left, right, (20, 0, 90, 40), False, (0, 15))
+    every = kernels.sad_disparity(*arguments, (3, 0, True))
     assert not np.isnan(every).any()
-    kept = [kernels.sad_disparity(*arguments, u) for u in (0, 5, 20, 60)]
-    kept += [kernels.sad_disparity(*arguments, 60, True, t) for t in (5, 1, 0)]
+    kept = [kernels.sad_disparity(*arguments, (3, u, True)) for u in (0, 5, 20, 60)]
+    kept += [kernels.sad_disparity(*arguments, (3, 60, True), t) for t in (5, 1, 0)]
     counts = [np.isfinite(found).sum() for found in kept]
     assert counts == sorted(counts, reverse=True)
     assert len(set(counts)) > 5
@@ -248,9 +253,10 @@ def test_ambiguous_texture_is_rejected(kernels: Kernels) -> None:
     flat = np.full((20, 60), 99, np.uint8)
     stripes = np.tile(np.uint8([0, 40, 90, 150, 120, 60]), (20, 10))
     for image in (flat, stripes):
-        assert np.isnan(kernels.sad_disparity(image, image, (15, 0, 55, 20), False, 0, 12)).all()
-        assert not np.isnan(kernels.sad_disparity(image, image, (15, 0, 55, 20), False, 0, 12, 5, 0)).any()
-    out_of_view = kernels.sad_disparity(flat, flat, (0, 0, 60, 20), False, 10, 12, 5, 0)
+        arguments = (image, image, (15, 0, 55, 20), False, (0, 12))
+        assert np.isnan(kernels.sad_disparity(*arguments, MATCHING)).all()
+        assert not np.isnan(kernels.sad_disparity(*arguments, UNREJECTED)).any()
+    out_of_view = kernels.sad_disparity(flat, flat, (0, 0, 60, 20), False, (10, 12), UNREJECTED)
     assert_array_equal(np.isnan(out_of_view[0]), np.arange(60) < 10)
 
 
@@ -259,7 +265,7 @@ def test_left_right_check_rejects_what_is_hidden(kernels: Kernels) -> None:
     back, front = clouds(10, (60, 140)), clouds(11, (60, 140))
     left, right = back.copy(), np.roll(back, -2, 1)
     left[15:45, 60:90], right[15:45, 48:78] = front[15:45, 60:90], front[15:45, 60:90]
-    found = kernels.sad_disparity(left, right, (30, 0, 130, 60), False, 0, 20, 5, 0, True, 1)
+    found = kernels.sad_disparity(left, right, (30, 0, 130, 60), False, (0, 20), UNREJECTED, 1)
     hidden = np.zeros(found.shape, np.bool_)
     hidden[18:42, 20:30] = True  # columns 50 to 60, of which the right image shows the square
     seen = ~cv2.dilate(hidden.astype(np.uint8), np.ones((9, 9), np.uint8)).astype(bool)
@@ -274,7 +280,7 @@ def test_left_right_check_rejects_what_is_hidden(kernels: Kernels) -> None:
 def test_nothing_to_see(kernels: Kernels, region: tuple[int, int, int, int]) -> None:
     """A region beside the image is all NaN, no error: a head may leave the picture."""
     image = clouds(0, (50, 80))
-    found = kernels.sad_disparity(image, image, region, False, 0, 5)
+    found = kernels.sad_disparity(image, image, region, False, (0, 5), MATCHING)
     assert found.shape == (region[3] - region[1], region[2] - region[0])
     assert np.isnan(found).all()
 
@@ -282,8 +288,8 @@ def test_nothing_to_see(kernels: Kernels, region: tuple[int, int, int, int]) -> 
 def test_no_candidate_in_view(kernels: Kernels) -> None:
     """Disparities that lead out of the right image for every pixel leave nothing."""
     image = clouds(0, (10, 30))
-    for first, last in ((30, 40), (-60, -30), (2**31 - 1, 2**31 - 1)):
-        assert np.isnan(kernels.sad_disparity(image, image, (0, 0, 30, 10), False, first, last)).all()
+    for limits in ((30, 40), (-60, -30), (2**31 - 1, 2**31 - 1)):
+        assert np.isnan(kernels.sad_disparity(image, image, (0, 0, 30, 10), False, limits, MATCHING)).all()
 
 
 BAD: list[tuple[dict[str, Any], str]] = [
@@ -292,13 +298,13 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"region": (0, 0, 0, 4)}, "region: expected a width and height of 1 to 16384, got 0 x 4"),
     ({"region": (0, 1, 4, 0)}, "region: expected a width and height of 1 to 16384, got 4 x -1"),
     ({"region": (0, 0, 16385, 1)}, "region: expected a width and height of 1 to 16384, got 16385 x 1"),
-    ({"first": 6}, "last: expected at least first, 6, got 5"),
-    ({"last": 4096}, "last: expected at most 4095 above first, 0, got 4096"),
-    ({"window": 4}, "window: expected an odd number, 1 to 31, got 4"),
-    ({"window": -1}, "window: expected an odd number, 1 to 31, got -1"),
-    ({"window": 17, "prefilter": False}, "window: expected an odd number, 1 to 15, got 17"),
-    ({"uniqueness": 101}, "uniqueness: expected 0 to 100, got 101"),
-    ({"uniqueness": -1}, "uniqueness: expected 0 to 100, got -1"),
+    ({"limits": (6, 5)}, "last: expected at least first, 6, got 5"),
+    ({"limits": (0, 4096)}, "last: expected at most 4095 above first, 0, got 4096"),
+    ({"matching": (4, 15, True)}, "window: expected an odd number, 1 to 31, got 4"),
+    ({"matching": (-1, 15, True)}, "window: expected an odd number, 1 to 31, got -1"),
+    ({"matching": (17, 15, False)}, "window: expected an odd number, 1 to 15, got 17"),
+    ({"matching": (5, 101, True)}, "uniqueness: expected 0 to 100, got 101"),
+    ({"matching": (5, -1, True)}, "uniqueness: expected 0 to 100, got -1"),
 ]
 
 
@@ -306,7 +312,8 @@ BAD: list[tuple[dict[str, Any], str]] = [
 def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> None:
     """Wrong shapes and numbers are named, with what was expected."""
     image = np.zeros((9, 9), np.uint8)
-    good = {"left": image, "right": image, "region": (0, 0, 4, 4), "ellipse": True, "first": 0, "last": 5}
+    good = {"left": image, "right": image, "region": (0, 0, 4, 4), "ellipse": True}
+    good |= {"limits": (0, 5), "matching": MATCHING}
     with pytest.raises(ValueError, match=message):
         kernels.sad_disparity(**good | changes)
 
@@ -314,10 +321,31 @@ def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> Non
 def test_native_refuses_other_images() -> None:
     """Color, floats and pixels that aren't packed are named, never converted."""
     gray = np.zeros((9, 9), np.uint8)
-    rest: tuple[Any, ...] = ((0, 0, 4, 4), True, 0, 5)
+    rest: tuple[Any, ...] = ((0, 0, 4, 4), True, (0, 5), MATCHING)
     with pytest.raises(ValueError, match="left: expected a uint8 gray image"):
         _core.sad_disparity(np.zeros((9, 9, 3), np.uint8), gray, *rest)
     with pytest.raises(TypeError, match="right: expected a uint8 gray image"):
         _core.sad_disparity(gray, gray.astype(np.float32), *rest)
     with pytest.raises(ValueError, match="right: expected packed pixels"):
         _core.sad_disparity(gray[:, :4], gray[:, ::2][:, :4], *rest)
+
+
+WHOLE = "expected a whole number of 32 bits in it"
+
+
+def test_native_refuses_other_tuples() -> None:
+    """Limits and matching are tuples of the right size; their numbers are whole and fit 32 bits."""
+    gray = np.zeros((9, 9), np.uint8)
+    good: dict[str, Any] = {"left": gray, "right": gray, "region": (0, 0, 4, 4), "ellipse": True}
+    good |= {"limits": (0, 5), "matching": MATCHING}
+    for name, value, error, message in (
+        ("limits", [0, 5], TypeError, "incompatible function arguments"),
+        ("limits", (0, 5, 1), ValueError, "limits: expected a tuple of 2, got one of 3"),
+        ("limits", (0, 5.0), TypeError, f"limits: {WHOLE}, got float"),
+        ("limits", (0, 2**31), TypeError, f"limits: {WHOLE}, got int"),
+        ("limits", (0, 2**64), TypeError, f"limits: {WHOLE}, got int"),
+        ("matching", (5, None, True), TypeError, f"matching: {WHOLE}, got NoneType"),
+        ("matching", (5, 15, 1), TypeError, "matching: expected True or False in it, got int"),
+    ):
+        with pytest.raises(error, match=message):
+            _core.sad_disparity(**good | {name: value})

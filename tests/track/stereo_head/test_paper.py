@@ -74,7 +74,7 @@ def follow_colors(scene, **choices) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     for frame in scene.frames[1:12]:
         tracker.update(frame)
         state = tracker._state
-        mean = k.histogram_mean(state.learned_histogram, PAPER.bins, PAPER.max_chroma)
+        mean = k.histogram_mean(state.learned_histogram, PAPER.color_space)
         rows.append((state.filter.color.copy(), mean, state.learned_histogram))
     colors, means, models = (np.array(each) for each in zip(*rows, strict=True))
     return colors, means, models

@@ -55,7 +55,7 @@ def stage(
 
 def histogram(k, color: np.ndarray) -> np.ndarray:
     """The model (L,) of a head's texture."""
-    bins = k.color_bins(grain((60, 60), color, 30, 9), (0, 0, 60, 60), P.bins, P.max_chroma, 1)
+    bins = k.color_bins(grain((60, 60), color, 30, 9), (0, 0, 60, 60), P.color_space, 1)
     counts = np.bincount(bins.ravel(), minlength=int(np.prod(P.bins))).astype(float)
     return counts / counts.sum()
 

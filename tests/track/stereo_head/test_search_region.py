@@ -46,7 +46,7 @@ def test_another_light_is_taken_out_exactly(gains, kernels):
     """
     first = picture(24, 32) // 4
     lit = first * np.array(gains, np.uint8)
-    expected = kernels.color_bins(first, (0, 0, 32, 24), P.bins, P.max_chroma, 1)
+    expected = kernels.color_bins(first, (0, 0, 32, 24), P.color_space, 1)
     np.testing.assert_array_equal(all_bins(kernels, lit, mean_color(first)), expected)
 
 
@@ -64,7 +64,7 @@ def test_gains_are_those_of_the_light(gain):
 def test_without_light_nothing_is_changed(kernels):
     """Without the first frame's light bins are those of the picture's own colors."""
     image = picture(24, 32)
-    expected = kernels.color_bins(image, (0, 0, 32, 24), P.bins, P.max_chroma, 1)
+    expected = kernels.color_bins(image, (0, 0, 32, 24), P.color_space, 1)
     np.testing.assert_array_equal(all_bins(kernels, image, None), expected)
 
 
@@ -78,7 +78,7 @@ def test_a_region_is_a_part_of_the_whole(region, step, light, kernels):
     image = picture(24, 32) // 4
     lit = 2 * image
     pair = PreparedPair.of(K, lit, lit, mean_color(image) if light else None, P)
-    expected = kernels.color_bins(image if light else lit, region, P.bins, P.max_chroma, step)
+    expected = kernels.color_bins(image if light else lit, region, P.color_space, step)
     np.testing.assert_array_equal(pair.bins(kernels, region, step, P), expected)
 
 
@@ -109,7 +109,7 @@ def test_cells_are_squares_of_step_pixels(width, resolution, step):
     middles = np.ascontiguousarray(image[step // 2 :: step, step // 2 :: step])
     rows, columns = middles.shape[:2]
     region = (0, 0, columns, rows)
-    expected = K.color_bins(middles, region, P.bins, P.max_chroma, 1)
+    expected = K.color_bins(middles, region, P.color_space, 1)
     np.testing.assert_array_equal(pair.bins(K, region, 1, P), expected)
     np.testing.assert_allclose(pair.mean, middles.mean(axis=(0, 1)), rtol=1e-12)
 
@@ -129,7 +129,7 @@ def test_disparities_of_a_region_are_those_of_the_whole_images(shape, limits, el
     side = pair.step if cells else 1
     whole = [K.reduce_gray(each, side) for each in (image, other)]
     height, width = shape[0] // side, shape[1] // side
-    window = P.window if cells else pair.pixel_window(P)
+    matching = (P.window if cells else pair.pixel_window(P)), P.uniqueness, P.prefilter
     for region in (
         (9, 8, 33, 30),
         (-9, -8, 20, 12),
@@ -139,7 +139,7 @@ def test_disparities_of_a_region_are_those_of_the_whole_images(shape, limits, el
         (-40, -30, -20, -10),
     ):
         found = pair.disparities(K, region, limits, P, ellipse=ellipse, cells=cells)
-        expected = K.sad_disparity(*whole, region, ellipse, *limits, window, P.uniqueness, P.prefilter)
+        expected = K.sad_disparity(*whole, region, ellipse, limits, matching)
         np.testing.assert_array_equal(found, expected)
 
 
@@ -188,5 +188,5 @@ def test_a_region_covers_all_that_the_search_touches(center, kernels):
     inside = (rows >= 0) & (rows < 120) & (columns >= 0) & (columns < 160)
     assert (cropped.bins[~inside] == NO_BIN).all()
     assert not cropped.coherent[~inside].any()
-    whole = kernels.color_bins(image, (0, 0, 160, 120), P.bins, P.max_chroma, 1)
+    whole = kernels.color_bins(image, (0, 0, 160, 120), P.color_space, 1)
     np.testing.assert_array_equal(cropped.bins[inside], whole[rows[inside], columns[inside]])

@@ -13,8 +13,8 @@ namespace tricue {
 /// The two chroma axes range from -chroma to chroma; values beyond go to the end bins. Over the whole range, ±255, nearly all
 /// pixels of a real picture would fall into a few bins around 0. The third axis ranges from 0 to 765.
 struct ColorSpace {
-    std::array<int, 3> bins;
-    int chroma;
+    std::array<int, 3> bins;  ///< (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
+    int chroma;  ///< the first two axes span [-chroma, chroma), color levels, 1 to 255; values beyond go to the end bins
 
     std::ptrdiff_t size() const { return std::ptrdiff_t{bins[0]} * bins[1] * bins[2]; }
 

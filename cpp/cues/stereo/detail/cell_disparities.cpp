@@ -48,7 +48,7 @@ struct EllipseRows {
     }
 };
 
-void require_arguments(const CellPair& pair, const Region& place, const DisparityRange& range,
+void require_arguments(const CellPair& pair, const Region& place, const DisparityRange& limits,
                        const StereoMatching& matching) {
     const auto& [left, right, step] = pair;
     const auto size = [](const ImageView& image) { return shape_text(image.rows, image.cols); };
@@ -61,10 +61,10 @@ void require_arguments(const CellPair& pair, const Region& place, const Disparit
     if (std::min(width, height) < 1 || std::max(width, height) > kMaxSide)
         refuse("region", "a width and height of 1 to 16384",
                std::to_string(width) + " x " + std::to_string(height));
-    if (range.first > range.last)
-        refuse("last", "at least first, " + std::to_string(range.first), range.last);
-    if (std::int64_t{range.last} - range.first >= kMaxCandidates)
-        refuse("last", "at most 4095 above first, " + std::to_string(range.first), range.last);
+    if (limits.first > limits.last)
+        refuse("last", "at least first, " + std::to_string(limits.first), limits.last);
+    if (std::int64_t{limits.last} - limits.first >= kMaxCandidates)
+        refuse("last", "at most 4095 above first, " + std::to_string(limits.first), limits.last);
     const int widest = matching.prefilter ? 31 : 15;
     if (matching.window < 1 || matching.window > widest || matching.window % 2 == 0)
         refuse("window", "an odd number, 1 to " + std::to_string(widest), matching.window);
@@ -75,19 +75,19 @@ void require_arguments(const CellPair& pair, const Region& place, const Disparit
 /// least one pixel.
 class Matcher {
 public:
-    Matcher(const GrayCells& left, const GrayCells& right, const Region& visible, const DisparityRange& range,
-            const StereoMatching& matching)
+    Matcher(const GrayCells& left, const GrayCells& right, const Region& visible,
+            const DisparityRange& limits, const StereoMatching& matching)
         : visible_(visible),
           window_(matching.window),
-          candidates_(range.last - range.first + 1),
+          candidates_(limits.last - limits.first + 1),
           width_(visible.x1 - visible.x0),
           limit_(matching.prefilter ? PrefilteredRows::kClip : 255),
           left_(left, compared(0, 0), matching.prefilter, kMatchPadding),
-          right_(right, compared(-range.last, -range.first), matching.prefilter, kMatchPadding),
+          right_(right, compared(-limits.last, -limits.first), matching.prefilter, kMatchPadding),
           stride_((width_ + window_ + 2 * kMatchPadding - 1) / kMatchPadding * kMatchPadding),
           sums_(static_cast<std::size_t>(stride_ * candidates_ + kMatchPadding)),
           blank_(static_cast<std::size_t>(stride_ + candidates_)),
-          first_column_(visible.x0 - range.last),
+          first_column_(visible.x0 - limits.last),
           columns_(right.cols()),
           outside_(blank_.size(), kNoCost) {
         const int size = static_cast<int>(outside_.size());
@@ -156,37 +156,38 @@ private:
 
 /// span(y) gives the columns [begin, end) of row y that are matched.
 template <typename Span>
-Floats match_rows(const CellPair& pair, const Region& place, const DisparityRange& range,
-                  const StereoMatching& matching, const Span& span) {
-    require_arguments(pair, place, range, matching);
+Floats match_rows(const CellPair& pair, const Region& place, const DisparityRange& limits,
+                  const StereoMatching& matching, int tolerance, const Span& span) {
+    require_arguments(pair, place, limits, matching);
     const GrayCells left(pair.left, pair.step), right(pair.right, pair.step);
     Floats disparity = Floats::Constant(place.y1 - place.y0, place.x1 - place.x0, kNone);
     const Region visible = place.clipped({nullptr, left.rows(), left.cols(), 1, 0});
     const auto in_view = [&](const Region& part) {
-        return DisparityRange{std::max(range.first, part.x0 - (left.cols() - 1)),
-                              std::min(range.last, part.x1 - 1)};
+        return DisparityRange{std::max(limits.first, part.x0 - (left.cols() - 1)),
+                              std::min(limits.last, part.x1 - 1)};
     };
     const DisparityRange visible_range = in_view(visible);
     if (visible.x0 >= visible.x1 || visible.y0 >= visible.y1 || visible_range.first > visible_range.last)
         return disparity;
 
     const auto uniqueness = static_cast<unsigned>(matching.uniqueness);
+    const bool checked = tolerance >= 0;
     const auto match = [&](const Region& part) {
         const DisparityRange within = in_view(part);
         if (within.first > within.last) return;
         const int candidates = within.last - within.first + 1;
         Matcher matcher(left, right, part, within, matching);
         std::optional<LeftRightCheck> left_right;
-        if (matching.tolerance >= 0) left_right.emplace(part.x0 - within.last, part.x1 - within.first);
+        if (checked) left_right.emplace(part.x0 - within.last, part.x1 - within.first);
         matcher.run(uniqueness > 0, span, [&](int y, int x0, int x1, const Matches& matches) {
             float* row = &disparity(y - place.y0, x0 - place.x0);
             refine_matches(matches, x1 - x0, within.first, candidates, uniqueness, row);
-            if (left_right) left_right->check(matches, x0, x1, within.first, matching.tolerance, row);
+            if (left_right) left_right->check(matches, x0, x1, within.first, tolerance, row);
         });
     };
     const int candidates = visible_range.last - visible_range.first + 1;
-    const bool whole_rows = matching.tolerance >= 0;  // the left-right check needs them
-    const int strip = whole_rows ? visible.x1 - visible.x0 : std::max(kMaxSums / candidates, kMinColumns);
+    // The left-right check needs whole rows.
+    const int strip = checked ? visible.x1 - visible.x0 : std::max(kMaxSums / candidates, kMinColumns);
     for (int x = visible.x0; x < visible.x1; x += strip)
         match({x, visible.y0, std::min(x + strip, visible.x1), visible.y1});
     return disparity;
@@ -194,10 +195,10 @@ Floats match_rows(const CellPair& pair, const Region& place, const DisparityRang
 
 }  // namespace
 
-Floats cell_disparities(const CellPair& pair, const StereoRegion& region, const DisparityRange& range,
-                        const StereoMatching& matching) {
+Floats cell_disparities(const CellPair& pair, const StereoRegion& region, const DisparityRange& limits,
+                        const StereoMatching& matching, int tolerance) {
     const Region& place = region.place;
-    return match_rows(pair, place, range, matching, [&](int y) {
+    return match_rows(pair, place, limits, matching, tolerance, [&](int y) {
         const EllipseRows ellipse{place.x1 - place.x0, place.y1 - place.y0};
         const int margin = region.ellipse ? ellipse.margin(y - place.y0) : 0;
         return std::pair(place.x0 + margin, place.x1 - margin);
@@ -205,11 +206,11 @@ Floats cell_disparities(const CellPair& pair, const StereoRegion& region, const 
 }
 
 Floats cell_disparities(const CellPair& pair, const EllipseShape& shape, const CenterPixel& center,
-                        const DisparityRange& range, const StereoMatching& matching) {
+                        const DisparityRange& limits, const StereoMatching& matching) {
     const auto [begin, end] = shape.column_range();
     const int top = center.y + shape.top;
     const Region place{center.x + begin, top, center.x + end, center.y + shape.bottom()};
-    return match_rows(pair, place, range, matching, [&](int y) {
+    return match_rows(pair, place, limits, matching, kNoLeftRightCheck, [&](int y) {
         const EllipseShape::Run& run = shape.runs[static_cast<std::size_t>(y - top)];
         return std::pair(center.x + run.begin, center.x + run.end);
     });

@@ -14,14 +14,16 @@ struct CellPair {
     int step;
 };
 
+constexpr int kNoLeftRightCheck = -1;  ///< as its tolerance
+
 /// The sad_disparity of the reduce_gray of both images, in cells. Only the compared cells are turned gray.
 ///
 /// Throws std::invalid_argument like these two kernels.
-Floats cell_disparities(const CellPair& pair, const StereoRegion& region, const DisparityRange& range,
-                        const StereoMatching& matching);
+Floats cell_disparities(const CellPair& pair, const StereoRegion& region, const DisparityRange& limits,
+                        const StereoMatching& matching, int tolerance = kNoLeftRightCheck);
 
-/// The same for the cells of a shape, not empty, around a cell; NaN for the others of the rectangle around it.
+/// The same without that check for the cells of a shape, not empty, around a cell; NaN for the others of the rectangle around it.
 Floats cell_disparities(const CellPair& pair, const EllipseShape& shape, const CenterPixel& center,
-                        const DisparityRange& range, const StereoMatching& matching);
+                        const DisparityRange& limits, const StereoMatching& matching);
 
 }  // namespace tricue

@@ -6,6 +6,7 @@ import numpy as np
 from tricue.arrays import Plane
 from tricue.kernels import Kernels
 from tricue.track.base.shared_disparity import most_shared
+from tricue.track.base.stereo_matching import StereoMatching
 from tricue.track.flow_depth.rectangles import Region
 from tricue.track.flow_depth.reduced_frame import ReducedFrame
 
@@ -13,7 +14,7 @@ MIN_DISPARITY_CELLS = 12  # of the region, that must have a disparity
 MIN_SHARED_PART = 0.25  # of these, that must share one
 SHARED_TOLERANCE = 1.0  # cells, the largest difference between shared disparities
 MAX_DISPARITY_SHARE = 0.3  # of the columns, for parallel cameras; negative ones up to an eighth of that
-MATCHING_WINDOW, MATCHING_UNIQUENESS = 7, 10  # cells, and percent; of block matching
+MATCHING = StereoMatching(window=7, uniqueness=10)
 
 
 def find_initial_disparity(k: Kernels, frame: ReducedFrame, region: Region) -> float | None:
@@ -41,7 +42,5 @@ def _match(k: Kernels, frame: ReducedFrame, region: Region) -> Plane:
         return frame.disparity[y0:y1, x0:x1]
     assert frame.right is not None
     highest = max(int(MAX_DISPARITY_SHARE * frame.gray.shape[1]), 1)
-    first, last = (bound - round(frame.offset) for bound in (-highest // 8, highest))
-    return k.sad_disparity(
-        frame.gray, frame.right, region, False, first, last, MATCHING_WINDOW, MATCHING_UNIQUENESS
-    )
+    limits = -highest // 8 - round(frame.offset), highest - round(frame.offset)
+    return k.sad_disparity(frame.gray, frame.right, region, False, limits, MATCHING)

@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 from tricue.arrays import Floats, Image, Plane
 from tricue.camera.rig import StereoRig
 from tricue.kernels import Kernels
+from tricue.track.base.stereo_matching import StereoMatching
 
 GATE_SIGMAS = 3  # standard deviations from the expected depth within which a pixel may be the target's
 MAX_EXPECTED_SIGMA = 0.5  # meters; a less certain expected depth isn't used
 MAX_OCCLUDER_MARGIN = 0.5  # meters
 MIN_OCCLUDER_MARGIN = MAX_OCCLUDER_MARGIN / 2
 
-SAD_WINDOW = 7  # samples, side of the windows that are compared
-SAD_UNIQUENESS = 15  # percent
+SAD_MATCHING = StereoMatching(window=7, uniqueness=15)  # of samples
 SAD_TOLERANCE = 1  # samples, of the left-right check
 MAX_DISPARITY_ABOVE_EXPECTED = 16  # samples
 MAX_DISPARITY_BELOW_EXPECTED = 8  # samples
@@ -150,9 +150,7 @@ class StereoSource(NamedTuple):
         moved = part - [[shift, 0, 0, 0]]
         right = k.reduce_gray(k.sample_windows(self.right, moved, side, width)[0], 1)
         region = (last, 0, width, side)
-        found = k.sad_disparity(
-            left, right, region, False, first, last, SAD_WINDOW, SAD_UNIQUENESS, True, SAD_TOLERANCE
-        )
+        found = k.sad_disparity(left, right, region, False, (first, last), SAD_MATCHING, SAD_TOLERANCE)
         disparity = found * np.float32(step) + np.float32(shift)
         disparity[~(disparity > 0)] = np.nan  # not found, or not in front of the camera
         depths: Plane = np.float32(focal_baseline) / disparity

@@ -13,13 +13,14 @@ from numpy.typing import NDArray
 from tricue.arrays import Image
 from tricue.camera.box import Box
 from tricue.kernels import Kernels
+from tricue.track.base.stereo_matching import StereoMatching
 from tricue.track.head_detection.head_outline import find_outline
 from tricue.track.head_detection.heads_in_disparities import heads_in_disparities
 
 Map = NDArray[np.float32]
 
 SEARCH_WIDTH = 320  # pixels, approximate width to which disparities and depth are reduced
-WINDOW, UNIQUENESS, TOLERANCE = 7, 0, 1  # of block matching
+MATCHING, LEFT_RIGHT_TOLERANCE = StereoMatching(window=7, uniqueness=0), 1
 NEAREST, MAX_DISPARITY = 0.25, 4000  # highest disparity, as a share of the width, and in pixels
 MIN_SIDE = 12  # pixels
 DEPTH_BASELINE = 0.5  # meters, to convert depth to disparities
@@ -38,11 +39,9 @@ def find_head_in_pair(k: Kernels, left: Image, right: Image, baseline: float) ->
     size = (width // step, height // step)
     if min(size) < MIN_SIDE:
         return None
-    nearest = min(math.ceil(size[0] * NEAREST), MAX_DISPARITY)
-    disparities = k.sad_disparity(
-        k.reduce_gray(left, step), k.reduce_gray(right, step), (0, 0, *size), False,
-        0, nearest, WINDOW, UNIQUENESS, True, TOLERANCE,
-    )  # fmt: skip
+    reduced = k.reduce_gray(left, step), k.reduce_gray(right, step)
+    limits = 0, min(math.ceil(size[0] * NEAREST), MAX_DISPARITY)
+    disparities = k.sad_disparity(*reduced, (0, 0, *size), False, limits, MATCHING, LEFT_RIGHT_TOLERANCE)
     return _best_head(k, left, disparities, baseline)
 
 

@@ -32,7 +32,7 @@ def count_colors(samples: Samples, p: StereoHeadParams, kernel_set: kernels.Name
         height, width = image.shape[:2]
         if mask.shape != (height, width):
             raise ValueError(f"samples: expected a mask of shape {(height, width)}, got {mask.shape}")
-        bins = k.color_bins(image, (0, 0, width, height), p.bins, p.max_chroma, 1)
+        bins = k.color_bins(image, (0, 0, width, height), p.color_space, 1)
         counts += np.bincount(bins[mask], minlength=len(counts))
     if not counts.any():
         raise ValueError("samples: expected at least one marked pixel, got none")

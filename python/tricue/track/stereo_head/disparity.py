@@ -31,12 +31,12 @@ def measure_disparity(
 
     limits: lowest and highest disparity, pixels, inclusive. None if too few pixels are matched.
     """
-    (first, last), window = limits, pair.pixel_window(p)
-    inner = _without_margin(ellipse, window, p)
+    matching = pair.pixel_matching(p)
+    inner = _without_margin(ellipse, matching[0], p)
+    statistic = p.subpixel, p.disparity_statistic == "median", p.disparity_tolerance * pair.step
     disparity, matched, near = k.ellipse_disparity(
-        pair.left, pair.right, np.array(inner), first, last, window, p.uniqueness, p.prefilter,
-        p.subpixel, p.disparity_statistic == "median", p.disparity_tolerance * pair.step,
-    )  # fmt: skip
+        pair.left, pair.right, np.array(inner), limits, matching, statistic
+    )
     return None if matched < MIN_MATCHED_PIXELS else EllipseDisparity(disparity, near / _area(inner))
 
 

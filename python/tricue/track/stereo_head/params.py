@@ -289,6 +289,16 @@ class StereoHeadParams(Params):
         if self.window % 2 == 0:
             raise ValueError(f"window: expected an odd number, got {self.window}")
 
+    @property
+    def color_space(self) -> tuple[tuple[int, int, int], int]:
+        """Bins and end of the chroma axes, as kernels take them."""
+        return self.bins, self.max_chroma
+
+    @property
+    def matching(self) -> tuple[int, int, bool]:
+        """How cells are matched, as kernels take it."""
+        return self.window, self.uniqueness, self.prefilter
+
     @classmethod
     def paper(cls) -> "Self":
         """The tracker that the paper prints, without our additions; figure 3, unfused, has ``fuse=False``.

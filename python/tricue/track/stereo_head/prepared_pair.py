@@ -21,7 +21,6 @@ DARKEST = 1.0  # lowest mean level of a channel that is fully compensated
 # The largest matching windows, pixels, whose costs fit 16 bits: gray levels differ by up to 255, the
 # prefilter's slopes by at most 31 each.
 MAX_WINDOW_GRAY, MAX_WINDOW_PREFILTERED = 15, 31
-NO_LEFT_RIGHT_CHECK = -1  # the tolerance with which sad_disparity skips that check
 
 
 class PreparedPair(NamedTuple):
@@ -67,18 +66,19 @@ class PreparedPair(NamedTuple):
         step = self.step
         pixels = (step * x0, step * y0, step * x1, step * y1)
         gains = None if self.gains is None else np.array(self.gains)
-        return k.color_bins(self.left, pixels, p.bins, p.max_chroma, step * stride, gains)
+        return k.color_bins(self.left, pixels, p.color_space, step * stride, gains)
 
     def disparities(
         self, k: Kernels, region: Region, limits: Limits, p: StereoHeadParams, *, ellipse: bool, cells: bool
     ) -> Disparities:
         """The ``sad_disparity`` in a region of cells, or of pixels, or in the ellipse inscribed in it."""
-        side = self.step if cells else 1
-        window = p.window if cells else self.pixel_window(p)
+        side, matching = (self.step, p.matching) if cells else (1, self.pixel_matching(p))
         left, right = k.reduce_gray(self.left, side), k.reduce_gray(self.right, side)
-        return k.sad_disparity(
-            left, right, region, ellipse, *limits, window, p.uniqueness, p.prefilter, NO_LEFT_RIGHT_CHECK
-        )
+        return k.sad_disparity(left, right, region, ellipse, limits, matching)
+
+    def pixel_matching(self, p: StereoHeadParams) -> tuple[int, int, bool]:
+        """How pixels are matched, not cells, as kernels take it."""
+        return self.pixel_window(p), p.uniqueness, p.prefilter
 
     def pixel_window(self, p: StereoHeadParams) -> int:
         """The side of the matching window, pixels."""

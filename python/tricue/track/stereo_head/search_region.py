@@ -43,9 +43,15 @@ def crop_region(
     right, bottom = math.ceil(x + p.ring * minor) + across, math.ceil(y + p.ring * major) + down
     expected = min(disparity / step, float(pair.left.shape[1] // step))
     below, above = p.disparities
-    first, last = round(expected) - below, round(expected) + above
     bins, coherent = k.head_cells(
-        pair.left, pair.right, (left, top, right, bottom), step, p.bins, p.max_chroma, pair.gains, expected,
-        p.disparity_tolerance, FILL_WINDOW, first, last, p.window, p.uniqueness, p.prefilter,
-    )  # fmt: skip
+        pair.left,
+        pair.right,
+        (left, top, right, bottom),
+        step,
+        p.color_space,
+        pair.gains,
+        (expected, p.disparity_tolerance, FILL_WINDOW),
+        (round(expected) - below, round(expected) + above),
+        p.matching,
+    )
     return SearchRegion(left, top, bins, coherent)

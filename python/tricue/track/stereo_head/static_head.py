@@ -103,7 +103,7 @@ def measure_static_head(
         pair = PreparedPair.of(k, left, right, state.first_mean, p)
         found = measure(k, pair, state.geometry, ellipse, disparity, state.first_histogram, p)
         if found is not None:
-            color = k.histogram_mean(found.histogram, p.bins, p.max_chroma)
+            color = k.histogram_mean(found.histogram, p.color_space)
             rows.append([*found.position, found.depth.disparity, *color, found.match.intersection])
     if len(rows) < max(MIN_FRAMES, count / 2):
         raise ValueError(

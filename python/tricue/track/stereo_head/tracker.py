@@ -209,7 +209,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, StereoHeadState]):
         else:
             head = head_filter.correct(self._k, predicted, values, measured.noise, p)
         if p.feedback:
-            shifted = self._k.shift_histogram(learned, p.bins, p.max_chroma, head.color)
+            shifted = self._k.shift_histogram(learned, p.color_space, head.color)
             learned, model, _ = self._mix(shifted, shifted, 0.0, first)
         off = 0.0 if unlike else match.intersection - state.mean_intersection
         return StereoHeadState(
@@ -236,9 +236,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, StereoHeadState]):
         color (3,).
         """
         p = self.params
-        return self._k.learn_histogram(
-            histogram, measured, rate, first, p.first_frame_weight, p.bins, p.max_chroma
-        )
+        return self._k.learn_histogram(histogram, measured, rate, first, p.first_frame_weight, p.color_space)
 
     def _track(self, state: StereoHeadState) -> Track:
         """The track of a state; without a rig it has no position."""

@@ -5,7 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.reference.base.checks import refuse
-from tricue.reference.cues.color.detail.color_space import indices, require_space
+from tricue.reference.cues.color.detail.color_space import ColorSpace, indices, require_space
 
 NO_BIN = 65535
 
@@ -13,13 +13,12 @@ NO_BIN = 65535
 def color_bins(
     image: NDArray[np.uint8],
     region: tuple[int, int, int, int],
-    bins: tuple[int, int, int],
-    chroma: int,
+    space: ColorSpace,
     step: int,
     gains: NDArray[np.float64] | None = None,
 ) -> NDArray[np.uint16]:
     """Reads every step-th pixel inside the image, and computes the bin on each axis in integers."""
-    require_space(bins, chroma)
+    require_space(*space)
     if not 1 <= step <= 1024:
         refuse("step", "1 to 1024", step)
     x0, y0, x1, y1 = region
@@ -37,5 +36,5 @@ def color_bins(
         if strange.size:
             refuse("gains", "finite numbers, none negative", float(strange[0]))
         colors = np.rint(np.minimum(colors * np.minimum(gains, 255).astype(np.float32), 255)).astype(np.uint8)
-    found[inside] = indices(colors, bins, chroma)
+    found[inside] = indices(colors, *space)
     return found

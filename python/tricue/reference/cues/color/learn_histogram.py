@@ -3,7 +3,7 @@
 
 from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse, require_shape
-from tricue.reference.cues.color.detail.color_space import Bins, require_space
+from tricue.reference.cues.color.detail.color_space import ColorSpace, require_space
 from tricue.reference.cues.color.histogram_mean import histogram_mean
 
 
@@ -13,11 +13,11 @@ def learn_histogram(
     rate: float,
     first: Floats,
     weight: float,
-    bins: Bins,
-    chroma: int,
+    space: ColorSpace,
 ) -> tuple[Floats, Floats, Floats]:
     """Moves the histogram toward the measured one by a share of the difference, then mixes in the first."""
-    require_space(bins, chroma)
+    require_space(*space)
+    bins, _ = space
     size = (bins[0] * bins[1] * bins[2],)
     require_shape("histogram", histogram, size)
     require_shape("measured", measured, size)
@@ -25,7 +25,7 @@ def learn_histogram(
     require_shape("first", first, size)
     _require_share("weight", weight)
     learned = histogram + rate * (measured - histogram)
-    return learned, (1 - weight) * learned + weight * first, histogram_mean(learned, bins, chroma)
+    return learned, (1 - weight) * learned + weight * first, histogram_mean(learned, space)
 
 
 def _require_share(name: str, share: float) -> None:

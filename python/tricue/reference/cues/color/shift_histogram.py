@@ -5,18 +5,19 @@ import numpy as np
 
 from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import require_finite, require_shape
-from tricue.reference.cues.color.detail.color_space import axes, mean_color, require_histogram
+from tricue.reference.cues.color.detail.color_space import ColorSpace, axes, mean_color, require_histogram
 
 
-def shift_histogram(histogram: Floats, bins: tuple[int, int, int], chroma: int, mean: Floats) -> Floats:
+def shift_histogram(histogram: Floats, space: ColorSpace, mean: Floats) -> Floats:
     """Distributes the mass of one bin at a time over the eight bins that it is shifted between."""
-    require_histogram(histogram, bins, chroma)
+    require_histogram(histogram, *space)
     require_shape("mean", mean, (3,))
     require_finite("mean", mean)
 
-    widths = np.array([levels / n for n, _, levels in axes(bins, chroma)])
+    bins, _ = space
+    widths = np.array([levels / n for n, _, levels in axes(*space)])
     last = np.array(bins) - 1
-    offset = (mean - mean_color(histogram, bins, chroma)) / widths
+    offset = (mean - mean_color(histogram, *space)) / widths
     whole = np.floor(np.clip(offset, -2 * last - 2, 2 * last + 2))
     rest = np.clip(offset, -2 * last - 2, 2 * last + 2) - whole
     shifted = np.zeros(bins)

@@ -9,6 +9,7 @@ from tricue.reference.base.arrays import Floats, Image
 from tricue.reference.base.checks import refuse
 from tricue.reference.base.ellipse_shape import mask_of, require_ellipse
 from tricue.reference.cues.stereo.detail.cell_disparities import cell_disparities
+from tricue.reference.cues.stereo.sad_disparity import Limits, Matching
 
 FARTHEST = 2**30  # pixels, beyond any image
 
@@ -17,16 +18,12 @@ def ellipse_disparity(
     left: Image,
     right: Image,
     ellipse: Floats,
-    first: int,
-    last: int,
-    window: int,
-    uniqueness: int,
-    prefilter: bool,
-    subpixel: bool,
-    median: bool,
-    tolerance: float,
+    limits: Limits,
+    matching: Matching,
+    statistic: tuple[bool, bool, float],
 ) -> tuple[float, int, int]:
     """Matches the rectangle around the ellipse, then computes the median or the mean inside."""
+    subpixel, median, tolerance = statistic
     if not tolerance >= 0:
         refuse("tolerance", "0 or more", float(tolerance))
     require_ellipse(ellipse)
@@ -36,8 +33,7 @@ def ellipse_disparity(
     inside = mask_of(ellipse, (y1 - y0, x1 - x0), (x0, y0))
     if not inside.any():
         return math.nan, 0, 0
-    around = (x0, y0, x1, y1)
-    found = cell_disparities(left, right, 1, around, False, first, last, window, uniqueness, prefilter)
+    found = cell_disparities(left, right, 1, (x0, y0, x1, y1), limits, matching)
     matched = found[inside & np.isfinite(found)]
     if matched.size == 0:
         return math.nan, 0, 0

@@ -10,6 +10,8 @@ from tricue.reference.base.checks import refuse
 Ints = NDArray[np.int64]
 Disparity = NDArray[np.float32]
 Rectangle = tuple[int, int, int, int]
+Limits = tuple[int, int]
+Matching = tuple[int, int, bool]
 
 NONE = 65535  # the cost of a candidate outside the right image or the range
 CLIP = 31
@@ -20,15 +22,13 @@ def sad_disparity(
     right: Image,
     region: Rectangle,
     ellipse: bool,
-    first: int,
-    last: int,
-    window: int = 5,
-    uniqueness: int = 15,
-    prefilter: bool = True,
+    limits: Limits,
+    matching: Matching,
     tolerance: int = -1,
 ) -> Disparity:
     """Sums the costs of every candidate over the windows, then selects and checks the best."""
-    _require(left, right, region, first, last, window, uniqueness, prefilter)
+    _require(left, right, region, limits, matching)
+    (first, last), (window, uniqueness, prefilter) = limits, matching
     if prefilter:
         left_gray, right_gray = x_sobel(left), x_sobel(right)
     else:
@@ -126,16 +126,8 @@ def _rectangle(region: Rectangle) -> Rectangle:
     return x0, y0, x1 - x0, y1 - y0
 
 
-def _require(
-    left: Image,
-    right: Image,
-    region: Rectangle,
-    first: int,
-    last: int,
-    window: int,
-    uniqueness: int,
-    prefilter: bool,
-) -> None:
+def _require(left: Image, right: Image, region: Rectangle, limits: Limits, matching: Matching) -> None:
+    (first, last), (window, uniqueness, prefilter) = limits, matching
     if left.size == 0:
         refuse("left", "at least one pixel", "none")
     if left.shape != right.shape:

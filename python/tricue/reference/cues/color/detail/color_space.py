@@ -8,6 +8,7 @@ from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse, require_finite, require_shape
 
 Bins = tuple[int, int, int]
+ColorSpace = tuple[Bins, int]
 
 
 def require_space(bins: Bins, chroma: int) -> None:

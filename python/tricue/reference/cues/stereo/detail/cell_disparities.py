@@ -7,20 +7,11 @@ from numpy.typing import NDArray
 from tricue.reference.base.arrays import Image
 from tricue.reference.base.checks import refuse
 from tricue.reference.camera.reduce_gray import reduce_gray
-from tricue.reference.cues.stereo.sad_disparity import Rectangle, sad_disparity
+from tricue.reference.cues.stereo.sad_disparity import Limits, Matching, Rectangle, sad_disparity
 
 
 def cell_disparities(
-    left: Image,
-    right: Image,
-    step: int,
-    region: Rectangle,
-    ellipse: bool,
-    first: int,
-    last: int,
-    window: int,
-    uniqueness: int,
-    prefilter: bool,
+    left: Image, right: Image, step: int, region: Rectangle, limits: Limits, matching: Matching
 ) -> NDArray[np.float32]:
     """The disparities in a region, in cells, from both whole images reduced to gray cells."""
     if left.shape[0] < 1 or left.shape[1] < 1:
@@ -28,4 +19,4 @@ def cell_disparities(
     if left.shape[:2] != right.shape[:2]:
         refuse("right", f"the left image's shape {left.shape[:2]}", right.shape[:2])
     cells = reduce_gray(left, step), reduce_gray(right, step)
-    return sad_disparity(*cells, region, ellipse, first, last, window, uniqueness, prefilter)
+    return sad_disparity(*cells, region, False, limits, matching)

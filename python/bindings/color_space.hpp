@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+// The color space of kernels that bin colors.
+
+#include "cues/color/detail/color_space.hpp"
+#include "tuples.hpp"
+
+namespace tricue::bindings {
+
+using SpaceTuple = Tuple<Tuple<int, int, int>, int>;
+
+inline ColorSpace color_space(const SpaceTuple& space) {
+    const auto [bins, chroma] = unpack(space, "space");
+    const auto [first, second, third] = unpack(bins, "bins");
+    return {{first, second, third}, chroma};
+}
+
+}  // namespace tricue::bindings
