@@ -148,16 +148,38 @@ def test_structs_become_tuples(tmp_path: Path) -> None:
     assert f"Args:\n    values: float64 (N,)\n{wanted}\nReturns:" in text
 
 
+def test_structs_in_structs_become_tuples_in_tuples(tmp_path: Path) -> None:
+    """A field without a comment that is a struct is described by its own fields."""
+    inner = "struct Ends {\n    double low;   ///< meters\n    double high;  ///< above it\n};\n"
+    outer = WHOLE.replace("    double low, high;  ///< of the values, meters\n", "    Ends ends;\n")
+    found = build(tmp_path, inner + outer, GROUPED)
+    assert found.returncode == 0, found.stderr
+    wanted = """
+    range: a tuple (ends):
+        - ends: a tuple (low, high):
+            - low: meters
+            - high: above it
+"""
+    assert wanted in (tmp_path / "kernel_docs.hpp").read_text()
+
+
+def tuple_types(annotation: ast.expr | None) -> list[ast.expr]:
+    """The types of a tuple's parts."""
+    assert isinstance(annotation, ast.Subscript)
+    assert isinstance(annotation.slice, ast.Tuple)
+    return annotation.slice.elts
+
+
 @pytest.mark.parametrize("name", KERNELS)
 def test_tuples_have_the_parts_that_are_described(name: str) -> None:
     """The signature, which is the binding's, has as many types in a tuple as the text has names."""
-    described = dict(re.findall(r"(?m)^    (\w+): a tuple \((.*(?:\n {8}.*)*?)\):$", contract(name)))
     annotations = {each.arg: each.annotation for each in STUB[name].args.args}
-    for parameter, names in described.items():
-        annotation = annotations[parameter]
-        assert isinstance(annotation, ast.Subscript)
-        assert isinstance(annotation.slice, ast.Tuple)
-        assert len(annotation.slice.elts) == len(names.split(",")), parameter
+    described = re.findall(r"(?m)^    (\w+): a tuple \(([^)]*)\):\n((?: {8}.*\n)*)", f"{contract(name)}\n")
+    for parameter, names, inside in described:
+        labels = re.findall(r"\w+", names)
+        types = dict(zip(labels, tuple_types(annotations[parameter]), strict=True))
+        for part, its_names in re.findall(r"(?m)^ {8}- (\w+): a tuple \(([^)]*)\):$", inside):
+            assert len(tuple_types(types[part])) == len(re.findall(r"\w+", its_names)), f"{parameter}, {part}"
 
 
 @pytest.mark.parametrize(

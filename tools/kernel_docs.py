@@ -100,23 +100,26 @@ def split_names(text: str) -> Entry:
 
 def read_structs(cpp: Path) -> dict[str, list[Entry]]:
     """The fields with a comment, `///` before or `///<` after, of every struct in the headers."""
-    structs = {}
+    insides: dict[str, str] = {}
     for header in sorted(cpp.rglob("*.hpp")):
         text = header.read_text()
-        for name, inside in re.findall(r"(?m)^struct (\w+) \{\n((?:    .*\n|\n)*?)\};", text):
-            structs[name] = list(_fields(inside))
-    return structs
+        insides |= re.findall(r"(?m)^struct (\w+) \{\n((?:    .*\n|\n)*?)\};", text)
+    return {name: list(_fields(name, insides)) for name in insides}
 
 
-def _fields(inside: str) -> Iterator[Entry]:
-    """The commented fields between a struct's braces."""
+def _fields(struct: str, insides: dict[str, str]) -> Iterator[Entry]:
+    """A struct's commented fields; one without a comment that is itself such a struct is a tuple in it."""
     pattern = r"((?: *///[^<\n].*\n)*) *([^/\n;]+(?:\n +[^/\n;]+)?);(?: *///< *(.*))?"
-    for before, declaration, after in re.findall(pattern, inside):
+    for before, declaration, after in re.findall(pattern, insides.get(struct, "")):
         text = " ".join((before.replace("///", " ") or after).split())
         plain = re.sub(r"<.*>|\{.*?\}|=[^,]*", "", declaration)
         names = tuple(re.findall(r"(\w+)\s*(?:,|$)", plain))
-        if text and names and "(" not in plain:  # no member function
+        if not names or "(" in plain:  # a member function
+            continue
+        if text:
             yield Entry(names, text)
+        elif inner := list(_fields(plain.split()[0], insides)):
+            yield Entry.of_tuple(names[0], inner)
 
 
 class Binding(NamedTuple):

@@ -25,9 +25,11 @@ REFINEMENT = np.array([0.06, 0.05, 0.05, 0.03, 0.08]), 0.1
 MODEL = random.dirichlet(np.ones(64))
 VIEW = (14, 10), (1.25, 12), 0.5, 0.3
 PRIOR = (STATE[3:], np.array([0.25, 0.2])), (STATE, 1.2 * DETECTION[1].diagonal(), 12.0)
+WEIGHTS = np.full(N, 1 / N)
+LIKELIHOOD = MODEL, 0.0, 0.5, (*VIEW[0], *VIEW[1]), *VIEW[2:], False, 30.0, 8.0
 ARGUMENTS = (
-    *(DEPTH, CAMERA, PARTICLES, np.full(N, 1 / N), 0.5, NOISE, DYNAMICS, BOUNDS, DETECTION, REFINEMENT),
-    *(MODEL, (0.0, 0.5), *VIEW, (False, 30.0, 8.0), *PRIOR),
+    *(DEPTH, CAMERA, (PARTICLES, WEIGHTS, 0.5), NOISE, DYNAMICS, BOUNDS, DETECTION, REFINEMENT),
+    *(LIKELIHOOD, PRIOR),
 )
 
 
@@ -40,7 +42,7 @@ def log_likelihood(states: Floats) -> Floats:
 
 def script(*_: Any) -> tuple[Floats, ...]:
     """The baseline: a call for each stage, and NumPy between them."""
-    previous = PARTICLES[_core.resample(ARGUMENTS[3], 0.5)]
+    previous = PARTICLES[_core.resample(WEIGHTS, 0.5)]
     states = _core.propose(previous, *DYNAMICS, NOISE[0], *DETECTION, *BOUNDS)
     weights, _ = _core.reweight(log_likelihood(states), states, previous, *DYNAMICS, *DETECTION)
     mean, *_ = _core.summarize(states, weights)

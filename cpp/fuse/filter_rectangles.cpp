@@ -58,7 +58,7 @@ public:
     States measure(StatesRef states, bool with_nearer) {
         States measured = contrast_.measure(states, with_nearer);
         if (!is_one_range())
-            measured.col(0) = depth_distance(depth_, project(camera_, states, by_.middle), by_.model,
+            measured.col(0) = depth_distance(depth_, project(camera_, states, by_.middle), model(),
                                              grid_pattern(by_.places), by_.occluder_margin)
                                   .col(0);
         return measured;
@@ -67,14 +67,13 @@ public:
     /// The measurements of a state that was just measured.
     Vector histogram(const double* state) const {
         if (is_one_range()) return contrast_.shares();
-        const ReferenceHistogram& model = by_.model;
         const double z = by_.middle > 0.0 ? by_.middle : state[2];
-        return depth_shares(depth_, camera_, state, by_.places, z, model.reach, model.histogram.size());
+        return depth_shares(depth_, camera_, state, by_.places, z, by_.span, by_.model.size());
     }
 
-    Vector log_likelihood(StatesRef states, const MeanSize& mean_size, const MeasuredState& object) {
+    Vector log_likelihood(StatesRef states, const RectanglePrior& known) {
         const States measured = measure(states, false);
-        const Vector prior = rectangle_prior(states, mean_size, object);
+        const Vector prior = rectangle_prior(states, known.mean_size, known.measured);
         Vector logs(states.rows());
         for (Index i = 0; i < logs.size(); ++i) {
             const double distance = measured(i, 0), inside = measured(i, 1), around = measured(i, 3);
@@ -87,10 +86,12 @@ public:
 
 private:
     /// Whether the model's levels cover exactly the depths whose share is measured.
-    bool is_one_range() const { return by_.middle == 0.0 && by_.model.reach == by_.reach; }
+    bool is_one_range() const { return by_.middle == 0.0 && by_.span == by_.reach; }
+
+    ReferenceHistogram model() const { return {by_.model, by_.span}; }
 
     ReferenceHistogram contrast_model() const {
-        if (is_one_range()) return by_.model;
+        if (is_one_range()) return model();
         return {Eigen::Map<const Vector>(&kNoModel, 1), by_.reach};
     }
 
@@ -139,8 +140,7 @@ FilteredRectangles filter_rectangles(const DepthView& depth, VectorRef camera,
                                      const WeightedRectangles& before, const StackView<double>& noise,
                                      const Dynamics& dynamics, const Bounds& bounds,
                                      const Detection& detection, const Refinement& refinement,
-                                     const DepthLikelihood& likelihood, const MeanSize& mean_size,
-                                     const MeasuredState& measured) {
+                                     const DepthLikelihood& likelihood, const RectanglePrior& prior) {
     require_arguments(before, noise, refinement, likelihood);
     Observer observer(depth, camera, likelihood);
     const Indices chosen = resample(before.weights, before.offset);
@@ -148,7 +148,7 @@ FilteredRectangles filter_rectangles(const DepthView& depth, VectorRef camera,
     for (Index i = 0; i < chosen.size(); ++i) previous.row(i) = before.particles.row(chosen[i]);
     FilteredRectangles after;
     const auto weigh = [&](const States& from, const Dynamics& moves, const Detection& seen) {
-        const Vector logs = observer.log_likelihood(after.particles, mean_size, measured);
+        const Vector logs = observer.log_likelihood(after.particles, prior);
         after.weights = reweight(logs, after.particles, from, moves, seen).weights;
     };
     after.particles = propose(previous, dynamics, sampling(noise, 0), detection, bounds);

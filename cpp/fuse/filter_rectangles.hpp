@@ -13,25 +13,34 @@ namespace tricue {
 
 /// Weighted rectangles, and the offset with which they are resampled.
 struct WeightedRectangles {
-    StatesRef particles;
-    VectorRef weights;
-    double offset;
+    StatesRef particles;  ///< float64 (N, 5), finite, Z, W, H above 0
+    VectorRef weights;    ///< float64 (N,), as in resample
+    double offset;        ///< as in resample
 };
 
 /// How the second sampling is drawn.
 struct Refinement {
-    VectorRef scale;
-    double least;
+    VectorRef scale;  ///< float64 (5,), none negative
+    double least;     ///< of W and H, meters, above 0
 };
 
 /// How the depths in and around a rectangle give its likelihood.
 struct DepthLikelihood {
-    ReferenceHistogram model;
-    double middle;
-    RectanglePattern places;
-    double reach, occluder_margin;
-    bool linear;
-    double sharpness, contrast;
+    VectorRef model;  ///< float64 (L,): histogram of depth, of sum 1, or all 0, none negative
+    /// the model's levels cover [middle - span, middle + span), meters; where the middle is 0, they are relative to Z
+    double middle, span;
+    RectanglePattern places;  ///< (rows, columns, margin, along): grid and ring of depth_contrast
+    double reach;             ///< of the shares inside and around, meters, as in depth_contrast
+    double occluder_margin;   ///< meters, as in depth_contrast
+    bool linear;              ///< whether l(d) is the logarithm, not the square
+    double sharpness;         ///< nats
+    double contrast;          ///< nats
+};
+
+/// What is known of a rectangle before its depths are read.
+struct RectanglePrior {
+    MeanSize mean_size;
+    MeasuredState measured;
 };
 
 /// N particles and their estimate.
@@ -44,8 +53,8 @@ struct FilteredRectangles {
     Vector histogram;   ///< float64 (L,): of the depths in the mean, of sum 1; all 0 where nothing counts
 };
 
-/// One step of a particle filter on upright rectangles in meters (X, Y, Z, W, H) in front of a depth camera, by resample,
-/// propose, depth_contrast, rectangle_prior, reweight and summarize.
+/// One step of a particle filter on upright rectangles in meters (X, Y, Z, W, H), so D is 5, in front of a depth camera, by
+/// resample, propose, depth_contrast, rectangle_prior, reweight and summarize.
 ///
 /// A second sampling is drawn around the mean of the first: x = mean + scale * noise, Z at least its lower bound, W and H at least
 /// `least`; its weights are the likelihoods. The log-likelihood is l(d) + contrast (inside - around) + rectangle_prior, where d,
@@ -53,31 +62,13 @@ struct FilteredRectangles {
 ///
 /// @param depth float32 (H, W), meters
 /// @param camera float64 (4,): fx, fy, cx, cy, pixels
-/// @param particles float64 (N, 5), finite, Z, W, H above 0
-/// @param weights float64 (N,), as in resample
-/// @param offset as in resample
 /// @param noise float64 (S, N, 5), S 1 or 2 samplings: independent standard normal numbers, finite
-/// @param dynamics (drift, scale), as in propose and reweight
-/// @param bounds (lower, upper), as in propose
-/// @param detection (mean, root, share), as in propose and reweight
-/// @param refinement (scale, least): float64 (5,), none negative, and meters, above 0
-/// @param model float64 (L,): histogram of depth, of sum 1, or all 0, none negative
-/// @param levels (middle, span): the model's levels cover [middle - span, middle + span), meters; where the middle is 0, they are
-///     relative to Z
-/// @param grid (rows, columns), as in depth_contrast
-/// @param ring (margin, along), as in depth_contrast
-/// @param reach of the shares inside and around, meters, as in depth_contrast
-/// @param occluder_margin meters, as in depth_contrast
-/// @param likelihood (linear, sharpness, contrast): nats
-/// @param mean_size (size, spread), as in rectangle_prior
-/// @param measured (state, deviation, max_cost), as in rectangle_prior
 /// @throws std::invalid_argument as those kernels
 /// Source: Sabeti, Parvizi, Wu 2008, section IV; the second sampling and all of the likelihood but (37) are ours.
 FilteredRectangles filter_rectangles(const DepthView& depth, VectorRef camera,
                                      const WeightedRectangles& before, const StackView<double>& noise,
                                      const Dynamics& dynamics, const Bounds& bounds,
                                      const Detection& detection, const Refinement& refinement,
-                                     const DepthLikelihood& likelihood, const MeanSize& mean_size,
-                                     const MeasuredState& measured);
+                                     const DepthLikelihood& likelihood, const RectanglePrior& prior);
 
 }  // namespace tricue

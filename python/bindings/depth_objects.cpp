@@ -12,6 +12,7 @@
 #include "cues/depth/rectangle_histogram.hpp"
 #include "cues/depth/segment_depth.hpp"
 #include "kernel_docs.hpp"
+#include "tuples.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -106,74 +107,86 @@ Array<double> measure_objects_arrays(const Array<double>& table, const Array<flo
                          [&] { return measure_objects({boxes, across, down, sides}, lens, {floor, feet}); }));
 }
 
+using ObjectsTuple = Tuple<Array<double>, Array<bool>, Array<float>, Array<float>>;
+using BodyTuple = Tuple<Array<double>, Array<double>, Array<bool>>;
+
 /// Views of the caller's arrays.
-ObjectFeatures object_features(const Array<double>& measured, const Array<bool>& cut,
-                               const Array<float>& columns, const Array<float>& rows) {
+ObjectFeatures object_features(const ObjectsTuple& objects) {
+    const auto [measured, cut, columns, rows] = unpack(objects, "objects");
     return {states(measured, "measured"), flags(cut, "cut", 4),
             floats(columns, "columns", {-1, -1}, "float32 (C, bins)"),
             floats(rows, "rows", {-1, -1}, "float32 (C, bins)")};
 }
 
 /// Of the width and of the height.
-std::pair<bool, bool> known_sizes(const Array<bool>& known) {
+std::array<bool, 2> known_sizes(const Array<bool>& known) {
     const auto array = require<bool>(known, "known", 1, "bool (2,)");
     if (array.shape(0) != 2) throw py::value_error("known: expected bool (2,), got " + describe(array));
     const bool* each = contiguous<bool>(array, "known");
     return {each[0], each[1]};
 }
 
-int match_object_arrays(const Array<double>& measured, const Array<bool>& cut, const Array<float>& columns,
-                        const Array<float>& rows, const Array<double>& others, const Array<double>& expected,
-                        std::pair<Array<double>, Array<bool>> mean_size, const Array<double>& signature,
-                        std::tuple<double, double, double, double, double> deviation,
-                        std::pair<double, double> unknown, double signature_cost,
-                        std::pair<double, double> gate, bool complete) {
-    const auto objects = object_features(measured, cut, columns, rows);
-    const auto more = vector(others, "others");
-    const auto [width_known, height_known] = known_sizes(mean_size.second);
-    const ExpectedTarget target{vector(expected, "expected"), vector(mean_size.first, "size"), width_known,
-                                height_known, vector(signature, "signature")};
-    const auto [x, y, z, share, base] = deviation;
-    const auto [center, larger] = unknown;
-    const MatchCosts costs{x, y, z, share, base, center, larger, signature_cost, gate.first, gate.second};
-    const auto work = objects.columns.size() + objects.rows.size();
-    return unlocked(work, [&] { return match_object(objects, more, target, costs, complete); });
+ExpectedBody expected_body(const BodyTuple& expected) {
+    const auto [state, size, known] = unpack(expected, "expected");
+    return {vector(state, "state"), vector(size, "size"), known_sizes(known)};
+}
+
+using CostsTuple =
+    Tuple<Tuple<double, double, double, double, double>, Tuple<double, double>, double, double, double>;
+
+MatchCosts match_costs(const CostsTuple& costs) {
+    const auto [deviation, unknown, signature_cost, max_cost, min_area] = unpack(costs, "costs");
+    const auto [x, y, z, share, base] = unpack(deviation, "deviation");
+    const auto [center, larger] = unpack(unknown, "unknown");
+    return {{x, y, z, share, base}, {center, larger}, signature_cost, max_cost, min_area};
+}
+
+int match_object_arrays(const ObjectsTuple& objects, const Array<double>& others, const BodyTuple& expected,
+                        const Array<double>& signature, const CostsTuple& costs, bool complete) {
+    const ObjectFeatures each = object_features(objects);
+    const auto more = vector(others, "others"), shape = vector(signature, "signature");
+    const ExpectedBody target = expected_body(expected);
+    const MatchCosts nats = match_costs(costs);
+    const auto work = each.columns.size() + each.rows.size();
+    return unlocked(work, [&] { return match_object(each, more, target, shape, nats, complete); });
 }
 
 std::tuple<Array<double>, Array<bool>, Array<double>, Array<double>> complete_body_arrays(
-    const Array<double>& measured, const Array<bool>& cut, const Array<float>& columns,
-    const Array<float>& rows, int index, const Array<double>& expected,
-    std::pair<Array<double>, Array<bool>> mean_size, std::tuple<double, double, double, double> pieces) {
-    const auto objects = object_features(measured, cut, columns, rows);
-    const auto [width_known, height_known] = known_sizes(mean_size.second);
-    const ExpectedBody where{vector(expected, "expected"), vector(mean_size.first, "size"), width_known,
-                             height_known};
-    const auto [region, inside, joined, depth] = pieces;
-    const PieceLimits limits{region, inside, joined, depth};
-    auto body =
-        unlocked(objects.measured.size(), [&] { return complete_body(objects, index, where, limits); });
+    const ObjectsTuple& objects, int index, const BodyTuple& expected,
+    const Tuple<double, double, double, double>& limits) {
+    const ObjectFeatures each = object_features(objects);
+    const ExpectedBody where = expected_body(expected);
+    const auto [region, inside, joined, depth] = unpack(limits, "limits");
+    const PieceLimits pieces{region, inside, joined, depth};
+    auto body = unlocked(each.measured.size(), [&] { return complete_body(each, index, where, pieces); });
     return {give(std::move(body.state)), give(std::move(body.whole), {2}), give(std::move(body.size)),
             give(std::move(body.signature))};
 }
 
+using SearchedTuple = Tuple<Tuple<int, int, int, int>, Array<float>, double, double>;
+using DivisionsTuple = Tuple<Tuple<double, double, int>, double, double, double, double, int>;
+
+Divisions divisions_of(const DivisionsTuple& divisions) {
+    const auto [levels, gap, slope, bandwidth, prominence, min_area] = unpack(divisions, "divisions");
+    const auto [near, far, count] = unpack(levels, "levels");
+    return {{near, far, count}, gap, slope, bandwidth, prominence, min_area};
+}
+
 std::tuple<Array<double>, Array<bool>, Array<float>, Array<float>> segment_depth_arrays(
-    const Array<float>& depth, const Array<float>& before, std::pair<double, double> noise,
-    const RegionTuple& region, const Array<double>& camera, const Array<double>& plane,
-    const RegionTuple& measured, std::tuple<double, double, int> levels, std::pair<double, double> edges,
-    std::pair<double, double> density, int min_area, std::tuple<int, double, double, double> cut,
-    double feet) {
+    const Array<float>& depth, const SearchedTuple& searched, const Array<double>& camera,
+    const Array<double>& plane, const RegionTuple& measured, const DivisionsTuple& divisions,
+    const Tuple<int, double, double, double>& cut, double feet) {
     const auto meters = depth_image(depth, "depth");
-    const SearchedPixels searched{region_of(region), depth_image(before, "before"), noise.first,
-                                  noise.second};
+    const auto [region, before, noise, noise_slope] = unpack(searched, "searched");
+    const SearchedPixels pixels{region_of(unpack(region, "region")), depth_image(before, "before"), noise,
+                                noise_slope};
     const auto lens = vector(camera, "camera");
     const auto floor = vector(plane, "plane");
-    const auto [near, far, count] = levels;
-    const Divisions divisions{{near, far, count}, edges.first,    edges.second,
-                              density.first,      density.second, min_area};
-    const auto [border, beside, occluder_margin, share] = cut;
+    const Divisions by = divisions_of(divisions);
+    const auto [border, beside, occluder_margin, share] = unpack(cut, "cut");
     const Cut sides{border, beside, occluder_margin, share};
     auto found = unlocked(std::ptrdiff_t{meters.rows} * meters.cols, [&] {
-        return segment_depth(meters, searched, lens, floor, region_of(measured), divisions, sides, feet);
+        return segment_depth(meters, pixels, lens, floor, region_of(measured), by, sides, feet);
     });
     return {give(std::move(found.measured)), give(std::move(found.cut)), give(std::move(found.columns)),
             give(std::move(found.rows))};
@@ -182,13 +195,10 @@ std::tuple<Array<double>, Array<bool>, Array<float>, Array<float>> segment_depth
 }  // namespace
 
 void define_depth_objects(py::module_& m) {
-    m.def("complete_body", complete_body_arrays, py::arg("measured"), py::arg("cut"), py::arg("columns"),
-          py::arg("rows"), py::arg("index"), py::arg("expected"), py::arg("mean_size"), py::arg("pieces"),
-          docs::complete_body);
-    m.def("match_object", match_object_arrays, py::arg("measured"), py::arg("cut"), py::arg("columns"),
-          py::arg("rows"), py::arg("others"), py::arg("expected"), py::arg("mean_size"), py::arg("signature"),
-          py::arg("deviation"), py::arg("unknown"), py::arg("signature_cost"), py::arg("gate"),
-          py::arg("complete"), docs::match_object);
+    m.def("complete_body", complete_body_arrays, py::arg("objects"), py::arg("index"), py::arg("expected"),
+          py::arg("limits"), docs::complete_body);
+    m.def("match_object", match_object_arrays, py::arg("objects"), py::arg("others"), py::arg("expected"),
+          py::arg("signature"), py::arg("costs"), py::arg("complete"), docs::match_object);
     m.def("cut_sides", cut_sides_arrays, py::arg("depth"), py::arg("table"), py::arg("camera"),
           py::arg("border"), py::arg("beside"), py::arg("occluder_margin"), py::arg("share"),
           docs::cut_sides);
@@ -197,9 +207,8 @@ void define_depth_objects(py::module_& m) {
           docs::depth_contrast);
     m.def("depth_density", depth_density_arrays, py::arg("histogram"), py::arg("bandwidth"),
           docs::depth_density);
-    m.def("segment_depth", segment_depth_arrays, py::arg("depth"), py::arg("before"), py::arg("noise"),
-          py::arg("region"), py::arg("camera"), py::arg("plane"), py::arg("measured"), py::arg("levels"),
-          py::arg("edges"), py::arg("density"), py::arg("min_area"), py::arg("cut"), py::arg("feet"),
+    m.def("segment_depth", segment_depth_arrays, py::arg("depth"), py::arg("searched"), py::arg("camera"),
+          py::arg("plane"), py::arg("measured"), py::arg("divisions"), py::arg("cut"), py::arg("feet"),
           docs::segment_depth);
     m.def("density_extrema", density_extrema_arrays, py::arg("density"), py::arg("prominence"),
           docs::density_extrema);

@@ -476,14 +476,19 @@ def combine_posteriors(
     """
 
 def complete_body(
-    measured: numpy.typing.NDArray[numpy.float64],
-    cut: numpy.typing.NDArray[numpy.bool],
-    columns: numpy.typing.NDArray[numpy.float32],
-    rows: numpy.typing.NDArray[numpy.float32],
+    objects: tuple[
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.bool],
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float32],
+    ],
     index: int,
-    expected: numpy.typing.NDArray[numpy.float64],
-    mean_size: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool]],
-    pieces: tuple[float, float, float, float],
+    expected: tuple[
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.bool],
+    ],
+    limits: tuple[float, float, float, float],
 ) -> tuple[
     numpy.typing.NDArray[numpy.float64],
     numpy.typing.NDArray[numpy.bool],
@@ -503,19 +508,22 @@ def complete_body(
     part allows.
 
     Args:
-        measured: float64 (C, 8), as measure_objects gives it, finite, depths, sizes and areas above 0
-        cut: bool (C, 4): whether each may continue at the left, right, top, bottom
-        columns: float32 (C, bins), as depth_components gives them
-        rows: as columns
+        objects: a tuple (measured, cut, columns, rows):
+            - measured: float64 (C, 8), as measure_objects gives it, finite
+            - cut: bool (C, 4): whether each may continue at the left, right, top, bottom
+            - columns, rows: float32 (C, bins), as depth_components gives them
         index: of the object, in [0, C)
-        expected: float64 (5,): X, Y, Z, W, H, meters, finite
-        mean_size: (size, known): float64 (2,), running means of the body's width and height, meters,
-            finite, above 0; bool (2,): whether each was ever visible as a whole; else it is a lower
-            bound
-        pieces: (region, inside, joined, depth): the region's size over that of the expected rectangle,
-            around which it lies; a piece has more than this share of its area inside; a joined body is
-            at most this many times the mean size, or the size before if that is larger; a piece's depth
-            differs by less than this from the object's, meters; none NaN
+        expected: a tuple (state, size, known):
+            - state: float64 (5,): X, Y, Z, W, H, meters, finite
+            - size: float64 (2,): running means of its width and height, meters, finite, above 0
+            - known: bool (2,): whether each was ever visible as a whole; else it is a lower bound
+        limits: a tuple (region, inside, joined, depth):
+            - region: size of the region in which it lies, over that of the expected rectangle, around
+              which it is
+            - inside: a piece has more than this share of its area in that region
+            - joined: a joined body is at most this many times the mean size, or the size before if that
+              is larger
+            - depth: a piece's depth differs by less than this from the object's, meters
 
     Returns:
         state: float64 (5,): X, Y, Z, W, H, completed where it is cut
@@ -525,7 +533,7 @@ def complete_body(
             center, x and y, meters
 
     Raises:
-        ValueError: on other shapes or values
+        ValueError: on other shapes or values, NaN limits, or depths, sizes or areas that aren't above 0
 
     Source: ours.
     """
@@ -1097,23 +1105,27 @@ def fill_gaps(
 def filter_rectangles(
     depth: numpy.typing.NDArray[numpy.float32],
     camera: numpy.typing.NDArray[numpy.float64],
-    particles: numpy.typing.NDArray[numpy.float64],
-    weights: numpy.typing.NDArray[numpy.float64],
-    offset: float,
+    before: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
     noise: numpy.typing.NDArray[numpy.float64],
     dynamics: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
     bounds: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
     detection: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
     refinement: tuple[numpy.typing.NDArray[numpy.float64], float],
-    model: numpy.typing.NDArray[numpy.float64],
-    levels: tuple[float, float],
-    grid: tuple[int, int],
-    ring: tuple[float, int],
-    reach: float,
-    occluder_margin: float,
-    likelihood: tuple[bool, float, float],
-    mean_size: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
-    measured: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
+    likelihood: tuple[
+        numpy.typing.NDArray[numpy.float64],
+        float,
+        float,
+        tuple[int, int, float, int],
+        float,
+        float,
+        bool,
+        float,
+        float,
+    ],
+    prior: tuple[
+        tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+        tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
+    ],
 ) -> tuple[
     numpy.typing.NDArray[numpy.float64],
     numpy.typing.NDArray[numpy.float64],
@@ -1123,8 +1135,8 @@ def filter_rectangles(
     numpy.typing.NDArray[numpy.float64],
 ]:
     """
-    One step of a particle filter on upright rectangles in meters (X, Y, Z, W, H) in front of a depth
-    camera, by resample, propose, depth_contrast, rectangle_prior, reweight and summarize.
+    One step of a particle filter on upright rectangles in meters (X, Y, Z, W, H), so D is 5, in front
+    of a depth camera, by resample, propose, depth_contrast, rectangle_prior, reweight and summarize.
 
     A second sampling is drawn around the mean of the first: x = mean + scale * noise, Z at least its
     lower bound, W and H at least `least`; its weights are the likelihoods. The log-likelihood is l(d) +
@@ -1134,24 +1146,48 @@ def filter_rectangles(
     Args:
         depth: float32 (H, W), meters
         camera: float64 (4,): fx, fy, cx, cy, pixels
-        particles: float64 (N, 5), finite, Z, W, H above 0
-        weights: float64 (N,), as in resample
-        offset: as in resample
+        before: a tuple (particles, weights, offset):
+            - particles: float64 (N, 5), finite, Z, W, H above 0
+            - weights: float64 (N,), as in resample
+            - offset: as in resample
         noise: float64 (S, N, 5), S 1 or 2 samplings: independent standard normal numbers, finite
-        dynamics: (drift, scale), as in propose and reweight
-        bounds: (lower, upper), as in propose
-        detection: (mean, root, share), as in propose and reweight
-        refinement: (scale, least): float64 (5,), none negative, and meters, above 0
-        model: float64 (L,): histogram of depth, of sum 1, or all 0, none negative
-        levels: (middle, span): the model's levels cover [middle - span, middle + span), meters; where
-            the middle is 0, they are relative to Z
-        grid: (rows, columns), as in depth_contrast
-        ring: (margin, along), as in depth_contrast
-        reach: of the shares inside and around, meters, as in depth_contrast
-        occluder_margin: meters, as in depth_contrast
-        likelihood: (linear, sharpness, contrast): nats
-        mean_size: (size, spread), as in rectangle_prior
-        measured: (state, deviation, max_cost), as in rectangle_prior
+        dynamics: a tuple (drift, scale):
+            - drift: float64 (D,): displacement in a frame, in the units of the state, finite
+            - scale: float64 (D,): standard deviations, none negative; those of a detection's K numbers
+              above 0 where a density is needed
+        bounds: a tuple (lower, upper):
+            - lower: float64 (D,): lower bounds of a state, may be infinite
+            - upper: float64 (D,): upper bounds, not below the lower ones, may be infinite
+        detection: a tuple (mean, root, share):
+            - mean: float64 (K,): mean of the detection, K at least 1, at most D
+            - root: float64 (K, K): Cholesky factor of its covariance, lower triangle, diagonal above 0;
+              numbers above the diagonal are not read
+            - share: share of the particles that is drawn from it, in [0, 1); at 0 mean and root are not
+              read
+        refinement: a tuple (scale, least):
+            - scale: float64 (5,), none negative
+            - least: of W and H, meters, above 0
+        likelihood: a tuple (model, middle, span, places, reach, occluder_margin, linear, sharpness,
+            contrast):
+            - model: float64 (L,): histogram of depth, of sum 1, or all 0, none negative
+            - middle, span: the model's levels cover [middle - span, middle + span), meters; where the
+              middle is 0, they are relative to Z
+            - places: (rows, columns, margin, along): grid and ring of depth_contrast
+            - reach: of the shares inside and around, meters, as in depth_contrast
+            - occluder_margin: meters, as in depth_contrast
+            - linear: whether l(d) is the logarithm, not the square
+            - sharpness: nats
+            - contrast: nats
+        prior: a tuple (mean_size, measured):
+            - mean_size: a tuple (size, spread):
+                - size: float64 (2,): running mean of width and height, finite, above 0
+                - spread: float64 (2,): standard deviations of the logarithms of their ratios to it,
+                  finite, above 0
+            - measured: a tuple (state, deviation, max_cost):
+                - state: float64 (D,): measured state, finite
+                - deviation: float64 (D,): its standard deviations, above 0, infinite for numbers that
+                  were not measured
+                - max_cost: most that a state far from it loses, nats, at least 0
 
     Returns:
         particles: float64 (N, 5)
@@ -1963,18 +1999,20 @@ def log_polar_shift(
     """
 
 def match_object(
-    measured: numpy.typing.NDArray[numpy.float64],
-    cut: numpy.typing.NDArray[numpy.bool],
-    columns: numpy.typing.NDArray[numpy.float32],
-    rows: numpy.typing.NDArray[numpy.float32],
+    objects: tuple[
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.bool],
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float32],
+    ],
     others: numpy.typing.NDArray[numpy.float64],
-    expected: numpy.typing.NDArray[numpy.float64],
-    mean_size: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool]],
+    expected: tuple[
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.bool],
+    ],
     signature: numpy.typing.NDArray[numpy.float64],
-    deviation: tuple[float, float, float, float, float],
-    unknown: tuple[float, float],
-    signature_cost: float,
-    gate: tuple[float, float],
+    costs: tuple[tuple[float, float, float, float, float], tuple[float, float], float, float, float],
     complete: bool,
 ) -> int:
     """
@@ -1988,23 +2026,28 @@ def match_object(
     near to the expected center as its visible part allows.
 
     Args:
-        measured: float64 (C, 8), as measure_objects gives it, finite
-        cut: bool (C, 4): whether each may continue at the left, right, top, bottom
-        columns: float32 (C, bins), as depth_components gives them
-        rows: as columns
+        objects: a tuple (measured, cut, columns, rows):
+            - measured: float64 (C, 8), as measure_objects gives it, finite
+            - cut: bool (C, 4): whether each may continue at the left, right, top, bottom
+            - columns, rows: float32 (C, bins), as depth_components gives them
         others: float64 (C,): nats that are added to each object's cost; (0,) for none
-        expected: float64 (5,): X, Y, Z, W, H, meters, finite
-        mean_size: (size, known): float64 (2,), running means of the target's width and height, meters,
-            finite, above 0; bool (2,): whether each was ever visible as a whole
+        expected: a tuple (state, size, known):
+            - state: float64 (5,): X, Y, Z, W, H, meters, finite
+            - size: float64 (2,): running means of its width and height, meters, finite, above 0
+            - known: bool (2,): whether each was ever visible as a whole; else it is a lower bound
         signature: float64 (2 bins + 2,): the target's columns and rows, and two numbers that aren't
             read
-        deviation: (x, y, z, share, base): standard deviations of the position, meters, above 0; and of
-            a size, share x size + base, neither negative and not both 0
-        unknown: (center, larger): weights along an axis on which the size isn't known, finite: of the
-            position, and of a size that exceeds the mean
-        signature_cost: nats, finite
-        gate: (max_cost, min_area): the target's cost is below this, nats; its visible part has at least
-            this area, m²
+        costs: a tuple (deviation, unknown, signature_cost, max_cost, min_area):
+            - deviation: a tuple (x, y, z, share, base):
+                - x, y, z: standard deviations of the position, meters, above 0
+                - share, base: that of a size is share x size + base, meters; neither negative, and not
+                  both 0
+            - unknown: a tuple (center, larger):
+                - center: weight of the position along an axis on which the size isn't known, finite
+                - larger: weight of a size there that exceeds the mean, finite
+            - signature_cost: of distributions that have nothing in common, nats, finite
+            - max_cost: the target's cost is below this, nats
+            - min_area: the target's visible part has at least this area, m²
         complete: whether objects count as completed where they are cut
 
     Returns:
@@ -3041,16 +3084,11 @@ def section_distance(
 
 def segment_depth(
     depth: numpy.typing.NDArray[numpy.float32],
-    before: numpy.typing.NDArray[numpy.float32],
-    noise: tuple[float, float],
-    region: tuple[int, int, int, int],
+    searched: tuple[tuple[int, int, int, int], numpy.typing.NDArray[numpy.float32], float, float],
     camera: numpy.typing.NDArray[numpy.float64],
     plane: numpy.typing.NDArray[numpy.float64],
     measured: tuple[int, int, int, int],
-    levels: tuple[float, float, int],
-    edges: tuple[float, float],
-    density: tuple[float, float],
-    min_area: int,
+    divisions: tuple[tuple[float, float, int], float, float, float, float, int],
     cut: tuple[int, float, float, float],
     feet: float,
 ) -> tuple[
@@ -3071,20 +3109,27 @@ def segment_depth(
 
     Args:
         depth: float32 (H, W), meters, NaN in the background; else in the range of `levels`
-        before: float32 (H, W), meters: no object is looked for where changed_depth gives 0; (0, 0) for
-            none
-        noise: (noise, slope), as in changed_depth
-        region: (x0, y0, x1, y1), pixels: objects are looked for in [x0, x1) x [y0, y1), which may
-            extend beyond the image
+        searched: a tuple (region, before, noise, noise_slope):
+            - region: (x0, y0, x1, y1), pixels: [x0, x1) x [y0, y1), which may extend beyond the image
+            - before: float32 (H, W), meters: no object is looked for where changed_depth gives 0;
+              (0, 0) for none
+            - noise, noise_slope: as noise and slope in changed_depth
         camera: float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
         plane: float64 (4,): nx, ny, nz, d of the floor, meters; zeros where none is known
         measured: (x0, y0, x1, y1), pixels: outside of it nothing was measured
-        levels: (near, far, count), as in depth_histogram
-        edges: (gap, slope), as in depth_edges
-        density: (bandwidth, prominence): of depth_density, levels, and of density_extrema, as a share
-            of the greatest density
-        min_area: as in depth_components
-        cut: (border, beside, occluder_margin, share), as in cut_sides
+        divisions: a tuple (levels, gap, slope, bandwidth, prominence, min_area):
+            - levels: (near, far, count), as in depth_histogram
+            - gap, slope: as in depth_edges
+            - bandwidth: of depth_density, levels
+            - prominence: of density_extrema, as a share of the greatest density
+            - min_area: pixels, as in depth_components
+        cut: a tuple (border, beside, occluder_margin, share):
+            - border: pixels from the image's edge within which an object may continue outside, at least
+              0
+            - beside: distance from the side at which something nearer is looked for, meters, finite, at
+              least 0
+            - occluder_margin: how much nearer than the object that must be, meters, finite, at least 0
+            - share: share of the side on more than which it must be nearer, in [0, 1]
         feet: as in measure_objects
 
     Returns:
@@ -3711,14 +3756,19 @@ class Kernels(Protocol):
     ) -> numpy.typing.NDArray[numpy.float32]: ...
     def complete_body(
         self,
-        measured: numpy.typing.NDArray[numpy.float64],
-        cut: numpy.typing.NDArray[numpy.bool],
-        columns: numpy.typing.NDArray[numpy.float32],
-        rows: numpy.typing.NDArray[numpy.float32],
+        objects: tuple[
+            numpy.typing.NDArray[numpy.float64],
+            numpy.typing.NDArray[numpy.bool],
+            numpy.typing.NDArray[numpy.float32],
+            numpy.typing.NDArray[numpy.float32],
+        ],
         index: int,
-        expected: numpy.typing.NDArray[numpy.float64],
-        mean_size: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool]],
-        pieces: tuple[float, float, float, float],
+        expected: tuple[
+            numpy.typing.NDArray[numpy.float64],
+            numpy.typing.NDArray[numpy.float64],
+            numpy.typing.NDArray[numpy.bool],
+        ],
+        limits: tuple[float, float, float, float],
     ) -> tuple[
         numpy.typing.NDArray[numpy.float64],
         numpy.typing.NDArray[numpy.bool],
@@ -3852,23 +3902,27 @@ class Kernels(Protocol):
         self,
         depth: numpy.typing.NDArray[numpy.float32],
         camera: numpy.typing.NDArray[numpy.float64],
-        particles: numpy.typing.NDArray[numpy.float64],
-        weights: numpy.typing.NDArray[numpy.float64],
-        offset: float,
+        before: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
         noise: numpy.typing.NDArray[numpy.float64],
         dynamics: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
         bounds: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
         detection: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
         refinement: tuple[numpy.typing.NDArray[numpy.float64], float],
-        model: numpy.typing.NDArray[numpy.float64],
-        levels: tuple[float, float],
-        grid: tuple[int, int],
-        ring: tuple[float, int],
-        reach: float,
-        occluder_margin: float,
-        likelihood: tuple[bool, float, float],
-        mean_size: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
-        measured: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
+        likelihood: tuple[
+            numpy.typing.NDArray[numpy.float64],
+            float,
+            float,
+            tuple[int, int, float, int],
+            float,
+            float,
+            bool,
+            float,
+            float,
+        ],
+        prior: tuple[
+            tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+            tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
+        ],
     ) -> tuple[
         numpy.typing.NDArray[numpy.float64],
         numpy.typing.NDArray[numpy.float64],
@@ -4072,18 +4126,20 @@ class Kernels(Protocol):
     ) -> tuple[float, float]: ...
     def match_object(
         self,
-        measured: numpy.typing.NDArray[numpy.float64],
-        cut: numpy.typing.NDArray[numpy.bool],
-        columns: numpy.typing.NDArray[numpy.float32],
-        rows: numpy.typing.NDArray[numpy.float32],
+        objects: tuple[
+            numpy.typing.NDArray[numpy.float64],
+            numpy.typing.NDArray[numpy.bool],
+            numpy.typing.NDArray[numpy.float32],
+            numpy.typing.NDArray[numpy.float32],
+        ],
         others: numpy.typing.NDArray[numpy.float64],
-        expected: numpy.typing.NDArray[numpy.float64],
-        mean_size: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.bool]],
+        expected: tuple[
+            numpy.typing.NDArray[numpy.float64],
+            numpy.typing.NDArray[numpy.float64],
+            numpy.typing.NDArray[numpy.bool],
+        ],
         signature: numpy.typing.NDArray[numpy.float64],
-        deviation: tuple[float, float, float, float, float],
-        unknown: tuple[float, float],
-        signature_cost: float,
-        gate: tuple[float, float],
+        costs: tuple[tuple[float, float, float, float, float], tuple[float, float], float, float, float],
         complete: bool,
     ) -> int: ...
     def measure_objects(
@@ -4339,16 +4395,11 @@ class Kernels(Protocol):
     def segment_depth(
         self,
         depth: numpy.typing.NDArray[numpy.float32],
-        before: numpy.typing.NDArray[numpy.float32],
-        noise: tuple[float, float],
-        region: tuple[int, int, int, int],
+        searched: tuple[tuple[int, int, int, int], numpy.typing.NDArray[numpy.float32], float, float],
         camera: numpy.typing.NDArray[numpy.float64],
         plane: numpy.typing.NDArray[numpy.float64],
         measured: tuple[int, int, int, int],
-        levels: tuple[float, float, int],
-        edges: tuple[float, float],
-        density: tuple[float, float],
-        min_area: int,
+        divisions: tuple[tuple[float, float, int], float, float, float, float, int],
         cut: tuple[int, float, float, float],
         feet: float,
     ) -> tuple[

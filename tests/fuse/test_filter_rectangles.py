@@ -12,12 +12,25 @@ from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
+from tests.kernel_arguments import with_parts
+
 Depth = NDArray[np.float32]
 Floats = NDArray[np.float64]
 Case = dict[str, Any]
 CAMERA = np.array([100.0, 101, 39.5, 29.5])
 STATE = np.array([0.1, -0.05, 2.0, 0.4, 0.7])
 LEVELS = 32
+VIEW = (14, 10), (1.25, 12)
+PLACES = (14, 10, 1.25, 12)
+PARTS = {
+    "before": ("particles", "weights", "offset"),
+    "detection": ("mean", "root", "share"),
+    "likelihood": (
+        *("model", "middle", "span", "places", "reach", "occluder_margin"),
+        *("linear", "sharpness", "contrast"),
+    ),
+    "prior": ("mean_size", "measured"),
+}
 
 
 def picture(seed: int = 0) -> Depth:
@@ -36,9 +49,11 @@ def case(seed: int = 0, count: int = 40, **changes: Any) -> Case:
     usual: Case = {
         "depth": picture(seed),
         "camera": CAMERA,
-        "particles": rng.normal(STATE, [0.1, 0.1, 0.1, 0.02, 0.02], (count, 5)),
-        "weights": rng.dirichlet(np.ones(count)),
-        "offset": float(rng.random()),
+        "before": (
+            rng.normal(STATE, [0.1, 0.1, 0.1, 0.02, 0.02], (count, 5)),
+            rng.dirichlet(np.ones(count)),
+            float(rng.random()),
+        ),
         "noise": rng.standard_normal((2, count, 5)),
         "dynamics": (np.array([0.01, 0, 0.02, 0, 0]), np.array([0.05, 0.04, 0.05, 0.03, 0.03])),
         "bounds": (
@@ -47,17 +62,10 @@ def case(seed: int = 0, count: int = 40, **changes: Any) -> Case:
         ),
         "detection": (STATE, np.diag([0.05, 0.06, 0.06, 0.06, 0.08]), 0.4),
         "refinement": (np.array([0.06, 0.05, 0.05, 0.02, 0.03]), 0.1),
-        "model": rng.dirichlet(np.ones(LEVELS)),
-        "levels": (0.0, 0.5),
-        "grid": (14, 10),
-        "ring": (1.25, 12),
-        "reach": 0.5,
-        "occluder_margin": 0.3,
-        "likelihood": (False, 30.0, 8.0),
-        "mean_size": (np.array([0.4, 0.7]), np.array([0.25, 0.2])),
-        "measured": (STATE, np.full(5, 0.07), 12.0),
+        "likelihood": (rng.dirichlet(np.ones(LEVELS)), 0.0, 0.5, PLACES, 0.5, 0.3, False, 30.0, 8.0),
+        "prior": ((np.array([0.4, 0.7]), np.array([0.25, 0.2])), (STATE, np.full(5, 0.07), 12.0)),
     }
-    return usual | changes
+    return with_parts(usual, PARTS, changes)
 
 
 def assert_same(arguments: Case) -> None:
@@ -82,28 +90,23 @@ def test_twin_follows_alike(
     seed: int, count: int, twice: bool, linear: bool, levels: tuple[float, float], share: float
 ) -> None:
     """Native and reference agree, with one or two samplings, each likelihood, and a detection or none."""
-    usual = case(seed, count)
-    changes = {
-        "noise": usual["noise"][: 1 + twice],
-        "likelihood": (linear, 30.0, 8.0),
-        "levels": levels,
-        "detection": (*usual["detection"][:2], share),
-    }
-    assert_same(usual | changes)
+    noise, (middle, span) = case(seed, count)["noise"][: 1 + twice], levels
+    assert_same(case(seed, count, noise=noise, linear=linear, middle=middle, span=span, share=share))
 
 
 def test_is_what_its_stages_are() -> None:
     """The native kernel returns what the native stages, called one by one, return: the same bits."""
     arguments = case()
-    view = [arguments[name] for name in ("model", "grid", "ring", "reach", "occluder_margin")]
-    prior = *arguments["mean_size"], *arguments["measured"]
+    model, _, _, _, reach, occluder_margin, *_ = arguments["likelihood"]
+    view, (mean_size, measured) = (model, *VIEW, reach, occluder_margin), arguments["prior"]
 
     def log_likelihood(states: Floats) -> Floats:
         seen = _core.depth_contrast(arguments["depth"], CAMERA, states, *view)
         likeness = -30.0 * seen[:, 0] * seen[:, 0] + 8.0 * (seen[:, 1] - seen[:, 3])
-        return likeness + _core.rectangle_prior(states, *prior)
+        return likeness + _core.rectangle_prior(states, *mean_size, *measured)
 
-    previous = arguments["particles"][_core.resample(arguments["weights"], arguments["offset"])]
+    particles, weights, offset = arguments["before"]
+    previous = particles[_core.resample(weights, offset)]
     (drift, scale), detection = arguments["dynamics"], arguments["detection"]
     first = _core.propose(previous, drift, scale, arguments["noise"][0], *detection, *arguments["bounds"])
     weights, _ = _core.reweight(log_likelihood(first), first, previous, drift, scale, *detection)
@@ -123,13 +126,12 @@ def test_is_what_its_stages_are() -> None:
 @pytest.mark.parametrize(("levels", "reach"), [((0.0, 0.5), 0.03), ((0.0, 0.03), 0.5), ((2.0, 0.5), 0.03)])
 def test_levels_and_reach_differ(kernels: Kernels, levels: tuple[float, float], reach: float) -> None:
     """The distance and the histogram are those over the model's levels, the shares those within the reach."""
-    arguments, (middle, span) = case(levels=levels, reach=reach), levels
+    middle, span = levels
+    arguments = case(middle=middle, span=span, reach=reach)
     _, _, state, _, observed, histogram = kernels.filter_rectangles(**arguments)
-    depth, model, per_meter = arguments["depth"], arguments["model"], CAMERA[:2] / state[2]
-    shares = kernels.depth_contrast(depth, CAMERA, state[None], model, (14, 10), (1.25, 12), reach, 0.3)[
-        0, 1:
-    ]
-    assert_allclose(observed[1:], shares, rtol=1e-12)
+    depth, (model, *_), per_meter = arguments["depth"], arguments["likelihood"], CAMERA[:2] / state[2]
+    (shares,) = kernels.depth_contrast(depth, CAMERA, state[None], model, *VIEW, reach, 0.3)
+    assert_allclose(observed[1:], shares[1:], rtol=1e-12)
     place = state[:2] * per_meter + (CAMERA[2:] + 0.5)
     rectangle = np.array([*place, *(state[3:] * per_meter), middle or state[2]])
     v, u = np.meshgrid(*((2 * np.arange(n) + 1) / n - 1 for n in (14, 10)), indexing="ij")
@@ -147,13 +149,11 @@ def test_finds_the_box(kernels: Kernels) -> None:
     model = np.zeros(LEVELS)
     model[LEVELS // 2 - 3 : LEVELS // 2 + 3] = 1 / 6
     estimate = away
-    arguments = case(count=200, model=model, measured=(STATE, np.full(5, np.inf), 0.0))
-    arguments["detection"] = (*arguments["detection"][:2], 0.0)
-    arguments["particles"] = np.tile(away, (200, 1))
-    arguments["weights"] = np.full(200, 1 / 200)
+    arguments = case(count=200, model=model, measured=(STATE, np.full(5, np.inf), 0.0), share=0.0)
+    particles, weights, offset = np.tile(away, (200, 1)), np.full(200, 1 / 200), arguments["before"][2]
     for _ in range(4):
+        arguments["before"] = particles, weights, offset
         particles, weights, estimate, _, observed, histogram = kernels.filter_rectangles(**arguments)
-        arguments |= {"particles": particles, "weights": weights}
     assert_allclose(estimate[:3], STATE[:3], atol=0.04)
     assert observed[1] > 0.8
     assert histogram[LEVELS // 2 - 5 : LEVELS // 2 + 5].sum() > 0.9
@@ -163,7 +163,8 @@ def test_nothing_in_sight(kernels: Kernels) -> None:
     """Before an image without any depth the weights are those of the prior, and the histogram is empty."""
     nowhere = case(depth=np.full((60, 80), np.nan, np.float32), detection=(STATE, np.eye(5), 0.0))
     particles, weights, mean, _, observed, histogram = kernels.filter_rectangles(**nowhere)
-    prior = kernels.rectangle_prior(particles, *nowhere["mean_size"], *nowhere["measured"])
+    mean_size, measured = nowhere["prior"]
+    prior = kernels.rectangle_prior(particles, *mean_size, *measured)
     expected = np.exp(prior - prior.max())
     assert_allclose(weights, expected / expected.sum(), rtol=1e-9)
     assert_allclose(mean, weights @ particles, rtol=1e-9)
@@ -183,12 +184,12 @@ def test_nothing_in_sight(kernels: Kernels) -> None:
         ({"refinement": (np.ones(4), 0.1)}, r"scale: expected shape \(5,\), got \(4,\)"),
         ({"refinement": (-np.ones(5), 0.1)}, "scale: expected no negative number, got -1"),
         ({"refinement": (np.ones(5), 0.0)}, "least: expected a finite number above 0, got 0"),
-        ({"levels": (-1.0, 0.5)}, "middle: expected a finite number, not negative, got -1"),
-        ({"levels": (0.0, 0.0)}, "reach: expected a finite number above 0, got 0"),
+        ({"middle": -1.0}, "middle: expected a finite number, not negative, got -1"),
+        ({"span": 0.0}, "reach: expected a finite number above 0, got 0"),
         ({"reach": -1.0}, "reach: expected a finite number above 0, got -1"),
-        ({"likelihood": (False, np.nan, 8.0)}, "sharpness: expected a finite number, got nan"),
-        ({"likelihood": (True, 1.0, np.inf)}, "contrast: expected a finite number, got inf"),
-        ({"grid": (0, 10)}, "rows: expected 1 to 64, got 0"),
+        ({"sharpness": np.nan}, "sharpness: expected a finite number, got nan"),
+        ({"linear": True, "contrast": np.inf}, "contrast: expected a finite number, got inf"),
+        ({"places": (0, 10, 1.25, 12)}, "rows: expected 1 to 64, got 0"),
         ({"model": np.ones(3)}, "model: expected a sum of 1, or of 0, got 3"),
     ],
 )
@@ -201,8 +202,28 @@ def test_refuses(kernels: Kernels, changes: Case, message: str) -> None:
 @pytest.mark.parametrize("name", ["depth", "camera", "particles", "weights", "noise", "model"])
 def test_converts_nothing(name: str) -> None:
     """Another type is named, not converted."""
+    usual = case()
+    arrays = {"particles": usual["before"][0], "weights": usual["before"][1], "model": usual["likelihood"][0]}
+    other = (usual | arrays)[name].astype(np.float16)
     with pytest.raises(TypeError, match=f"{name}: expected .*float16"):
-        _core.filter_rectangles(**case(**{name: case()[name].astype(np.float16)}))
+        _core.filter_rectangles(**case(**{name: other}))
+
+
+@pytest.mark.parametrize(
+    ("changes", "error", "message"),
+    [
+        ({"before": (np.ones((40, 5)), 0.5)}, ValueError, "before: expected a tuple of 3, got one of 2"),
+        ({"offset": None}, TypeError, "before: expected a number in it, got NoneType"),
+        ({"places": [14, 10, 1.25, 12]}, TypeError, "likelihood: expected a tuple in it, got list"),
+        ({"places": (14.0, 10, 1.25, 12)}, TypeError, "places: expected a whole number .* got float"),
+        ({"linear": "linear"}, TypeError, "likelihood: expected True or False in it, got str"),
+        ({"measured": (STATE, 12.0)}, ValueError, "measured: expected a tuple of 3, got one of 2"),
+    ],
+)
+def test_native_says_what_is_wrong_in_a_tuple(changes: Case, error: type[Exception], message: str) -> None:
+    """Its size, or a part of another type, is named."""
+    with pytest.raises(error, match=message):
+        _core.filter_rectangles(**case(**changes))
 
 
 def test_close_draws_stay_beyond_the_nearest_depth(kernels: Kernels) -> None:

@@ -18,30 +18,24 @@ random = np.random.default_rng(0)
 EXPECTED = np.array([0.0, 0.0, 3.0, 0.7, 1.8])
 BODY, LEG, ARM = [0.0, -0.3, 3.0, 0.6, 1.2], [0.1, 0.6, 3.0, 0.2, 0.5], [-0.32, -0.2, 3.0, 0.1, 0.6]
 STATES = np.array([BODY, LEG, ARM, *(EXPECTED + [1.5 + i, 0, 1, 0, 0] for i in range(COUNT - 3))])
-ARGUMENTS = (
+OBJECTS = (
     np.column_stack([STATES, random.normal(0, 0.05, (COUNT, 2)), 0.6 * STATES[:, 3] * STATES[:, 4]]),
     np.arange(4 * COUNT).reshape(COUNT, 4) == 7,
     random.dirichlet(np.ones(BINS), COUNT).astype(np.float32),
     random.dirichlet(np.ones(BINS), COUNT).astype(np.float32),
-    0,
-    EXPECTED,
-    (EXPECTED[3:].copy(), np.array([True, True])),
-    (1.3, 0.8, 1.15, 0.4),
 )
+ARGUMENTS = OBJECTS, 0, (EXPECTED, EXPECTED[3:].copy(), np.array([True, True])), (1.3, 0.8, 1.15, 0.4)
 
 
 def script(
-    measured: Floats,
-    cut: Flags,
-    columns: Shares,
-    rows: Shares,
+    objects: tuple[Floats, Flags, Shares, Shares],
     index: int,
-    expected: Floats,
-    mean_size: tuple[Floats, Flags],
-    pieces: tuple[float, float, float, float],
+    body: tuple[Floats, Floats, Flags],
+    limits: tuple[float, float, float, float],
 ) -> tuple[Floats, Flags, Floats, Floats]:
     """The baseline: all objects in the region at once, cut at most at the bottom, without checks."""
-    (size, _), (region, inside, _, reach) = mean_size, pieces
+    measured, cut, columns, rows = objects
+    (expected, size, _), (region, inside, _, reach) = body, limits
     centers, extents, z = measured[:, :2], measured[:, 3:5], measured[:, 2]
     low = np.maximum(centers - extents / 2, expected[:2] - region * expected[3:] / 2)
     high = np.minimum(centers + extents / 2, expected[:2] + region * expected[3:] / 2)

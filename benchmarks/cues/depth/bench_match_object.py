@@ -16,40 +16,34 @@ COUNT, BINS = 8, 16
 random = np.random.default_rng(3)
 TARGET = np.array([0.2, -0.1, 3.0, 0.6, 1.7])
 STATES = TARGET + random.normal(0, [0.3, 0.1, 0.2, 0.1, 0.2], (COUNT, 5))
-ARGUMENTS = (
+OBJECTS = (
     np.column_stack([STATES, random.normal(0, 0.1, (COUNT, 2)), np.ones(COUNT)]),
     random.random((COUNT, 4)) < 0.1,
     random.dirichlet(np.ones(BINS), COUNT).astype(np.float32),
     random.dirichlet(np.ones(BINS), COUNT).astype(np.float32),
+)
+ARGUMENTS = (
+    OBJECTS,
     np.empty(0),
-    TARGET,
-    (TARGET[3:].copy(), np.array([True, True])),
+    (TARGET, TARGET[3:].copy(), np.array([True, True])),
     np.append(np.full(2 * BINS, 1 / BINS), [0.0, 0.0]),
-    (0.2, 0.4, 0.2, 0.2, 0.05),
-    (0.5, 0.3),
-    3.0,
-    (8.0, 0.2),
+    ((0.2, 0.4, 0.2, 0.2, 0.05), (0.5, 0.3), 3.0, 8.0, 0.2),
     True,
 )
 
 
 def script(
-    measured: Floats,
-    cut: Flags,
-    columns: Shares,
-    rows: Shares,
+    objects: tuple[Floats, Flags, Shares, Shares],
     _: Floats,
-    expected: Floats,
-    mean_size: tuple[Floats, Flags],
+    body: tuple[Floats, Floats, Flags],
     signature: Floats,
-    deviation: tuple[float, ...],
-    __: Any,
-    signature_cost: float,
-    gate: tuple[float, float],
-    ___: bool,
+    costs: tuple[tuple[float, ...], Any, float, float, float],
+    __: bool,
 ) -> int:
     """The baseline: all objects at once, for a target of known size; arguments aren't checked."""
-    states, size = measured[:, :5].copy(), mean_size[0]
+    measured, cut, columns, rows = objects
+    (expected, size, _), (deviation, _, signature_cost, max_cost, min_area) = body, costs
+    states = measured[:, :5].copy()
     half = (size - states[:, 3:]) / 2
     before, after = cut[:, ::2] & (half > 0), cut[:, 1::2] & (half > 0)
     low, high = states[:, :2] - half, states[:, :2] + half
@@ -59,9 +53,9 @@ def script(
     off = (states - expected) / np.array([*deviation[:3], *(deviation[3] * size + deviation[4])])
     unlike = np.abs(np.hstack([columns, rows]) - signature[:-2]).sum(axis=1) / 4
     cost = (off**2).sum(axis=1) / 2 + signature_cost * unlike * ~cut.any(axis=1)
-    cost[measured[:, 3] * measured[:, 4] < gate[1]] = np.inf
+    cost[measured[:, 3] * measured[:, 4] < min_area] = np.inf
     best = int(cost.argmin())
-    return best if cost[best] < gate[0] else -1
+    return best if cost[best] < max_cost else -1
 
 
 @pytest.mark.benchmark(group="match_object")

@@ -18,9 +18,10 @@ PLANE, MEASURED = np.array([0.0, -1.0, 0.0, 1.0]), (0, 0, 176, 144)
 
 
 def script(
-    depth: Depth, before: Depth, noise: tuple[float, float], _: Any, camera: Floats, plane: Floats, *__: Any
+    depth: Depth, searched: tuple[Any, Depth, float, float], camera: Floats, plane: Floats, *__: Any
 ) -> tuple[Floats, NDArray[np.bool_], Depth, Depth]:
     """The baseline: a call for each stage, and NumPy between them."""
+    _, before, *noise = searched
     distance = _core.ground_distance(depth, camera, plane[:3], NEAR, FAR)
     mask = (_core.depth_edges(distance, *EDGES) ^ np.uint8(1)) & _core.changed_depth(depth, before, *noise)
     density = _core.depth_density(_core.depth_histogram(distance, mask, NEAR, FAR, LEVELS), DENSITY[0])
@@ -45,10 +46,9 @@ def bench_segment_depth(
     """All find the same objects."""
     above = _core.above_floor(room, camera, PLANE, NEAR, FAR, 0.12)
     before = np.full_like(room, np.nan)
-    searched = before, (0.02, 0.005), MEASURED
-    stages = (NEAR, FAR, LEVELS), EDGES, DENSITY, 8, CUT, FEET
-    found = benchmark(segment_depth, above, *searched, camera, PLANE, MEASURED, *stages)
-    expected = reference.segment_depth(above, *searched, camera, PLANE, MEASURED, *stages)
+    searched, divisions = (MEASURED, before, 0.02, 0.005), ((NEAR, FAR, LEVELS), *EDGES, *DENSITY, 8)
+    arguments = above, searched, camera, PLANE, MEASURED, divisions, CUT, FEET
+    found, expected = benchmark(segment_depth, *arguments), reference.segment_depth(*arguments)
     assert_allclose(found[0], expected[0], rtol=1e-9, atol=1e-9)
     for one, other in zip(found[1:], expected[1:], strict=True):
         assert_array_equal(one, other)

@@ -107,11 +107,9 @@ void require_arguments(const ObjectFeatures& objects, int index, const ExpectedB
         for (const Index number : {2, 3, 4, 7})
             if (!(objects.measured(i, number) > 0.0))
                 refuse("measured", "depths, sizes and areas above 0", objects.measured(i, number));
-    require_size(expected.state, 5, "expected");
-    require_finite(expected.state, "expected");
-    require_size_above_0(expected.size);
+    require_expected(expected);
     for (const double limit : {limits.region, limits.inside, limits.joined, limits.depth})
-        if (std::isnan(limit)) refuse("pieces", "numbers", limit);
+        if (std::isnan(limit)) refuse("limits", "numbers", limit);
 }
 
 }  // namespace
@@ -122,8 +120,9 @@ Body complete_body(const ObjectFeatures& objects, int index, const ExpectedBody&
     const JoinedObjects found = join_pieces(objects, index, expected, limits);
     const Index bins = objects.columns.cols();
     Body body{Vector(5), Flags(2, 1), expected.size, Vector(2 * bins + 2)};
-    if (!expected.width_known) body.size[0] = std::max(body.size[0], objects.measured(index, 3));
-    if (!expected.height_known) body.size[1] = std::max(body.size[1], objects.measured(index, 4));
+    for (Index axis = 0; axis < 2; ++axis)
+        if (!expected.known[static_cast<std::size_t>(axis)])
+            body.size[axis] = std::max(body.size[axis], objects.measured(index, 3 + axis));
     const RectangleState state = complete_rectangle(found.state, found.cut.data(), expected.state, body.size);
     std::copy(state.begin(), state.end(), body.state.data());
     body.whole << !(found.cut[0] || found.cut[1]), !(found.cut[2] || found.cut[3]);

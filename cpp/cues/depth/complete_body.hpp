@@ -6,15 +6,14 @@
 
 namespace tricue {
 
-/// The expected body, and whether its width and height are known.
-struct ExpectedBody {
-    VectorRef state, size;
-    bool width_known, height_known;
-};
-
 /// The conditions for an object to be a piece of a body.
 struct PieceLimits {
-    double region, inside, joined, depth;
+    double
+        region;  ///< size of the region in which it lies, over that of the expected rectangle, around which it is
+    double inside;  ///< a piece has more than this share of its area in that region
+    double
+        joined;  ///< a joined body is at most this many times the mean size, or the size before if that is larger
+    double depth;  ///< a piece's depth differs by less than this from the object's, meters
 };
 
 /// A body in meters.
@@ -34,18 +33,8 @@ struct Body {
 /// camera sees them, at the object's depth; it is cut where one of them is. It is extended to the mean size beyond the sides that
 /// are cut; between two opposite ones it is as near to the expected center as its visible part allows.
 ///
-/// @param measured float64 (C, 8), as measure_objects gives it, finite, depths, sizes and areas above 0
-/// @param cut bool (C, 4): whether each may continue at the left, right, top, bottom
-/// @param columns float32 (C, bins), as depth_components gives them
-/// @param rows as columns
 /// @param index of the object, in [0, C)
-/// @param expected float64 (5,): X, Y, Z, W, H, meters, finite
-/// @param mean_size (size, known): float64 (2,), running means of the body's width and height, meters, finite, above 0; bool (2,):
-///     whether each was ever visible as a whole; else it is a lower bound
-/// @param pieces (region, inside, joined, depth): the region's size over that of the expected rectangle, around which it lies; a
-///     piece has more than this share of its area inside; a joined body is at most this many times the mean size, or the size
-///     before if that is larger; a piece's depth differs by less than this from the object's, meters; none NaN
-/// @throws std::invalid_argument on other shapes or values
+/// @throws std::invalid_argument on other shapes or values, NaN limits, or depths, sizes or areas that aren't above 0
 /// Source: ours.
 Body complete_body(const ObjectFeatures& objects, int index, const ExpectedBody& expected,
                    const PieceLimits& limits);

@@ -23,11 +23,10 @@ double signature_distance(const ObjectFeatures& objects, Index index, VectorRef 
 
 class Matcher {
 public:
-    Matcher(const ExpectedTarget& expected, const MatchCosts& by)
-        : expected_(expected),
-          by_(by),
-          deviation_{by.x, by.y, by.z, by.share * expected.size[0] + by.base,
-                     by.share * expected.size[1] + by.base} {}
+    Matcher(const ExpectedBody& expected, const MatchCosts& by) : expected_(expected), by_(by) {
+        const auto& [x, y, z, share, base] = by.deviation;
+        deviation_ = {x, y, z, share * expected.size[0] + base, share * expected.size[1] + base};
+    }
 
     /// The cost of the distance along the camera's axis alone, which rules out most objects.
     double depth_cost(const RectangleState& state) const {
@@ -39,8 +38,8 @@ public:
         RectangleState off;
         for (std::size_t i = 0; i < off.size(); ++i)
             off[i] = (state[i] - expected_.state[static_cast<Index>(i)]) / deviation_[i];
-        if (!expected_.width_known) weigh_unknown(off[0], off[3]);
-        if (!expected_.height_known) weigh_unknown(off[1], off[4]);
+        if (!expected_.known[0]) weigh_unknown(off[0], off[3]);
+        if (!expected_.known[1]) weigh_unknown(off[1], off[4]);
         double sum = 0.0;
         for (const double each : off) sum += each * each;
         return sum / 2;
@@ -48,53 +47,52 @@ public:
 
 private:
     void weigh_unknown(double& position, double& size) const {
-        position *= by_.center;
-        if (size > 0.0) size *= by_.larger;
+        position *= by_.unknown.center;
+        if (size > 0.0) size *= by_.unknown.larger;
     }
 
-    const ExpectedTarget& expected_;
+    const ExpectedBody& expected_;
     const MatchCosts& by_;
     RectangleState deviation_;
 };
 
-void require_arguments(const ObjectFeatures& objects, VectorRef others, const ExpectedTarget& expected,
-                       const MatchCosts& costs) {
+void require_arguments(const ObjectFeatures& objects, VectorRef others, const ExpectedBody& expected,
+                       VectorRef signature, const MatchCosts& costs) {
     require_objects(objects);
     if (others.size() > 0) require_size(others, objects.measured.rows(), "others");
-    require_size(expected.state, 5, "expected");
-    require_finite(expected.state, "expected");
-    require_size_above_0(expected.size);
-    require_size(expected.signature, 2 * objects.columns.cols() + 2, "signature");
-    for (const auto& [value, name] :
-         {std::pair{costs.x, "x"}, std::pair{costs.y, "y"}, std::pair{costs.z, "z"}})
+    require_expected(expected);
+    require_size(signature, 2 * objects.columns.cols() + 2, "signature");
+    const auto& [x, y, z, share, base] = costs.deviation;
+    for (const auto& [value, name] : {std::pair{x, "x"}, std::pair{y, "y"}, std::pair{z, "z"}})
         require_positive(value, name);
-    for (const auto& [value, name] : {std::pair{costs.share, "share"}, std::pair{costs.base, "base"}})
+    for (const auto& [value, name] : {std::pair{share, "share"}, std::pair{base, "base"}})
         require_not_negative(value, name);
-    if (!(costs.share + costs.base > 0.0)) refuse("base", "a number above 0 where share is 0", costs.base);
-    for (const auto& [value, name] : {std::pair{costs.center, "center"}, std::pair{costs.larger, "larger"},
-                                      std::pair{costs.signature, "signature_cost"}})
+    if (!(share + base > 0.0)) refuse("base", "a number above 0 where share is 0", base);
+    for (const auto& [value, name] :
+         {std::pair{costs.unknown.center, "center"}, std::pair{costs.unknown.larger, "larger"},
+          std::pair{costs.signature_cost, "signature_cost"}})
         if (!std::isfinite(value)) refuse(name, "a finite number", value);
 }
 
 }  // namespace
 
-int match_object(const ObjectFeatures& objects, VectorRef others, const ExpectedTarget& expected,
-                 const MatchCosts& costs, bool complete) {
-    require_arguments(objects, others, expected, costs);
+int match_object(const ObjectFeatures& objects, VectorRef others, const ExpectedBody& expected,
+                 VectorRef signature, const MatchCosts& costs, bool complete) {
+    require_arguments(objects, others, expected, signature, costs);
     const Matcher matcher(expected, costs);
     Index best = -1;
     double least = costs.max_cost;
     for (Index i = 0; i < objects.measured.rows(); ++i) {
         const RectangleState state = rectangle_of(objects, i);
         const double on_top = others.size() > 0 ? others[i] : 0.0;
-        const bool adds = on_top >= 0.0 && costs.signature >= 0.0;  // else a part may cost more than all
+        const bool adds = on_top >= 0.0 && costs.signature_cost >= 0.0;  // else a part may cost more than all
         if ((adds && matcher.depth_cost(state) >= least) || state[3] * state[4] < costs.min_area) continue;
         const bool* cut = objects.cut.row(i).data();
         double cost =
             matcher.cost(complete ? complete_rectangle(state, cut, expected.state, expected.size) : state);
         if (adds && cost >= least) continue;
         if (std::none_of(cut, cut + 4, [](bool each) { return each; }))
-            cost += costs.signature * signature_distance(objects, i, expected.signature);
+            cost += costs.signature_cost * signature_distance(objects, i, signature);
         cost += on_top;
         if (cost < least) {
             least = cost;

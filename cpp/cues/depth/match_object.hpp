@@ -6,19 +6,25 @@
 
 namespace tricue {
 
-/// The target that is expected among objects.
-struct ExpectedTarget {
-    VectorRef state, size;
-    bool width_known, height_known;
-    VectorRef signature;
+/// The standard deviations of the target's object from the expected state.
+struct MatchDeviation {
+    double x, y, z;      ///< standard deviations of the position, meters, above 0
+    double share, base;  ///< that of a size is share x size + base, meters; neither negative, and not both 0
+};
+
+/// The weights along an axis on which the size isn't known.
+struct UnknownWeights {
+    double center;  ///< weight of the position along an axis on which the size isn't known, finite
+    double larger;  ///< weight of a size there that exceeds the mean, finite
 };
 
 /// The costs that tell the target from other objects.
 struct MatchCosts {
-    double x, y, z, share, base;
-    double center, larger;
-    double signature;
-    double max_cost, min_area;
+    MatchDeviation deviation;
+    UnknownWeights unknown;
+    double signature_cost;  ///< of distributions that have nothing in common, nats, finite
+    double max_cost;        ///< the target's cost is below this, nats
+    double min_area;        ///< the target's visible part has at least this area, m²
 };
 
 /// Which of C objects is the target: the one of least cost, by position, size and shape.
@@ -29,26 +35,13 @@ struct MatchCosts {
 /// object that is cut is extended to the mean size beyond the sides that are cut; between two opposite ones it is as near to the
 /// expected center as its visible part allows.
 ///
-/// @param measured float64 (C, 8), as measure_objects gives it, finite
-/// @param cut bool (C, 4): whether each may continue at the left, right, top, bottom
-/// @param columns float32 (C, bins), as depth_components gives them
-/// @param rows as columns
 /// @param others float64 (C,): nats that are added to each object's cost; (0,) for none
-/// @param expected float64 (5,): X, Y, Z, W, H, meters, finite
-/// @param mean_size (size, known): float64 (2,), running means of the target's width and height, meters, finite, above 0; bool (2,):
-///     whether each was ever visible as a whole
 /// @param signature float64 (2 bins + 2,): the target's columns and rows, and two numbers that aren't read
-/// @param deviation (x, y, z, share, base): standard deviations of the position, meters, above 0; and of a size, share x size + base,
-///     neither negative and not both 0
-/// @param unknown (center, larger): weights along an axis on which the size isn't known, finite: of the position, and of a size that
-///     exceeds the mean
-/// @param signature_cost nats, finite
-/// @param gate (max_cost, min_area): the target's cost is below this, nats; its visible part has at least this area, m²
 /// @param complete whether objects count as completed where they are cut
 /// @returns int: the number of the object, the first of equal ones; -1 where none is the target
 /// @throws std::invalid_argument on other shapes or values
 /// Source: Sabeti, Parvizi, Wu 2008, section IV.A, for the features that tell objects apart; the cost is ours.
-int match_object(const ObjectFeatures& objects, VectorRef others, const ExpectedTarget& expected,
-                 const MatchCosts& costs, bool complete);
+int match_object(const ObjectFeatures& objects, VectorRef others, const ExpectedBody& expected,
+                 VectorRef signature, const MatchCosts& costs, bool complete);
 
 }  // namespace tricue

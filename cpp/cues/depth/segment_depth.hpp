@@ -11,16 +11,19 @@ namespace tricue {
 
 /// Where objects are looked for: in a region, except where depth hasn't changed.
 struct SearchedPixels {
-    Region region;
-    DepthView before;
-    double noise, noise_slope;  ///< as in changed_depth
+    Region region;  ///< (x0, y0, x1, y1), pixels: [x0, x1) x [y0, y1), which may extend beyond the image
+    DepthView
+        before;  ///< float32 (H, W), meters: no object is looked for where changed_depth gives 0; (0, 0) for none
+    double noise, noise_slope;  ///< as noise and slope in changed_depth
 };
 
 /// Where one object ends and another begins; each as in the kernels that segment_depth calls.
 struct Divisions {
-    DepthLevels levels;
-    double gap, slope, bandwidth, prominence;
-    int min_area;
+    DepthLevels levels;  ///< (near, far, count), as in depth_histogram
+    double gap, slope;   ///< as in depth_edges
+    double bandwidth;    ///< of depth_density, levels
+    double prominence;   ///< of density_extrema, as a share of the greatest density
+    int min_area;        ///< pixels, as in depth_components
 };
 
 /// C objects, the largest first.
@@ -38,17 +41,9 @@ struct DepthObjects {
 /// pixels from the edge of the measured rectangle.
 ///
 /// @param depth float32 (H, W), meters, NaN in the background; else in the range of `levels`
-/// @param before float32 (H, W), meters: no object is looked for where changed_depth gives 0; (0, 0) for none
-/// @param noise (noise, slope), as in changed_depth
-/// @param region (x0, y0, x1, y1), pixels: objects are looked for in [x0, x1) x [y0, y1), which may extend beyond the image
 /// @param camera float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
 /// @param plane float64 (4,): nx, ny, nz, d of the floor, meters; zeros where none is known
 /// @param measured (x0, y0, x1, y1), pixels: outside of it nothing was measured
-/// @param levels (near, far, count), as in depth_histogram
-/// @param edges (gap, slope), as in depth_edges
-/// @param density (bandwidth, prominence): of depth_density, levels, and of density_extrema, as a share of the greatest density
-/// @param min_area as in depth_components
-/// @param cut (border, beside, occluder_margin, share), as in cut_sides
 /// @param feet as in measure_objects
 /// @throws std::invalid_argument as those kernels
 /// Source: Sabeti, Parvizi, Wu 2008, equations (32)-(36), section IV.A; edges, floor and cuts are ours.

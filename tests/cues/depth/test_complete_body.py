@@ -14,8 +14,11 @@ from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
+from tests.kernel_arguments import with_parts
+
 Floats = NDArray[np.float64]
 Case = dict[str, Any]
+PARTS = {"objects": ("measured", "cut", "columns", "rows"), "expected": ("state", "size", "known")}
 EXPECTED = np.array([0.0, 0.0, 3.0, 0.6, 1.8])
 BODY, LEG = [0.0, -0.3, 3.0, 0.6, 1.2], [0.1, 0.6, 3.2, 0.2, 0.5]
 BINS = 4
@@ -26,16 +29,17 @@ def case(states: Any, **changes: Any) -> Case:
     five = np.array(states, np.float64).reshape(-1, 5)
     even = np.full((len(five), BINS), 1 / BINS, np.float32)
     usual: Case = {
-        "measured": np.column_stack([five, np.zeros((len(five), 2)), five[:, 3] * five[:, 4]]),
-        "cut": np.zeros((len(five), 4), np.bool_),
-        "columns": even,
-        "rows": even.copy(),
+        "objects": (
+            np.column_stack([five, np.zeros((len(five), 2)), five[:, 3] * five[:, 4]]),
+            np.zeros((len(five), 4), np.bool_),
+            even,
+            even.copy(),
+        ),
         "index": 0,
-        "expected": EXPECTED,
-        "mean_size": (EXPECTED[3:].copy(), np.array([True, True])),
-        "pieces": (1.3, 0.8, 1.15, 0.4),
+        "expected": (EXPECTED, EXPECTED[3:].copy(), np.array([True, True])),
+        "limits": (1.3, 0.8, 1.15, 0.4),
     }
-    return usual | changes
+    return with_parts(usual, PARTS, changes)
 
 
 def random_case(seed: int) -> Case:
@@ -49,10 +53,11 @@ def random_case(seed: int) -> Case:
         cut=rng.random((count, 4)) < 0.2,
         columns=rng.dirichlet(np.ones(BINS), count).astype(np.float32),
         index=int(rng.integers(count)),
-        mean_size=(EXPECTED[3:] * rng.uniform(0.7, 1.3, 2), rng.random(2) < 0.5),
-        pieces=(float(rng.uniform(1, 2)), float(rng.uniform(0.3, 1)), 1.15, float(rng.uniform(0, 1))),
+        size=EXPECTED[3:] * rng.uniform(0.7, 1.3, 2),
+        known=rng.random(2) < 0.5,
+        limits=(float(rng.uniform(1, 2)), float(rng.uniform(0.3, 1)), 1.15, float(rng.uniform(0, 1))),
     )
-    values["measured"][:, 5:7] = rng.normal(0, 0.1, (count, 2))
+    values["objects"][0][:, 5:7] = rng.normal(0, 0.1, (count, 2))
     return values
 
 
@@ -73,7 +78,7 @@ def test_those_cases_have_pieces() -> None:
     """In some of these cases pieces are joined, and in some a body is completed."""
     cases = [random_case(seed) for seed in range(40)]
     bodies = [_core.complete_body(**each) for each in cases]
-    own = [each["measured"][each["index"]] for each in cases]
+    own = [each["objects"][0][each["index"]] for each in cases]
     assert any((body[3][-2:] != each[5:7]).any() for body, each in zip(bodies, own, strict=True))
     assert any(not body[1].all() for body in bodies)
 
@@ -108,10 +113,10 @@ def test_what_is_cut_grows_there(kernels: Kernels, side: int) -> None:
 
 def test_a_lower_bound_grows(kernels: Kernels) -> None:
     """A size that isn't known is at least that of the object, and what is cut is completed to it."""
-    narrow = (np.array([0.3, 1.8]), np.array([False, True]))
-    _, _, size, _ = kernels.complete_body(**case([BODY], mean_size=narrow))
+    narrow, known = np.array([0.3, 1.8]), np.array([False, True])
+    _, _, size, _ = kernels.complete_body(**case([BODY], size=narrow, known=known))
     assert_array_equal(size, [0.6, 1.8])
-    _, _, size, _ = kernels.complete_body(**case([BODY], mean_size=(narrow[0], np.array([True, True]))))
+    _, _, size, _ = kernels.complete_body(**case([BODY], size=narrow))
     assert_array_equal(size, [0.3, 1.8])
 
 
@@ -121,12 +126,9 @@ BAD: list[tuple[Case, str]] = [
     ({"cut": np.zeros((2, 4), np.bool_)}, "cut: expected 1 rows, got 2"),
     ({"index": 1}, r"index: expected a number in \[0, 1\), got 1"),
     ({"index": -1}, r"index: expected a number in \[0, 1\), got -1"),
-    ({"pieces": (np.nan, 0.8, 1.15, 0.4)}, "pieces: expected numbers, got nan"),
-    ({"expected": np.ones(4)}, r"expected: expected shape \(5,\), got \(4,\)"),
-    (
-        {"mean_size": (np.array([-1.0, 1.0]), np.array([True, True]))},
-        "size: expected numbers above 0, got -1",
-    ),
+    ({"limits": (np.nan, 0.8, 1.15, 0.4)}, "limits: expected numbers, got nan"),
+    ({"state": np.ones(4)}, r"state: expected shape \(5,\), got \(4,\)"),
+    ({"size": np.array([-1.0, 1.0])}, "size: expected numbers above 0, got -1"),
 ]
 
 
@@ -134,10 +136,10 @@ BAD: list[tuple[Case, str]] = [
 def test_refuses(kernels: Kernels, changes: Case, message: str) -> None:
     """What it can't work with is named."""
     with pytest.raises(ValueError, match=message):
-        kernels.complete_body(**case([BODY]) | changes)
+        kernels.complete_body(**case([BODY], **changes))
 
 
 def test_native_refuses_other_arrays() -> None:
     """Another type is named, not converted."""
     with pytest.raises(TypeError, match="measured: expected float64"):
-        _core.complete_body(**case([BODY]) | {"measured": np.ones((1, 8), np.float32)})
+        _core.complete_body(**case([BODY], measured=np.ones((1, 8), np.float32)))

@@ -14,8 +14,15 @@ from scipy.spatial.distance import mahalanobis
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
+from tests.kernel_arguments import with_parts
+
 Floats = NDArray[np.float64]
 Case = dict[str, Any]
+PARTS = {
+    "objects": ("measured", "cut", "columns", "rows"),
+    "expected": ("state", "size", "known"),
+    "costs": ("deviation", "unknown", "signature_cost", "max_cost", "min_area"),
+}
 TARGET = np.array([0.2, -0.1, 3.0, 0.6, 1.7])
 DEVIATION = np.array([0.2, 0.4, 0.2, 0.2 * 0.6 + 0.05, 0.2 * 1.7 + 0.05])
 BINS = 4
@@ -27,21 +34,19 @@ def case(states: Floats, **changes: Any) -> Case:
     count = len(states)
     even = np.full((count, BINS), 1 / BINS, np.float32)
     usual: Case = {
-        "measured": np.column_stack([states, np.zeros((count, 2)), np.ones(count)]),
-        "cut": np.zeros((count, 4), np.bool_),
-        "columns": even,
-        "rows": even.copy(),
+        "objects": (
+            np.column_stack([states, np.zeros((count, 2)), np.ones(count)]),
+            np.zeros((count, 4), np.bool_),
+            even,
+            even.copy(),
+        ),
         "others": np.empty(0),
-        "expected": TARGET,
-        "mean_size": (TARGET[3:].copy(), np.array([True, True])),
+        "expected": (TARGET, TARGET[3:].copy(), np.array([True, True])),
         "signature": np.append(np.full(2 * BINS, 1 / BINS), [0.0, 0.0]),
-        "deviation": (0.2, 0.4, 0.2, 0.2, 0.05),
-        "unknown": (0.5, 0.3),
-        "signature_cost": 3.0,
-        "gate": (8.0, 0.2),
+        "costs": ((0.2, 0.4, 0.2, 0.2, 0.05), (0.5, 0.3), 3.0, 8.0, 0.2),
         "complete": True,
     }
-    return usual | changes
+    return with_parts(usual, PARTS, changes)
 
 
 def random_case(seed: int) -> Case:
@@ -56,8 +61,10 @@ def random_case(seed: int) -> Case:
         columns=rng.dirichlet(np.ones(BINS), count).astype(np.float32).reshape(count, BINS),
         rows=rng.dirichlet(np.ones(BINS), count).astype(np.float32).reshape(count, BINS),
         others=rng.choice([0.0, 0.5, np.inf], count) if seed % 2 else np.empty(0),
-        mean_size=(rng.uniform(0.3, 2, 2), rng.random(2) < 0.5),
-        gate=(float(rng.choice([1.0, 8.0, np.inf])), float(rng.choice([0.0, 0.5]))),
+        size=rng.uniform(0.3, 2, 2),
+        known=rng.random(2) < 0.5,
+        max_cost=float(rng.choice([1.0, 8.0, np.inf])),
+        min_area=float(rng.choice([0.0, 0.5])),
         complete=bool(rng.random() < 0.7),
     )
 
@@ -84,28 +91,27 @@ def test_agrees_with_scipy(kernels: Kernels) -> None:
         states = TARGET + rng.normal(0, 0.15, (9, 5))
         distances = np.array([mahalanobis(each, TARGET, inverse) for each in states])
         best, least = int(distances.argmin()), float(distances.min()) ** 2 / 2
-        assert kernels.match_object(**case(states, gate=(FAR_APART, 0.0))) == best
-        assert kernels.match_object(**case(states, gate=(least * (1 + 1e-9), 0.0))) == best
-        assert kernels.match_object(**case(states, gate=(least * (1 - 1e-9), 0.0))) == -1
+        assert kernels.match_object(**case(states, max_cost=FAR_APART, min_area=0.0)) == best
+        assert kernels.match_object(**case(states, max_cost=least * (1 + 1e-9), min_area=0.0)) == best
+        assert kernels.match_object(**case(states, max_cost=least * (1 - 1e-9), min_area=0.0)) == -1
 
 
 def test_another_distribution_costs_more(kernels: Kernels) -> None:
     """Half of the columns elsewhere are a quarter of the greatest distance, and cost as much; of what is cut
     none of it counts.
     """
-    values = case(TARGET[None])
-    values["columns"] = np.array([[0.5, 0.5, 0, 0]], np.float32)
+    changes: Case = {"columns": np.array([[0.5, 0.5, 0, 0]], np.float32), "min_area": 0.0}
     for limit, index in ((3.0 / 4 * (1 + 1e-9), 0), (3.0 / 4, -1)):
-        assert kernels.match_object(**values | {"gate": (limit, 0.0)}) == index
+        assert kernels.match_object(**case(TARGET[None], **changes, max_cost=limit)) == index
     cut = np.array([[False, False, False, True]])
-    assert kernels.match_object(**values | {"gate": (1e-9, 0.0), "cut": cut}) == 0
+    assert kernels.match_object(**case(TARGET[None], **changes, max_cost=1e-9, cut=cut)) == 0
 
 
 @pytest.mark.parametrize("changes", [{"others": np.array([0.0, -99.0])}, {"signature_cost": -99.0}])
 def test_less_on_top_counts_too(kernels: Kernels, changes: Case) -> None:
     """An object that is too far away is the target if what is added to its cost is negative enough."""
-    values = case(np.array([TARGET, TARGET + [0, 0, 1, 0, 0]]), **changes)
-    values["columns"][1] = [1, 0, 0, 0]
+    columns = np.array([[0.25, 0.25, 0.25, 0.25], [1, 0, 0, 0]], np.float32)
+    values = case(np.array([TARGET, TARGET + [0, 0, 1, 0, 0]]), columns=columns, **changes)
     assert kernels.match_object(**values) == 1
 
 
@@ -123,10 +129,10 @@ BAD: list[tuple[Case, str]] = [
     ({"rows": np.ones((2, BINS), np.float32)}, "rows: expected 1 rows, got 2"),
     ({"rows": np.ones((1, 3), np.float32)}, "rows: expected 4 bins, got 3"),
     ({"others": np.ones(2)}, r"others: expected shape \(1,\), got \(2,\)"),
-    ({"expected": np.ones(4)}, r"expected: expected shape \(5,\), got \(4,\)"),
-    ({"expected": np.full(5, np.inf)}, "expected: expected finite numbers, got inf"),
-    ({"mean_size": (np.ones(3), np.array([True, True]))}, r"size: expected shape \(2,\), got \(3,\)"),
-    ({"mean_size": (np.array([1.0, 0.0]), np.array([True, True]))}, "size: expected numbers above 0, got 0"),
+    ({"state": np.ones(4)}, r"state: expected shape \(5,\), got \(4,\)"),
+    ({"state": np.full(5, np.inf)}, "state: expected finite numbers, got inf"),
+    ({"size": np.ones(3)}, r"size: expected shape \(2,\), got \(3,\)"),
+    ({"size": np.array([1.0, 0.0])}, "size: expected numbers above 0, got 0"),
     ({"signature": np.ones(9)}, r"signature: expected shape \(10,\), got \(9,\)"),
     ({"deviation": (0.0, 1.0, 1.0, 1.0, 1.0)}, "x: expected a finite number above 0, got 0"),
     ({"deviation": (1.0, 1.0, np.nan, 1.0, 1.0)}, "z: expected a finite number above 0, got nan"),
@@ -142,15 +148,19 @@ BAD: list[tuple[Case, str]] = [
 def test_refuses(kernels: Kernels, changes: Case, message: str) -> None:
     """What it can't work with is named."""
     with pytest.raises(ValueError, match=message):
-        kernels.match_object(**case(TARGET[None]) | changes)
+        kernels.match_object(**case(TARGET[None], **changes))
 
 
 WRONG: list[tuple[Case, type[Exception], str]] = [
     ({"measured": np.ones((1, 8), np.float32)}, TypeError, "measured: expected float64"),
     ({"cut": np.zeros((1, 4))}, TypeError, "cut: expected bool"),
     ({"columns": np.ones((1, BINS))}, TypeError, "columns: expected float32"),
-    ({"mean_size": (np.ones(2), np.ones(2))}, TypeError, r"known: expected bool \(2,\)"),
-    ({"mean_size": (np.ones(2), np.ones(3, np.bool_))}, ValueError, r"known: expected bool \(2,\)"),
+    ({"known": np.ones(2)}, TypeError, r"known: expected bool \(2,\)"),
+    ({"known": np.ones(3, np.bool_)}, ValueError, r"known: expected bool \(2,\)"),
+    ({"objects": (np.ones((1, 8)),)}, ValueError, "objects: expected a tuple of 4, got one of 1"),
+    ({"unknown": 1.0}, TypeError, "costs: expected a tuple in it, got float"),
+    ({"deviation": (1.0,) * 4}, ValueError, "deviation: expected a tuple of 5, got one of 4"),
+    ({"max_cost": None}, TypeError, "costs: expected a number in it, got NoneType"),
 ]
 
 
@@ -158,4 +168,4 @@ WRONG: list[tuple[Case, type[Exception], str]] = [
 def test_native_refuses_other_arrays(changes: Case, error: type[Exception], message: str) -> None:
     """Another type is named, not converted."""
     with pytest.raises(error, match=message):
-        _core.match_object(**case(TARGET[None]) | changes)
+        _core.match_object(**case(TARGET[None], **changes))

@@ -13,33 +13,34 @@ from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
+from tests.kernel_arguments import with_parts
+
 Depth = NDArray[np.float32]
 Floats = NDArray[np.float64]
+PARTS = {
+    "searched": ("region", "before", "noise", "noise_slope"),
+    "divisions": ("levels", "gap", "slope", "bandwidth", "prominence", "min_area"),
+}
 NEAR, FAR, LEVELS = 0.3, 8.0, 256
 NOTHING = np.empty((0, 0), np.float32)
 NO_FLOOR = np.zeros(4)
 LEVEL_FLOOR = np.array([0.0, -1.0, 0.0, 1.3])
 
 
-def arguments(depth: Depth, camera: Floats, **changes: Any) -> dict[str, Any]:
+def arguments(depth: Depth, camera: Floats, /, **changes: Any) -> dict[str, Any]:
     """What the trackers pass, with some of it changed."""
     height, width = depth.shape
     usual: dict[str, Any] = {
         "depth": depth,
-        "before": NOTHING,
-        "noise": (0.02, 0.005),
-        "region": (0, 0, width, height),
+        "searched": ((0, 0, width, height), NOTHING, 0.02, 0.005),
         "camera": camera,
         "plane": NO_FLOOR,
         "measured": (0, 0, width, height),
-        "levels": (NEAR, FAR, LEVELS),
-        "edges": (0.06, 0.01),
-        "density": (4.0, 0.05),
-        "min_area": 8,
+        "divisions": ((NEAR, FAR, LEVELS), 0.06, 0.01, 4.0, 0.05, 8),
         "cut": (2, 0.08, 0.3, 0.15),
         "feet": 0.35,
     }
-    return usual | changes
+    return with_parts(usual, PARTS, changes)
 
 
 def foreground(depth: Depth) -> Depth:
@@ -113,7 +114,7 @@ def test_twin_finds_the_same_beyond_the_range() -> None:
     """Depths out of the range belong to nothing, also where they touch what is in it."""
     depth = np.random.default_rng(0).uniform(1, 12, (40, 150)).astype(np.float32)
     depth[10:20, 30:90] = 4.0
-    smooth = {"edges": (1e6, 0.0), "min_area": 2, "plane": NO_FLOOR}
+    smooth = {"gap": 1e6, "slope": 0.0, "min_area": 2, "plane": NO_FLOOR}
     assert assert_same(arguments(depth, LENS, **smooth)) > 1
 
 
@@ -149,8 +150,9 @@ def test_an_edge_separates(kernels: Kernels) -> None:
     that belong to neither; without edges both are one.
     """
     depth = drawn(((20, 20, 80, 80), 3.0), ((40, 40, 20, 30), 2.7))
-    separate = kernels.segment_depth(**arguments(depth, LENS, density=(128.0, 1.0)))[0]
-    together = kernels.segment_depth(**arguments(depth, LENS, density=(128.0, 1.0), edges=(1e6, 0.0)))[0]
+    one_division = {"bandwidth": 128.0, "prominence": 1.0}
+    separate = kernels.segment_depth(**arguments(depth, LENS, **one_division))[0]
+    together = kernels.segment_depth(**arguments(depth, LENS, **one_division, gap=1e6, slope=0.0))[0]
     assert (len(separate), len(together)) == (2, 1)
     ring = 22 * 32 - 20 * 30
     assert_allclose(separate[0, 7], (80 * 80 - 20 * 30 - ring) * (3.0 / 140) ** 2, rtol=1e-12)
@@ -170,7 +172,7 @@ def test_what_was_there_before_is_left_out(kernels: Kernels) -> None:
     before = drawn(TWO[1]) + np.float32(0.03)
     measured, *_ = kernels.segment_depth(**arguments(drawn(*TWO), LENS, before=before))
     assert_allclose(measured[:, 2], [2.0], rtol=1e-12)
-    strict = arguments(drawn(*TWO), LENS, before=before, noise=(0.02, 0.0))
+    strict = arguments(drawn(*TWO), LENS, before=before, noise=0.02, noise_slope=0.0)
     assert len(kernels.segment_depth(**strict)[0]) == 2
 
 
@@ -190,9 +192,8 @@ def test_many_divisions(kernels: Kernels) -> None:
     z = np.linspace(0.5, 300, 300)
     depth = np.full((3, 1200), np.nan, np.float32)
     depth[:, ::4] = z
-    measured, *_ = kernels.segment_depth(
-        **arguments(depth, LENS, levels=(0.1, 310.0, 4096), density=(1.0, 0.0), min_area=3, plane=NO_FLOOR)
-    )
+    fine = {"levels": (0.1, 310.0, 4096), "bandwidth": 1.0, "prominence": 0.0, "min_area": 3}
+    measured, *_ = kernels.segment_depth(**arguments(depth, LENS, **fine, plane=NO_FLOOR))
     assert_allclose(np.sort(measured[:, 2]), z, rtol=1e-6)
 
 
@@ -200,19 +201,16 @@ def test_many_divisions(kernels: Kernels) -> None:
     ("changes", "message"),
     [
         ({"before": np.ones((2, 3), np.float32)}, r"before: expected shape \(120, 160\), got \(2, 3\)"),
-        (
-            {"before": drawn(*TWO), "noise": (-1.0, 0.0)},
-            "noise: expected a finite number, not negative, got -1",
-        ),
-        ({"noise": (0.0, np.nan)}, "slope: expected a finite number, not negative, got nan"),
+        ({"before": drawn(*TWO), "noise": -1.0}, "noise: expected a finite number, not negative, got -1"),
+        ({"noise_slope": np.nan}, "slope: expected a finite number, not negative, got nan"),
         ({"camera": np.ones(3)}, r"camera: expected shape \(4,\), got \(3,\)"),
         ({"plane": np.ones(3)}, "up: expected a vector of length 1"),
         ({"plane": np.ones(4), "region": (9, 0, 9, 9)}, "up: expected a vector of length 1"),
         ({"plane": np.zeros(3)}, r"plane: expected shape \(4,\), got \(3,\)"),
         ({"levels": (2.0, 1.0, 9)}, "far: expected a finite number above near, got 1"),
-        ({"edges": (-1.0, 0.0)}, "gap: expected a finite number, not negative, got -1"),
-        ({"density": (0.0, 0.0)}, r"bandwidth: expected a number in \(0, 256\], got 0"),
-        ({"density": (1.0, -1.0)}, "prominence: expected a number of at least 0, got -"),
+        ({"gap": -1.0}, "gap: expected a finite number, not negative, got -1"),
+        ({"bandwidth": 0.0, "prominence": 0.0}, r"bandwidth: expected a number in \(0, 256\], got 0"),
+        ({"bandwidth": 1.0, "prominence": -1.0}, "prominence: expected a number of at least 0, got -"),
         ({"min_area": 0}, "min_area: expected at least 1, got 0"),
         ({"cut": (2, 0.1, 0.1, 2.0)}, r"share: expected a number in \[0, 1\], got 2"),
         ({"feet": -1.0}, "feet: expected a finite number, not negative, got -1"),
@@ -221,7 +219,7 @@ def test_many_divisions(kernels: Kernels) -> None:
 def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> None:
     """Each stage names what it can't work with."""
     with pytest.raises(ValueError, match=message):
-        kernels.segment_depth(**arguments(drawn(*TWO), LENS) | changes)
+        kernels.segment_depth(**arguments(drawn(*TWO), LENS, **changes))
 
 
 BAD: list[tuple[dict[str, Any], str]] = [
@@ -235,4 +233,4 @@ BAD: list[tuple[dict[str, Any], str]] = [
 def test_native_refuses_other_arrays(changes: dict[str, Any], message: str) -> None:
     """Another type is named, not converted."""
     with pytest.raises(TypeError, match=message):
-        _core.segment_depth(**arguments(drawn(*TWO), LENS) | changes)
+        _core.segment_depth(**arguments(drawn(*TWO), LENS, **changes))

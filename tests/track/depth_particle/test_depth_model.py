@@ -6,7 +6,7 @@ import pytest
 from tricue import Box, DepthParticleTracker, Frame, Intrinsics
 from tricue.track.depth_objects.foreground import Foreground
 from tricue.track.depth_objects.projection import back_project_box
-from tricue.track.depth_particle.depth_model import DepthModel, filter_settings
+from tricue.track.depth_particle.depth_model import DepthLikelihood, DepthModel
 from tricue.track.depth_particle.measurement import NOT_MEASURED
 from tricue.track.depth_particle.tracker import NO_OBJECT, NO_SIZE_PRIOR
 
@@ -44,18 +44,14 @@ def test_the_filter_weighs_by_the_same_likelihood(form, kernels):
     particles, weights, *_ = kernels.filter_rectangles(
         foreground().depth,
         CAMERA,
-        states,
-        np.full(count, 1 / count),
-        0.5,
+        (states, np.full(count, 1 / count), 0.5),
         np.zeros((1, count, 5)),
         (still, np.full(5, 1e-6)),
         unbounded,
         NO_OBJECT,
         (np.ones(5), 0.1),
-        model.histogram,
-        *filter_settings(model.p),
-        (STATE[3:], NO_SIZE_PRIOR),
-        NOT_MEASURED,
+        DepthLikelihood.create(model.p)._replace(model=model.histogram),
+        ((STATE[3:], NO_SIZE_PRIOR), NOT_MEASURED),
     )
     ours = [model.observe(kernels, foreground(), each).log_likelihood for each in particles]
     likelihood = np.exp(np.array(ours) - max(ours))

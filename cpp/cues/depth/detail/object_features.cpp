@@ -46,7 +46,10 @@ void require_objects(const ObjectFeatures& objects) {
         refuse("rows", std::to_string(objects.columns.cols()) + " bins", std::to_string(objects.rows.cols()));
 }
 
-void require_size_above_0(VectorRef size) {
+void require_expected(const ExpectedBody& expected) {
+    const auto& [state, size, known] = expected;
+    require_size(state, 5, "state");
+    require_finite(state, "state");
     require_size(size, 2, "size");
     require_finite(size, "size");
     if (!(size.minCoeff() > 0.0)) refuse("size", "numbers above 0", size.minCoeff());

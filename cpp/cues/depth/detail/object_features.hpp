@@ -10,9 +10,17 @@ namespace tricue {
 
 /// The features of C objects, as segment_depth gives them.
 struct ObjectFeatures {
-    StatesRef measured;
-    Eigen::Ref<const Flags> cut;
-    FloatsRef columns, rows;
+    StatesRef measured;           ///< float64 (C, 8), as measure_objects gives it, finite
+    Eigen::Ref<const Flags> cut;  ///< bool (C, 4): whether each may continue at the left, right, top, bottom
+    FloatsRef columns, rows;      ///< float32 (C, bins), as depth_components gives them
+};
+
+/// The body that is expected among objects.
+struct ExpectedBody {
+    VectorRef state;  ///< float64 (5,): X, Y, Z, W, H, meters, finite
+    VectorRef size;   ///< float64 (2,): running means of its width and height, meters, finite, above 0
+    /// bool (2,): whether each was ever visible as a whole; else it is a lower bound
+    std::array<bool, 2> known;
 };
 
 /// A rectangle in meters: X, Y, Z of its center, width and height.
@@ -28,6 +36,6 @@ RectangleState complete_rectangle(const RectangleState& state, const bool* cut, 
 
 /// Arguments of kernels that compare objects with a target.
 void require_objects(const ObjectFeatures& objects);
-void require_size_above_0(VectorRef size);
+void require_expected(const ExpectedBody& expected);
 
 }  // namespace tricue

@@ -20,37 +20,32 @@ from tricue.reference.fuse.summarize import summarize
 NUMBERS = 5  # in a state
 MIN_LIKELIHOOD = 1e-12
 
+Places = tuple[int, int, float, int]
+Likelihood = tuple[Floats, float, float, Places, float, float, bool, float, float]
+
 
 def filter_rectangles(
     depth: NDArray[np.float32],
     camera: Floats,
-    particles: Floats,
-    weights: Floats,
-    offset: float,
+    before: tuple[Floats, Floats, float],
     noise: Floats,
     dynamics: tuple[Floats, Floats],
     bounds: tuple[Floats, Floats],
     detection: tuple[Floats, Floats, float],
     refinement: tuple[Floats, float],
-    model: Floats,
-    levels: tuple[float, float],
-    grid: tuple[int, int],
-    ring: tuple[float, int],
-    reach: float,
-    occluder_margin: float,
-    likelihood: tuple[bool, float, float],
-    mean_size: tuple[Floats, Floats],
-    measured: tuple[Floats, Floats, float],
+    likelihood: Likelihood,
+    prior: tuple[tuple[Floats, Floats], tuple[Floats, Floats, float]],
 ) -> tuple[Floats, Floats, Floats, Floats, Floats, Floats]:
     """Calls one twin after the other, for one or two rounds of sampling."""
-    _require(particles, weights, noise, refinement, levels, likelihood)
-    view = _View(depth, camera, model, levels, grid, ring, reach, occluder_margin)
-
-    (drift, scale), (seen, root, share), (state, deviation, max_cost) = dynamics, detection, measured
+    by = _Likelihood(*likelihood)
+    _require(before, noise, refinement, by)
+    view = _View(depth, camera, by)
+    (particles, weights, offset), (mean_size, (state, deviation, max_cost)) = before, prior
+    (drift, scale), (seen, root, share) = dynamics, detection
 
     def log_likelihood(states: Floats) -> Floats:
-        prior = rectangle_prior(states, *mean_size, state, deviation, max_cost)
-        return np.asarray(view.log_likelihood(states, *likelihood) + prior)
+        known = rectangle_prior(states, *mean_size, state, deviation, max_cost)
+        return np.asarray(view.log_likelihood(states) + known)
 
     previous = particles[resample(weights, offset)]
     states = propose(previous, drift, scale, noise[0], seen, root, share, *bounds)
@@ -63,50 +58,60 @@ def filter_rectangles(
     return states, weights, mean, covariance, view.measure(mean[None])[0], view.histogram(mean)
 
 
+class _Likelihood(NamedTuple):
+    """How depths give a likelihood: the fields of the argument."""
+
+    model: Floats
+    middle: float
+    span: float
+    places: Places
+    reach: float
+    occluder_margin: float
+    linear: bool
+    sharpness: float
+    contrast: float
+
+
 class _View(NamedTuple):
-    """A depth image and how rectangles are measured in it; the fields are the arguments with these names."""
+    """A depth image, and how rectangles are measured in it."""
 
     depth: NDArray[np.float32]
     camera: Floats
-    model: Floats
-    levels: tuple[float, float]
-    grid: tuple[int, int]
-    ring: tuple[float, int]
-    reach: float
-    occluder_margin: float
+    by: _Likelihood
 
     def measure(self, states: Floats) -> Floats:
         """(N, 4) as by depth_contrast, but with the distance to the model in the model's own levels."""
-        span, occluder_margin = self.levels[1], self.occluder_margin
-        is_one_range = self.levels == (0, self.reach)
-        model = self.model if is_one_range else np.zeros(1)
-        seen = depth_contrast(self.depth, self.camera, states, model, *self[4:])
+        by, (rows, columns, margin, along) = self.by, self.by.places
+        grid, ring = (rows, columns), (margin, along)
+        is_one_range = by.middle == 0 and by.span == by.reach
+        model = by.model if is_one_range else np.zeros(1)
+        seen = depth_contrast(
+            self.depth, self.camera, states, model, grid, ring, by.reach, by.occluder_margin
+        )
         if not is_one_range:
-            places = _grid(*self.grid)
-            each = depth_distance(
-                self.depth, self._in_pixels(states), self.model, places, span, occluder_margin
-            )
+            rectangles, places = self._in_pixels(states), _grid(rows, columns)
+            each = depth_distance(self.depth, rectangles, by.model, places, by.span, by.occluder_margin)
             seen[:, 0] = each[:, 0]
         return seen
 
-    def log_likelihood(self, states: Floats, linear: bool, sharpness: float, contrast: float) -> Floats:
+    def log_likelihood(self, states: Floats) -> Floats:
         """(N,) log-likelihoods of the depths in and around the rectangles."""
         distance, inside, _, around = self.measure(states).T
-        likeness = -sharpness * distance * distance
-        if linear:
+        likeness = -self.by.sharpness * distance * distance
+        if self.by.linear:
             likeness = np.log(np.maximum(1 - distance, MIN_LIKELIHOOD))
-        logs: Floats = likeness + contrast * (inside - around)
+        logs: Floats = likeness + self.by.contrast * (inside - around)
         return logs
 
     def histogram(self, state: Floats) -> Floats:
         """(L,) histogram of the depths inside one rectangle."""
-        rectangle, levels = self._in_pixels(state[None])[0], len(self.model)
-        return rectangle_histogram(self.depth, rectangle, levels, _grid(*self.grid), self.levels[1])
+        by, rectangle = self.by, self._in_pixels(state[None])[0]
+        return rectangle_histogram(self.depth, rectangle, len(by.model), _grid(*by.places[:2]), by.span)
 
     def _in_pixels(self, states: Floats) -> Floats:
         """(N, 5): center x, y, width, height, pixels, and the depth to which the model is relative."""
         (fx, fy, cx, cy), (x, y, z, width, height) = self.camera, states.T
-        per_x, per_y, middle = fx / z, fy / z, self.levels[0]
+        per_x, per_y, middle = fx / z, fy / z, self.by.middle
         near = z if middle == 0 else np.full_like(z, middle)
         return np.column_stack(
             [x * per_x + (cx + 0.5), y * per_y + (cy + 0.5), width * per_x, height * per_y, near]
@@ -134,13 +139,9 @@ def _grid(rows: int, columns: int) -> Floats:
 
 
 def _require(
-    particles: Floats,
-    weights: Floats,
-    noise: Floats,
-    refinement: tuple[Floats, float],
-    levels: tuple[float, float],
-    likelihood: tuple[bool, float, float],
+    before: tuple[Floats, Floats, float], noise: Floats, refinement: tuple[Floats, float], by: _Likelihood
 ) -> None:
+    particles, weights, _ = before
     require_shape("particles", particles, (len(weights), NUMBERS))
     require_finite("particles", particles)
     if not 1 <= len(noise) <= 2:
@@ -155,8 +156,8 @@ def _require(
         refuse("scale", "no negative number", float(scale.min()))
     if not 0 < least < np.inf:
         refuse("least", "a finite number above 0", float(least))
-    if not 0 <= levels[0] < np.inf:
-        refuse("middle", "a finite number, not negative", float(levels[0]))
-    for name, number in zip(("sharpness", "contrast"), likelihood[1:], strict=True):
+    if not 0 <= by.middle < np.inf:
+        refuse("middle", "a finite number, not negative", float(by.middle))
+    for name, number in (("sharpness", by.sharpness), ("contrast", by.contrast)):
         if not np.isfinite(number):
             refuse(name, "a finite number", float(number))

@@ -65,6 +65,36 @@ class Objects(NamedTuple):
         return [project_box(state, camera) for state in self.states]
 
 
+class Divisions(NamedTuple):
+    """Where one object ends and another begins, as in the kernel segment_depth.
+
+    levels: smallest and greatest depth, meters, and the number of levels between them. gap, slope: a jump of
+    the depth by more than gap + slope z² is an edge, meters. bandwidth: of the kernel density, levels.
+    prominence: of a maximum, as a share of the greatest density. min_area: pixels.
+    """
+
+    levels: tuple[float, float, int]
+    gap: float
+    slope: float
+    bandwidth: float
+    prominence: float
+    min_area: int
+
+    @classmethod
+    def create(cls, p: SegmentationParams, fg: Foreground) -> "Divisions":
+        """The divisions of an image by the parameters."""
+        fx, fy = fg.camera[:2].tolist()
+        far_pixels = p.min_area * fx * fy / p.far**2
+        return cls(
+            (p.near, p.far, p.levels),
+            p.edge_gap if p.edges else NO_EDGES,
+            p.edge_slope,
+            p.bandwidth / ((p.far - p.near) / p.levels),
+            p.prominence,
+            int(min(max(MIN_PIXELS, far_pixels), fg.depth.size + 1.0)),
+        )
+
+
 def segment(
     k: Kernels,
     fg: Foreground,
@@ -81,20 +111,13 @@ def segment(
     (h, w) meters, depths of what isn't an object; pixels that still have this depth, up to noise, are left
     out.
     """
-    fx, fy = fg.camera[:2].tolist()
-    far_pixels = p.min_area * fx * fy / p.far**2
     found = k.segment_depth(
         fg.depth,
-        others,
-        (SAME_DEPTH, SAME_DEPTH_SLOPE),
-        region,
+        (region, others, SAME_DEPTH, SAME_DEPTH_SLOPE),
         fg.camera,
         plane[:4],
         fg.measured,
-        (p.near, p.far, p.levels),
-        (p.edge_gap if p.edges else NO_EDGES, p.edge_slope),
-        (p.bandwidth / ((p.far - p.near) / p.levels), p.prominence),
-        int(min(max(MIN_PIXELS, far_pixels), fg.depth.size + 1.0)),
+        Divisions.create(p, fg),
         (BORDER, OCCLUDER_DISTANCE, p.occluder_margin, MAX_SIDE_COVERED),
         MAX_FEET_HEIGHT,
     )

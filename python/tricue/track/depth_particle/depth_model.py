@@ -17,10 +17,6 @@ SURROUND_SAMPLES = 12  # at each side of a rectangle
 NO_HISTOGRAM = np.zeros(1)  # if only the shares inside and around are wanted
 MIN_LIKELIHOOD = 1e-12  # to take the logarithm of the linear likelihood
 
-FilterSettings = tuple[
-    tuple[float, float], tuple[int, int], tuple[float, int], float, float, tuple[bool, float, float]
-]
-
 
 class DepthObservation(NamedTuple):
     """The observation of one rectangle.
@@ -111,13 +107,35 @@ def histogram_range(p: DepthParticleParams) -> tuple[float, float]:
     return (p.near + p.far) / 2, (p.far - p.near) / 2
 
 
-def filter_settings(p: DepthParticleParams) -> FilterSettings:
-    """The parameters of the kernel filter_rectangles, from ``levels`` to ``likelihood``."""
-    return (
-        histogram_range(p),
-        p.grid,
-        (p.margin, SURROUND_SAMPLES),
-        p.histogram_reach,
-        p.occluder_margin,
-        (p.likelihood == "linear", p.sharpness, p.contrast),
-    )
+class DepthLikelihood(NamedTuple):
+    """How the depths in and around a rectangle give its likelihood, as in the kernel filter_rectangles.
+
+    model: (L,) the target's histogram, of the depths from middle - span to middle + span, meters; where the
+    middle is 0, relative to the rectangle's. places: rows and columns of samples inside; how far out those
+    around are, and how many there are on a side. reach, occluder_margin: meters. linear: whether the
+    likelihood is linear in the distance (38). sharpness, contrast: nats.
+    """
+
+    model: Floats
+    middle: float
+    span: float
+    places: tuple[int, int, float, int]
+    reach: float
+    occluder_margin: float
+    linear: bool
+    sharpness: float
+    contrast: float
+
+    @classmethod
+    def create(cls, p: DepthParticleParams) -> "DepthLikelihood":
+        """The likelihood by the parameters, of no target yet."""
+        return cls(
+            NO_HISTOGRAM,
+            *histogram_range(p),
+            (*p.grid, p.margin, SURROUND_SAMPLES),
+            p.histogram_reach,
+            p.occluder_margin,
+            p.likelihood == "linear",
+            p.sharpness,
+            p.contrast,
+        )

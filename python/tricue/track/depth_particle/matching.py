@@ -79,19 +79,12 @@ def best_match(
     was seen.
     """
     (x, y, z), (x_rate, y_rate, z_rate) = POSITION_DEVIATION, POSITION_DEVIATION_RATE
+    deviation = x + x_rate * seconds, y + y_rate * seconds, z + z_rate * seconds, *SIZE_DEVIATION
     width, height = motion.mean_size.tolist()
-    index = k.match_object(
-        *objects,
-        other_costs,
-        expected,
-        (motion.mean_size, motion.size_known),
-        signature.values,
-        (x + x_rate * seconds, y + y_rate * seconds, z + z_rate * seconds, *SIZE_DEVIATION),
-        UNKNOWN_WEIGHTS,
-        SIGNATURE_COST,
-        (limits.max_cost, limits.min_area_share * width * height),
-        complete,
-    )
+    min_area = limits.min_area_share * width * height
+    costs = deviation, UNKNOWN_WEIGHTS, SIGNATURE_COST, limits.max_cost, min_area
+    body = expected, motion.mean_size, motion.size_known
+    index = k.match_object(objects, other_costs, body, signature.values, costs, complete)
     return None if index < 0 else index
 
 
@@ -103,7 +96,7 @@ def complete_body(
 
     Also returns the motion, whose mean size grows where it is a lower bound.
     """
-    mean_size = motion.mean_size, motion.size_known
-    state, whole, size, signature = k.complete_body(*objects, index, expected, mean_size, PIECES)
+    body = expected, motion.mean_size, motion.size_known
+    state, whole, size, signature = k.complete_body(objects, index, body, PIECES)
     grown = motion if all(motion.size_known.tolist()) else motion._replace(mean_size=size)
     return TargetObject(state, whole, Signature(signature)), grown

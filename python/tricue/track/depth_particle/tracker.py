@@ -22,7 +22,7 @@ from tricue.track.depth_objects.floor import NO_FLOOR
 from tricue.track.depth_objects.foreground import Foreground, extract_foreground
 from tricue.track.depth_objects.objects import NOTHING_KNOWN, segment
 from tricue.track.depth_objects.projection import project_box, project_rectangle
-from tricue.track.depth_particle.depth_model import DepthModel, DepthObservation, filter_settings
+from tricue.track.depth_particle.depth_model import DepthLikelihood, DepthModel, DepthObservation
 from tricue.track.depth_particle.initialize import initialize_in_box, initialize_on_person
 from tricue.track.depth_particle.matching import TargetObject
 from tricue.track.depth_particle.measurement import NOT_MEASURED, OBJECT_DEVIATION, Measurement
@@ -96,12 +96,12 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, DepthParticleState])
         super().__init__(params, seed, kernels, parameters)
         self.intrinsics = validation.intrinsics(intrinsics)
 
-    _derived = (*TrackerBase._derived, "_noise", "_settings", "_size_deviation")
+    _derived = (*TrackerBase._derived, "_noise", "_likelihood", "_size_deviation")
 
     def _derive(self) -> None:
         super()._derive()
         self._noise = NoisePool(self.seed, 5 * self.params.particles * self.params.sweeps)
-        self._settings = filter_settings(self.params)
+        self._likelihood = DepthLikelihood.create(self.params)
         weight = self.params.size_prior
         self._size_deviation = LOG_SIZE_DEVIATION / np.sqrt(weight) if weight > 0 else NO_SIZE_PRIOR
 
@@ -213,18 +213,14 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, DepthParticleState])
         particles, weights, mean, covariance, observed, histogram = self._k.filter_rectangles(
             fg.depth,
             fg.camera,
-            before.particles,
-            before.weights,
-            self._noise.uniform(state.frames),
+            (before.particles, before.weights, self._noise.uniform(state.frames)),
             noise,
             prediction[:2],
             prediction[2:],
             detection,
             (np.array((*REFINE_POSITION, REFINE_SIZE * width, REFINE_SIZE * height)), MIN_SIZE),
-            state.model.histogram,
-            *self._settings,
-            (size, self._size_deviation),
-            measured,
+            self._likelihood._replace(model=state.model.histogram),
+            ((size, self._size_deviation), measured),
         )
         found = DepthParticleSet(particles, weights, mean, covariance)
         return FilteredTarget(found, state.model.observation(observed), histogram)

@@ -5,51 +5,49 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tricue.reference.base.arrays import Flags, Floats
 from tricue.reference.base.checks import refuse
 from tricue.reference.cues.depth.detail.object_features import (
+    ExpectedBody,
+    Objects,
     complete_rectangle,
     require_expected,
     require_objects,
 )
 
-Shares = NDArray[np.float32]
-
 
 def complete_body(
-    measured: Floats,
-    cut: Flags,
-    columns: Shares,
-    rows: Shares,
+    objects: Objects,
     index: int,
-    expected: Floats,
-    mean_size: tuple[Floats, Flags],
-    pieces: tuple[float, float, float, float],
+    expected: ExpectedBody,
+    limits: tuple[float, float, float, float],
 ) -> tuple[Floats, Flags, Floats, Floats]:
     """Joins one piece after the other, then completes the joined body."""
-    require_objects(measured, cut, columns, rows)
+    require_objects(objects)
+    measured, cut, columns, rows = objects
     if not 0 <= index < len(measured):
         refuse("index", f"a number in [0, {len(measured)})", index)
     lengths = measured[:, [2, 3, 4, 7]]
     if not (lengths > 0).all():
         refuse("measured", "depths, sizes and areas above 0", float(lengths[~(lengths > 0)][0]))
-    (size, known), (region, inside, joined_size, depth) = mean_size, pieces
-    require_expected(expected, size)
-    if np.isnan(pieces).any():
-        refuse("pieces", "numbers", math.nan)
+    require_expected(expected)
+    if np.isnan(limits).any():
+        refuse("limits", "numbers", math.nan)
+    (expected_state, size, known), (region, inside, joined_size, depth) = expected, limits
     z = measured[index, 2]
     body, own = _combine(measured, cut, [index], z), [index]
     for i, piece in enumerate(measured):
-        if i == index or not abs(piece[2] - z) < depth or not _share_inside(piece, expected, region) > inside:
+        if i == index or not abs(piece[2] - z) < depth:
+            continue
+        if not _share_inside(piece, expected_state, region) > inside:
             continue
         joined = _combine(measured, cut, [*own, i], z)
         fits = (joined.state[3:] <= joined_size * np.maximum(size, body.state[3:])).all()
         if fits and _misfit(joined, size) < _misfit(body, size):
             body, own = joined, [*own, i]
     grown = np.where(known, size, np.maximum(size, measured[index, 3:5]))
-    state = complete_rectangle(body.state, body.cut, expected, grown)
+    state = complete_rectangle(body.state, body.cut, expected_state, grown)
     whole = ~(body.cut[::2] | body.cut[1::2])
     return state, whole, grown, np.concatenate([columns[index], rows[index], body.shift], dtype=np.float64)
 

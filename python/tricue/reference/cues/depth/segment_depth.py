@@ -16,41 +16,39 @@ from tricue.reference.cues.depth.divide_depth import divide_depth
 from tricue.reference.cues.depth.ground_distance import ground_distance
 from tricue.reference.cues.depth.measure_objects import measure_objects
 
+Region = tuple[int, int, int, int]
 BINS = 16  # of an object's distributions over columns and rows
 MAX_MINIMA = 254  # labels have 8 bits
 
 
 def segment_depth(
     depth: Depth,
-    before: Depth,
-    noise: tuple[float, float],
-    region: tuple[int, int, int, int],
+    searched: tuple[Region, Depth, float, float],
     camera: Floats,
     plane: Floats,
-    measured: tuple[int, int, int, int],
-    levels: tuple[float, float, int],
-    edges: tuple[float, float],
-    density: tuple[float, float],
-    min_area: int,
+    measured: Region,
+    divisions: tuple[tuple[float, float, int], float, float, float, float, int],
     cut: tuple[int, float, float, float],
     feet: float,
 ) -> tuple[Floats, NDArray[np.bool_], Depth, Depth]:
     """Calls one twin after the other."""
-    near, far, count = levels
+    region, before, noise, noise_slope = searched
+    (near, far, count), gap, slope, bandwidth, prominence, min_area = divisions
     distance = ground_distance(depth, camera, plane[:3], near, far) if plane[:3].any() else depth
-    mask = 1 - depth_edges(distance, *edges)
+    mask = 1 - depth_edges(distance, gap, slope)
     if before.shape == (0, 0):
         before = np.full_like(depth, np.nan)  # everything differs from NaN
-    mask &= changed_depth(depth, before, *noise)
+    mask &= changed_depth(depth, before, noise, noise_slope)
     mask[~_inside(region, depth)] = 0
-    dividers = _dividers(depth_histogram(distance, mask, near, far, count), near, far, *density)
+    counts = depth_histogram(distance, mask, near, far, count)
+    dividers = _dividers(counts, near, far, bandwidth, prominence)
     labels = divide_depth(distance, mask, dividers)
     table, _, columns, rows, _ = depth_components(labels, depth, near, far, 0, BINS, min_area, False)
     sides = cut_sides(depth, table, camera, *cut) | _at_edge(table, measured, cut[0])
     return measure_objects(table, columns, rows, sides, camera, plane, feet), sides, columns, rows
 
 
-def _inside(region: tuple[int, int, int, int], depth: Depth) -> NDArray[np.bool_]:
+def _inside(region: Region, depth: Depth) -> NDArray[np.bool_]:
     x0, y0, x1, y1 = region
     y, x = np.indices(depth.shape)
     return np.asarray((x >= x0) & (x < x1) & (y >= y0) & (y < y1))
@@ -63,7 +61,7 @@ def _dividers(counts: Floats, near: float, far: float, bandwidth: float, promine
     return np.array([near, *(near + (minima[:MAX_MINIMA] + 0.5) * level), far])
 
 
-def _at_edge(table: Floats, measured: tuple[int, int, int, int], border: int) -> NDArray[np.bool_]:
+def _at_edge(table: Floats, measured: Region, border: int) -> NDArray[np.bool_]:
     (x, y, width, height), (left, top, right, bottom) = table[:, :4].T, measured
     gaps = x - left, right - (x + width), y - top, bottom - (y + height)
     at_edge: NDArray[np.bool_] = np.column_stack(gaps) < border

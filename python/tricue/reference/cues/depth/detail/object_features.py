@@ -8,6 +8,8 @@ from tricue.reference.base.arrays import Flags, Floats
 from tricue.reference.base.checks import refuse, require_finite, require_shape
 
 Shares = NDArray[np.float32]
+Objects = tuple[Floats, Flags, Shares, Shares]
+ExpectedBody = tuple[Floats, Floats, Flags]
 
 
 def complete_rectangle(state: Floats, cut: Flags, expected: Floats, size: Floats) -> Floats:
@@ -30,8 +32,9 @@ def complete_rectangle(state: Floats, cut: Flags, expected: Floats, size: Floats
     return whole
 
 
-def require_objects(measured: Floats, cut: Flags, columns: Shares, rows: Shares) -> None:
+def require_objects(objects: Objects) -> None:
     """Refuse arrays of other shapes, or with numbers that aren't finite."""
+    measured, cut, columns, rows = objects
     count = len(measured)
     require_shape("measured", measured, (count, 8))
     require_finite("measured", measured)
@@ -42,10 +45,11 @@ def require_objects(measured: Floats, cut: Flags, columns: Shares, rows: Shares)
         refuse("rows", f"{columns.shape[1]} bins", rows.shape[1])
 
 
-def require_expected(expected: Floats, size: Floats) -> None:
+def require_expected(expected: ExpectedBody) -> None:
     """Refuse an expected state (5,) that isn't finite, and a size (2,) that isn't above 0."""
-    require_shape("expected", expected, (5,))
-    require_finite("expected", expected)
+    state, size, _ = expected
+    require_shape("state", state, (5,))
+    require_finite("state", state)
     require_shape("size", size, (2,))
     require_finite("size", size)
     if not size.min() > 0:
