@@ -8,6 +8,7 @@ their temporary folder.
 
 import os
 import time
+from collections.abc import Iterator
 from contextlib import suppress
 from typing import Any
 
@@ -61,15 +62,16 @@ def test_a_kernel_answers_or_refuses(
 
 @pytest.mark.parametrize("name", kernel_names())
 def test_a_kernel_multiplies_nothing_unchecked(name: str, calls: Calls) -> None:
-    """It proves that whole numbers whose products no integer holds, one of them or all at once, are refused
-    or don't matter: where they are multiplied all the same, ``make sanitize`` stops.
+    """It proves that whole numbers whose products no integer holds, one of them, an argument's or all at
+    once, are refused or don't matter: where they are multiplied all the same, ``make sanitize`` stops.
     """
     kernel = getattr(_core, name)
     for arguments, keywords in calls[name]:
         given: dict[Any, Any] = {**dict(enumerate(arguments)), **keywords}
         for ends in ENDS:
             other = {place: at_ends(value, ends) for place, value in given.items()}
-            for changes in [other, *({place: value} for place, value in other.items())]:
+            single = [(place, one) for place, value in given.items() for one in one_at_end(value, ends[0])]
+            for changes in [other, *({place: value} for place, value in [*other.items(), *single])]:
                 held = given | changes
                 positional = [held.pop(place) for place in range(len(arguments))]
                 with suppress(*ALLOWED):
@@ -80,8 +82,19 @@ def at_ends(value: Any, ends: tuple[int, ...]) -> Any:
     """A whole number, or those of a tuple, in turn at the ends of int; anything else as it is."""
     if isinstance(value, tuple):
         return tuple(at_ends(each, ends[i % len(ends) :]) for i, each in enumerate(value))
-    is_whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
-    return ends[0] if is_whole else value
+    return ends[0] if is_whole(value) else value
+
+
+def one_at_end(value: Any, end: int) -> Iterator[Any]:
+    """A tuple with one of its whole numbers at an end of int, for each of them."""
+    for i, each in enumerate(value) if isinstance(value, tuple) else ():
+        for other in [end] if is_whole(each) else one_at_end(each, end):
+            yield (*value[:i], other, *value[i + 1 :])
+
+
+def is_whole(value: Any) -> bool:
+    """Whether it is a whole number."""
+    return isinstance(value, int | np.integer) and not isinstance(value, bool)
 
 
 def changed(call: tuple[tuple[Any, ...], dict[str, Any]], random: np.random.Generator) -> Any:
