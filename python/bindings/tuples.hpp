@@ -78,18 +78,6 @@ template <>
 struct Unpacked<std::int64_t> : UnpackedInteger<std::int64_t> {};
 
 template <>
-struct Unpacked<int> {
-    static int from(PyObject* object, const char* name) {
-        const long number = PyLong_AsLong(object);
-        if ((number == -1 && PyErr_Occurred()) || number != static_cast<int>(number)) {
-            PyErr_Clear();
-            refuse_part(name, "a whole number of 32 bits in it", object);
-        }
-        return static_cast<int>(number);
-    }
-};
-
-template <>
 struct Unpacked<bool> {
     static bool from(PyObject* object, const char* name) {
         if (!PyBool_Check(object)) refuse_part(name, "True or False in it", object);
