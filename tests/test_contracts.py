@@ -21,6 +21,7 @@ STUB = {
 }
 KERNELS = sorted(STUB)
 WIDTH = 140
+MAX_ARGUMENTS = 10
 
 
 def contract(name: str) -> str:
@@ -168,6 +169,12 @@ def tuple_types(annotation: ast.expr | None) -> list[ast.expr]:
     assert isinstance(annotation, ast.Subscript)
     assert isinstance(annotation.slice, ast.Tuple)
     return annotation.slice.elts
+
+
+@pytest.mark.parametrize("name", KERNELS)
+def test_kernels_take_few_arguments(name: str) -> None:
+    """At most ten: a struct in C++ is a tuple in Python."""
+    assert len(STUB[name].args.args) + len(STUB[name].args.kwonlyargs) <= MAX_ARGUMENTS
 
 
 @pytest.mark.parametrize("name", KERNELS)

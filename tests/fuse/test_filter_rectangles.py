@@ -215,7 +215,7 @@ def test_converts_nothing(name: str) -> None:
         ({"before": (np.ones((40, 5)), 0.5)}, ValueError, "before: expected a tuple of 3, got one of 2"),
         ({"offset": None}, TypeError, "before: expected a number in it, got NoneType"),
         ({"places": [14, 10, 1.25, 12]}, TypeError, "likelihood: expected a tuple in it, got list"),
-        ({"places": (14.0, 10, 1.25, 12)}, TypeError, "places: expected a whole number .* got float"),
+        ({"places": (14.0, 10, 1.25, 12)}, TypeError, "places: expected an integer in it, got float"),
         ({"linear": "linear"}, TypeError, "likelihood: expected True or False in it, got str"),
         ({"measured": (STATE, 12.0)}, ValueError, "measured: expected a tuple of 3, got one of 2"),
     ],
