@@ -69,18 +69,35 @@ class Appearance(NamedTuple):
     pattern: EllipsePattern  # where the window and its surround are sampled
     linear: bool  # whether the likelihood is the printed (18)
     sharpness: float
+    measurement: RankMeasurement | None  # by which kernels measure windows; None if they don't support that
 
     @classmethod
     def create(cls, p: ColorParticleParams) -> "Appearance":
         """Models that have learned nothing yet."""
         model: ObservationModel = OBSERVATION_MODELS[p.observation].create(p)
-        return cls(
+        return cls.of(
             model,
             ColorContrast(p.color_weight) if p.color_weight > 0 else None,
             EllipsePattern(window_grid(p), ring(p.ring_samples, *p.ring)),
             p.likelihood == "linear",
             model.sharpness if p.sharpness is None else p.sharpness,
         )
+
+    @classmethod
+    def of(
+        cls,
+        model: ObservationModel,
+        contrast: ColorContrast | None,
+        pattern: EllipsePattern,
+        linear: bool,
+        sharpness: float,
+    ) -> "Appearance":
+        """These models, and the measurement by them, if kernels support it."""
+        measurement = None
+        if contrast is not None and not linear and isinstance(model, RankSpatial):
+            target = ColorAppearance(model.maps, model.weights, False, contrast.table)
+            measurement = RankMeasurement(pattern, target, (sharpness, contrast.weight))
+        return cls(model, contrast, pattern, linear, sharpness, measurement)
 
     def sample(self, k: Kernels, image: Image, ellipses: Floats) -> WindowSamples:
         """Sample the windows of ellipses (N, 4)."""
@@ -95,15 +112,13 @@ class Appearance(NamedTuple):
     @property
     def comparable(self) -> bool:
         """Whether log-likelihoods come from color ranks and contrast, for which thresholds are known."""
-        return self.contrast is not None and not self.linear and isinstance(self.model, RankSpatial)
+        return self.measurement is not None
 
     def rank_measurement(self, searching: bool) -> RankMeasurement | None:
-        """What the kernels measure windows by; None for models that they don't support."""
-        model, contrast = self.model, self.contrast
-        if contrast is None or self.linear or not isinstance(model, RankSpatial):
-            return None
-        target = ColorAppearance(model.maps, model.weights, searching, contrast.table)
-        return RankMeasurement(self.pattern, target, (self.sharpness, contrast.weight))
+        """The measurement; searching: for a lost target, by the most similar of its maps alone."""
+        if self.measurement is None or not searching:
+            return self.measurement
+        return self.measurement._replace(appearance=self.measurement.appearance._replace(nearest=True))
 
     def log_likelihood(self, k: Kernels, image: Image, ellipses: Floats, searching: bool = False) -> Floats:
         """(N,) log p(y | x), nats: equation (18), or its exponential form, times the color contrast term."""
@@ -126,9 +141,8 @@ class Appearance(NamedTuple):
         """The most likely (4,) of an ellipse (4,) and the windows at offsets (n, 4) from it, its
         log-likelihood, and that of the ellipse; for comparable likelihoods only.
         """
-        measurement = self.rank_measurement(searching=False)
-        assert measurement is not None
-        return k.rank_search(image, ellipse, offsets, *measurement)
+        assert self.measurement is not None
+        return k.rank_search(image, ellipse, offsets, *self.measurement)
 
     def recognition(self, k: Kernels, seen: Any, searching: bool = False) -> float:
         """The similarity, in [0, 1], of the observation to the target; about 0 in noise and flat windows."""
@@ -156,7 +170,7 @@ class Appearance(NamedTuple):
         """Blend the window of an ellipse (4,) into both models; rates of 1 initialize them."""
         contrast = self.contrast and self.contrast.learn(k, image, ellipse, color_rate)
         model = self.model.learn(k, seen, rate)
-        return Appearance(model, contrast, self.pattern, self.linear, self.sharpness)
+        return Appearance.of(model, contrast, self.pattern, self.linear, self.sharpness)
 
 
 def probability(log_likelihood: float, lead: float) -> float:
