@@ -2,6 +2,8 @@
 #pragma once
 // The color space of kernels that bin colors.
 
+#include <array>
+
 #include "cues/color/detail/color_space.hpp"
 #include "tuples.hpp"
 
@@ -11,8 +13,7 @@ using SpaceTuple = Tuple<Tuple<int, int, int>, int>;
 
 inline ColorSpace color_space(const SpaceTuple& space) {
     const auto [bins, chroma] = unpack(space, "space");
-    const auto [first, second, third] = unpack(bins, "bins");
-    return {{first, second, third}, chroma};
+    return {unpack_as<std::array<int, 3>>(bins, "bins"), chroma};
 }
 
 }  // namespace tricue::bindings

@@ -15,11 +15,10 @@ using PriorTuple = Tuple<Tuple<Doubles, Doubles>, Tuple<Doubles, Doubles, double
 DepthLikelihood depth_likelihood(const LikelihoodTuple& likelihood) {
     const auto [model, middle, span, places, reach, occluder_margin, linear, sharpness, contrast] =
         unpack(likelihood, "likelihood");
-    const auto [rows, columns, margin, along] = unpack(places, "places");
     return {vector(model, "model"),
             middle,
             span,
-            {rows, columns, margin, along},
+            unpack_as<RectanglePattern>(places, "places"),
             reach,
             occluder_margin,
             linear,

@@ -136,9 +136,8 @@ using CostsTuple =
 
 MatchCosts match_costs(const CostsTuple& costs) {
     const auto [deviation, unknown, signature_cost, max_cost, min_area] = unpack(costs, "costs");
-    const auto [x, y, z, share, base] = unpack(deviation, "deviation");
-    const auto [center, larger] = unpack(unknown, "unknown");
-    return {{x, y, z, share, base}, {center, larger}, signature_cost, max_cost, min_area};
+    return {unpack_as<MatchDeviation>(deviation, "deviation"), unpack_as<UnknownWeights>(unknown, "unknown"),
+            signature_cost, max_cost, min_area};
 }
 
 int match_object_arrays(const ObjectsTuple& objects, const Array<double>& others, const BodyTuple& expected,
@@ -156,8 +155,7 @@ std::tuple<Array<double>, Array<bool>, Array<double>, Array<double>> complete_bo
     const Tuple<double, double, double, double>& limits) {
     const ObjectFeatures each = object_features(objects);
     const ExpectedBody where = expected_body(expected);
-    const auto [region, inside, joined, depth] = unpack(limits, "limits");
-    const PieceLimits pieces{region, inside, joined, depth};
+    const auto pieces = unpack_as<PieceLimits>(limits, "limits");
     auto body = unlocked(each.measured.size(), [&] { return complete_body(each, index, where, pieces); });
     return {give(std::move(body.state)), give(std::move(body.whole), {2}), give(std::move(body.size)),
             give(std::move(body.signature))};
@@ -168,8 +166,7 @@ using DivisionsTuple = Tuple<Tuple<double, double, int>, double, double, double,
 
 Divisions divisions_of(const DivisionsTuple& divisions) {
     const auto [levels, gap, slope, bandwidth, prominence, min_area] = unpack(divisions, "divisions");
-    const auto [near, far, count] = unpack(levels, "levels");
-    return {{near, far, count}, gap, slope, bandwidth, prominence, min_area};
+    return {unpack_as<DepthLevels>(levels, "levels"), gap, slope, bandwidth, prominence, min_area};
 }
 
 std::tuple<Array<double>, Array<bool>, Array<float>, Array<float>> segment_depth_arrays(
@@ -178,13 +175,12 @@ std::tuple<Array<double>, Array<bool>, Array<float>, Array<float>> segment_depth
     const Tuple<int, double, double, double>& cut, double feet) {
     const auto meters = depth_image(depth, "depth");
     const auto [region, before, noise, noise_slope] = unpack(searched, "searched");
-    const SearchedPixels pixels{region_of(unpack(region, "region")), depth_image(before, "before"), noise,
+    const SearchedPixels pixels{unpack_as<Region>(region, "region"), depth_image(before, "before"), noise,
                                 noise_slope};
     const auto lens = vector(camera, "camera");
     const auto floor = vector(plane, "plane");
     const Divisions by = divisions_of(divisions);
-    const auto [border, beside, occluder_margin, share] = unpack(cut, "cut");
-    const Cut sides{border, beside, occluder_margin, share};
+    const auto sides = unpack_as<Cut>(cut, "cut");
     auto found = unlocked(std::ptrdiff_t{meters.rows} * meters.cols, [&] {
         return segment_depth(meters, pixels, lens, floor, region_of(measured), by, sides, feet);
     });

@@ -22,25 +22,15 @@ using Bytes = Array<std::uint8_t>;
 using LimitsTuple = Tuple<int, int>;
 using MatchingTuple = Tuple<int, int, bool>;
 
-DisparityRange disparity_range(const LimitsTuple& limits) {
-    const auto [first, last] = unpack(limits, "limits");
-    return {first, last};
-}
-
-StereoMatching stereo_matching(const MatchingTuple& matching) {
-    const auto [window, uniqueness, prefilter] = unpack(matching, "matching");
-    return {window, uniqueness, prefilter};
-}
-
 Array<float> sad_disparity_arrays(const Bytes& left, const Bytes& right, const RegionTuple& region,
                                   bool ellipse, const LimitsTuple& limits, const MatchingTuple& matching,
                                   int tolerance) {
     const auto view = gray_image(left, "left"), other = gray_image(right, "right");
     const StereoRegion part{region_of(region), ellipse};
-    const DisparityRange range = disparity_range(limits);
-    const StereoMatching windows = stereo_matching(matching);
+    const auto range = unpack_as<DisparityRange>(limits, "limits");
+    const auto how = unpack_as<StereoMatching>(matching, "matching");
     return give(unlocked(work_in(part.place),
-                         [&] { return sad_disparity(view, other, part, range, windows, tolerance); }));
+                         [&] { return sad_disparity(view, other, part, range, how, tolerance); }));
 }
 
 /// Variances (3,) as one row of 3, covariances (N, 3, 3) as rows of 9.
@@ -113,10 +103,10 @@ std::tuple<Array<std::uint16_t>, Bytes> head_cells_arrays(
     if (gains) given = {std::get<0>(*gains), std::get<1>(*gains), std::get<2>(*gains)};
     const auto [expected, tolerance, fill] = unpack(depth, "depth");
     const HeadDepth head{static_cast<float>(expected), static_cast<float>(tolerance), fill};
-    const DisparityRange range = disparity_range(limits);
-    const StereoMatching windows = stereo_matching(matching);
+    const auto range = unpack_as<DisparityRange>(limits, "limits");
+    const auto how = unpack_as<StereoMatching>(matching, "matching");
     auto cells = unlocked(work_in(part, step), [&] {
-        return head_cells(view, other, part, step, colors, gains ? &given : nullptr, head, range, windows);
+        return head_cells(view, other, part, step, colors, gains ? &given : nullptr, head, range, how);
     });
     return {give(std::move(cells.bins)), give(std::move(cells.coherent))};
 }
@@ -127,13 +117,13 @@ std::tuple<double, int, int> ellipse_disparity_arrays(const Bytes& left, const B
                                                       const Tuple<bool, bool, double>& statistic) {
     const auto view = any_image(left, "left"), other = any_image(right, "right");
     const auto where = vector(ellipse, "ellipse");
-    const DisparityRange range = disparity_range(limits);
-    const StereoMatching windows = stereo_matching(matching);
+    const auto range = unpack_as<DisparityRange>(limits, "limits");
+    const auto how = unpack_as<StereoMatching>(matching, "matching");
     const auto [subpixel, median, tolerance] = unpack(statistic, "statistic");
     const DisparityStatistic by{subpixel, median, static_cast<float>(tolerance)};
     const bool known = where.size() == 4 && where.allFinite();
     const auto found = unlocked(known ? work_of(2 * where[2], 2 * where[3]) : 0,
-                                [&] { return ellipse_disparity(view, other, where, range, windows, by); });
+                                [&] { return ellipse_disparity(view, other, where, range, how, by); });
     return {found.disparity, found.matched, found.near};
 }
 
