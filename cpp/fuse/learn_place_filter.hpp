@@ -10,8 +10,8 @@ namespace tricue {
 /// The filter of a target's place: as it is learned, and as it is applied.
 struct PlaceFilter {
     Complexes learned;  ///< complex64 (K, R, C // 2 + 1); in C++ the planes one below the other
-    Complexes
-        applied;  ///< complex64 (2, K, R, C // 2 + 1): the learned one with a share of the first, and the first
+    /// complex64 (2, K, R, C // 2 + 1): the learned one with a share of the first, and the first
+    Complexes applied;
 };
 
 /// Learns the filter of a target's place from a patch: one stage of the frame, in one call. It is hog_color_cells, then

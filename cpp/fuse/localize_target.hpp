@@ -12,8 +12,8 @@ namespace tricue {
 struct TargetAppearance {
     /// complex64 (F, 19, R, C // 2 + 1), F at least 1, of its place: the first one localizes it, then others
     FilterStack filters;
-    FloatsRef
-        table;  ///< float32 (B, B, B), P(target | color) as color_posterior takes it, or (0, 0, 0) to ignore colors
+    /// float32 (B, B, B), P(target | color) as color_posterior takes it, or (0, 0, 0) to ignore colors
+    FloatsRef table;
     /// float64 (B³,), B a power of two up to 64: square roots of the joint histogram with which colors are compared
     VectorRef roots;
 };
@@ -29,8 +29,8 @@ struct TargetSearch {
 
 /// The place in a patch with most evidence for a target, and the measurements there.
 struct LocalizedTarget {
-    Vector
-        found;  ///< float64 (7 + F,): evidence_peak, the first filter's peak sharpness, and the colors' similarity
+    /// float64 (7 + F,): evidence_peak, the first filter's peak sharpness, and the colors' similarity
+    Vector found;
     Floats responses;  ///< float32 (F, R, C) of the filters; in C++ one below the other
 };
 

@@ -21,8 +21,8 @@ struct WeightedEllipses {
 /// The noise that moves particles.
 struct EllipseNoise {
     StatesRef white;  ///< float64 (N, 4): independent standard normal numbers
-    double
-        correlation;  ///< of both semi-axes' noise, made by mixing the minor one's into the major one's, in [-1, 1]
+    /// of both semi-axes' noise, made by mixing the minor one's into the major one's, in [-1, 1]
+    double correlation;
 };
 
 /// Particles after a frame, and their estimate of the target.

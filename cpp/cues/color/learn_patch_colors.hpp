@@ -11,11 +11,11 @@ namespace tricue {
 /// Which pixels of a patch are a target's, and which its surround's.
 struct LearnedPixels {
     double width, height;  ///< of the target's box, pixels, finite, not negative
-    double
-        min_surround_size;  ///< scale of the box, outside of which pixels are the surround's, finite, at least 1
+    /// scale of the box, outside of which pixels are the surround's, finite, at least 1
+    double min_surround_size;
     double min_target_posterior;  ///< P(target) of the target's pixels is above this, in [0, 1]
-    double
-        max_surround_posterior;  ///< P(target) of the surround's pixels in the ellipse is below this, in [0, 1]
+    /// P(target) of the surround's pixels in the ellipse is below this, in [0, 1]
+    double max_surround_posterior;
 };
 
 /// learn_contrast of a patch with the target in its middle: one stage of the frame, in one call.

@@ -18,8 +18,8 @@ struct EllipsePattern {
 
 /// What a target looks like: rank maps and their shares, and a table over colors.
 struct ColorAppearance {
-    FloatsRef
-        models;  ///< float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1; in C++ M rows of 3 n
+    /// float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1; in C++ M rows of 3 n
+    FloatsRef models;
     VectorRef shares;  ///< float64 (M,): weight of each map in the mean distance, finite
     bool nearest;      ///< whether to take the least distance; shares then only have to be valid
     FloatsRef table;   ///< float32 (B, B, B), B a power of two up to 64: P(target | color)

@@ -7,8 +7,8 @@
 namespace tricue {
 
 struct RankWindow {
-    Floats
-        ranks;  ///< float32 (3, n): mid-ranks of the samples, as color_ranks has them; in C++ one row of 3 n
+    /// float32 (3, n): mid-ranks of the samples, as color_ranks has them; in C++ one row of 3 n
+    Floats ranks;
     Vector correlations;  ///< float64 (M,): in [0, 1], with each of the models
 };
 

@@ -8,11 +8,11 @@ namespace tricue {
 
 /// The conditions for an object to be a piece of a body.
 struct PieceLimits {
-    double
-        region;  ///< size of the region in which it lies, over that of the expected rectangle, around which it is
+    /// size of the region in which it lies, over that of the expected rectangle, around which it is
+    double region;
     double inside;  ///< a piece has more than this share of its area in that region
-    double
-        joined;  ///< a joined body is at most this many times the mean size, or the size before if that is larger
+    /// a joined body is at most this many times the mean size, or the size before if that is larger
+    double joined;
     double depth;  ///< a piece's depth differs by less than this from the object's, meters
 };
 
@@ -21,8 +21,8 @@ struct Body {
     Vector state;  ///< float64 (5,): X, Y, Z, W, H, completed where it is cut
     Flags whole;   ///< bool (2,): whether the whole width and the whole height are visible
     Vector size;   ///< float64 (2,): the mean size; where it isn't known, at least that of the object
-    Vector
-        signature;  ///< float64 (2 bins + 2,): the object's columns and rows; centroid of all pieces less the center, x and y, meters
+    /// float64 (2 bins + 2,): the object's columns and rows; centroid of all pieces less the center, x and y, meters
+    Vector signature;
 };
 
 /// The body of which an object is a part: joined with the pieces that gaps separate from it, and completed where it is cut.

@@ -12,8 +12,8 @@ namespace tricue {
 /// Where objects are looked for: in a region, except where depth hasn't changed.
 struct SearchedPixels {
     Region region;  ///< (x0, y0, x1, y1), pixels: [x0, x1) x [y0, y1), which may extend beyond the image
-    DepthView
-        before;  ///< float32 (H, W), meters: no object is looked for where changed_depth gives 0; (0, 0) for none
+    /// float32 (H, W), meters: no object is looked for where changed_depth gives 0; (0, 0) for none
+    DepthView before;
     double noise, noise_slope;  ///< as noise and slope in changed_depth
 };
 

@@ -19,8 +19,8 @@ struct GridPlace {
 /// The target's blocks, which move with it and grow as it comes nearer.
 struct BlockGrid {
     StatesRef corners;  ///< float64 (N, 4): x0, y0, x1, y1 of each block
-    GridPlace
-        place;  ///< (size, x, y, left, top), finite: a corner c is at size c + (x, y) - (left, top), pixels
+    /// (size, x, y, left, top), finite: a corner c is at size c + (x, y) - (left, top), pixels
+    GridPlace place;
 };
 
 /// The pixels of each block in an image: those whose centers lie in it.

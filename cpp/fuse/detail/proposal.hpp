@@ -18,8 +18,8 @@ struct Detection {
     /// float64 (K, K): Cholesky factor of its covariance, lower triangle, diagonal above 0; numbers above the diagonal are not
     /// read
     StatesRef root;
-    double
-        share;  ///< share of the particles that is drawn from it, in [0, 1); at 0 mean and root are not read
+    /// share of the particles that is drawn from it, in [0, 1); at 0 mean and root are not read
+    double share;
 };
 
 /// @throws std::invalid_argument on a wrong size or value for states with this many dimensions

@@ -50,8 +50,8 @@ private:
     int length_;
     int compared_stride_, filtered_stride_;  ///< numbers from one plane to the next in a row
     RowRingBuffer compared_;                 ///< mean and change
-    RowRingBuffer
-        filtered_;  ///< along x: the mean smoothed, its slope and curvature, the change smoothed, its slope
+    /// along x: the mean smoothed, its slope and curvature, the change smoothed, its slope
+    RowRingBuffer filtered_;
 };
 
 }  // namespace tricue
