@@ -137,7 +137,7 @@ Eigen::Map<const Indices> counts(const Counts& numbers, const char* name) {
 
 using VotesTuple = Tuple<Counts, Counts, Counts, Array<bool>, Counts, Counts>;
 using CountsTuple = Tuple<Counts, Counts, Counts, Array<double>, Counts>;
-using LimitsTuple = Tuple<double, double, double>;
+using DisparityLimitsTuple = Tuple<double, double, double>;
 using RulesTuple = Tuple<double, std::int64_t, std::int64_t, std::int64_t, std::int64_t>;
 
 BlockVotes votes_of(const VotesTuple& blocks) {
@@ -153,10 +153,9 @@ BlockCounts counts_of(const CountsTuple& seen) {
             vector(mean, "mean"), counts(similar, "similar")};
 }
 
-std::tuple<Counts, Counts, Counts, Array<bool>, Counts, Counts> block_votes_arrays(const VotesTuple& blocks,
-                                                                                   const CountsTuple& seen,
-                                                                                   const LimitsTuple& limits,
-                                                                                   const RulesTuple& rules) {
+std::tuple<Counts, Counts, Counts, Array<bool>, Counts, Counts> block_votes_arrays(
+    const VotesTuple& blocks, const CountsTuple& seen, const DisparityLimitsTuple& limits,
+    const RulesTuple& rules) {
     const BlockVotes before = votes_of(blocks);
     const BlockCounts observed = counts_of(seen);
     const auto disparities = unpack_as<DisparityLimits>(limits, "limits");
@@ -168,16 +167,16 @@ std::tuple<Counts, Counts, Counts, Array<bool>, Counts, Counts> block_votes_arra
             give(std::move(after.trusted)), give(std::move(after.without_pixels))};
 }
 
-using GridTuple = Tuple<Array<double>, Tuple<double, double, double, double, double>>;
+using BlockGridTuple = Tuple<Array<double>, Tuple<double, double, double, double, double>>;
 
-BlockGrid block_grid(const GridTuple& grid) {
+BlockGrid block_grid(const BlockGridTuple& grid) {
     const auto [corners, place] = unpack(grid, "grid");
     return {states(corners, "corners"), unpack_as<GridPlace>(place, "place")};
 }
 
-using Map = Tuple<Array<float>, Array<float>>;
-using Peak = Tuple<double, double, double>;
-using BlocksTuple = Tuple<GridTuple, Counts, Counts>;
+using CueMapTuple = Tuple<Array<float>, Array<float>>;
+using PeakTuple = Tuple<double, double, double>;
+using BlocksTuple = Tuple<BlockGridTuple, Counts, Counts>;
 using FormerTuple = Tuple<Array<double>, std::vector<double>, std::vector<double>>;
 
 std::optional<FormerModel> former_model(const std::optional<FormerTuple>& before) {
@@ -193,16 +192,16 @@ std::optional<TargetBlocks> target_blocks(const std::optional<BlocksTuple>& bloc
 }
 
 std::tuple<Array<double>, Array<double>, Array<double>> target_model_arrays(
-    const std::vector<Map>& maps, const std::vector<Peak>& expected, const Corners& window,
+    const std::vector<CueMapTuple>& maps, const std::vector<PeakTuple>& expected, const Corners& window,
     const std::optional<BlocksTuple>& blocks, const std::optional<Tuple<double, double>>& depth,
     const std::optional<FormerTuple>& before, const Tuple<int, double, double, double, double>& rules) {
     std::vector<CueMap> each;
     std::vector<ExpectedPeak> at;
-    for (const Map& map : maps) {
+    for (const CueMapTuple& map : maps) {
         const auto [values, weights] = unpack(map, "maps");
         each.push_back({plane(values, "maps"), plane(weights, "maps")});
     }
-    for (const Peak& peak : expected) at.push_back(unpack_as<ExpectedPeak>(peak, "expected"));
+    for (const PeakTuple& peak : expected) at.push_back(unpack_as<ExpectedPeak>(peak, "expected"));
     const Rectangle place = rectangle(window, "window");
     const auto mine = target_blocks(blocks);
     const auto former = former_model(before);
@@ -234,8 +233,8 @@ TargetPrior target_prior(const Tuple<Corners, Corners>& prior) {
 std::tuple<RegionTuple, std::int64_t, Bytes, Seen, double> observe_target_arrays(
     const std::vector<Array<float>>& planes, const DensitiesTuple& model,
     const Tuple<Corners, Corners>& prior, double threshold, const Tuple<int, double, double>& clean,
-    const std::optional<Array<float>>& disparity, const GridTuple& grid, const Counts& of_blocks,
-    const LimitsTuple& limits) {
+    const std::optional<Array<float>>& disparity, const BlockGridTuple& grid, const Counts& of_blocks,
+    const DisparityLimitsTuple& limits) {
     std::vector<PlaneView> each;
     for (const auto& values : planes) each.push_back(plane(values, "planes"));
     const CueDensities densities = cue_densities(model);
@@ -259,8 +258,9 @@ std::tuple<RegionTuple, std::int64_t, Bytes, Seen, double> observe_target_arrays
 }
 
 std::tuple<RegionTuple, std::int64_t> target_outline_numbers(const Bytes& mask, const Array<float>& disparity,
-                                                             const GridTuple& grid, const Counts& of_blocks,
-                                                             double target, double tolerance) {
+                                                             const BlockGridTuple& grid,
+                                                             const Counts& of_blocks, double target,
+                                                             double tolerance) {
     const auto set = mask_view(mask, "mask");
     const auto distances = plane(disparity, "disparity");
     const BlockGrid blocks = block_grid(grid);

@@ -58,10 +58,10 @@ Bytes depth_picture_arrays(const Array<float>& depth, double z, double reach) {
     return give(unlocked(pixels(view), [&] { return depth_picture(view, z, reach); }));
 }
 
-using GridTuple = Tuple<double, double, double, int, int>;
+using SampleGridTuple = Tuple<double, double, double, int, int>;
 using TargetTuple = Tuple<double, double, double>;
 
-std::tuple<Array<float>, Bytes> depth_posterior_arrays(const Array<float>& depth, const GridTuple& grid,
+std::tuple<Array<float>, Bytes> depth_posterior_arrays(const Array<float>& depth, const SampleGridTuple& grid,
                                                        const TargetTuple& target) {
     const auto view = depth_image(depth, "depth");
     const auto squares = unpack_as<SampleGrid>(grid, "grid");
@@ -154,7 +154,7 @@ Array<double> plane_support_arrays(const Array<float>& depth, const Array<double
                          [&] { return plane_support(view, lens, floor, tolerance, step); }));
 }
 
-Bytes support_pixels_arrays(const Array<float>& depth, const GridTuple& grid, const TargetTuple& target,
+Bytes support_pixels_arrays(const Array<float>& depth, const SampleGridTuple& grid, const TargetTuple& target,
                             const Array<double>& camera, const Array<double>& draws, double tolerance) {
     const auto view = depth_image(depth, "depth");
     const auto squares = unpack_as<SampleGrid>(grid, "grid");

@@ -19,12 +19,12 @@ namespace tricue::bindings {
 namespace {
 
 using Bytes = Array<std::uint8_t>;
-using LimitsTuple = Tuple<int, int>;
+using DisparityRangeTuple = Tuple<int, int>;
 using MatchingTuple = Tuple<int, int, bool>;
 
 Array<float> sad_disparity_arrays(const Bytes& left, const Bytes& right, const RegionTuple& region,
-                                  bool ellipse, const LimitsTuple& limits, const MatchingTuple& matching,
-                                  int tolerance) {
+                                  bool ellipse, const DisparityRangeTuple& limits,
+                                  const MatchingTuple& matching, int tolerance) {
     const auto view = gray_image(left, "left"), other = gray_image(right, "right");
     const StereoRegion part{region_of(region), ellipse};
     const auto range = unpack_as<DisparityRange>(limits, "limits");
@@ -94,8 +94,8 @@ using Gains = std::tuple<double, double, double>;
 
 std::tuple<Array<std::uint16_t>, Bytes> head_cells_arrays(
     const Bytes& left, const Bytes& right, const RegionTuple& region, int step, const SpaceTuple& space,
-    const std::optional<Gains>& gains, const Tuple<double, double, int>& depth, const LimitsTuple& limits,
-    const MatchingTuple& matching) {
+    const std::optional<Gains>& gains, const Tuple<double, double, int>& depth,
+    const DisparityRangeTuple& limits, const MatchingTuple& matching) {
     const auto view = color_image(left, "left"), other = any_image(right, "right");
     const Region part = region_of(region);
     const ColorSpace colors = color_space(space);
@@ -112,7 +112,8 @@ std::tuple<Array<std::uint16_t>, Bytes> head_cells_arrays(
 }
 
 std::tuple<double, int, int> ellipse_disparity_arrays(const Bytes& left, const Bytes& right,
-                                                      const Array<double>& ellipse, const LimitsTuple& limits,
+                                                      const Array<double>& ellipse,
+                                                      const DisparityRangeTuple& limits,
                                                       const MatchingTuple& matching,
                                                       const Tuple<bool, bool, double>& statistic) {
     const auto view = any_image(left, "left"), other = any_image(right, "right");
