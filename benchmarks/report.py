@@ -111,11 +111,11 @@ Figure 1's scene, scaled; frames/s from each frame's minimum over {rounds} round
 PAIRS = """
 ## Two trackers at once
 
-Updates/s of both together compared with one alone, best of {rounds} alternating rounds. Kernels with enough work release the GIL. The
-loop itself is Python and holds it; with few particles the loop takes half of the time, and handing over the GIL takes as long as a
-small kernel. Two processes have no such limit.
+Updates/s of both together compared with one alone, best of {rounds} alternating rounds, first frames included. Kernels with enough work
+release the GIL, and at first wait for it awake (`python/bindings/unlocked.hpp`); the loop itself is Python and holds it. Two processes
+have no such limit.
 
-| particles | one | two threads | ratio | two processes | ratio |
+| trackers | one | two threads | ratio | two processes | ratio |
 | --- | --- | --- | --- | --- | --- |
 """
 

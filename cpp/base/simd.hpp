@@ -227,6 +227,15 @@ TRICUE_INLINE int count_bits(std::uint64_t bits) {
 #endif
 }
 
+/// Tells the processor that a loop only waits, which leaves more to the other thread of its core.
+TRICUE_INLINE void pause() {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    __asm__ volatile("yield");
+#endif
+}
+
 /// Begins to load the cache line of an address that will be read soon into the second-level cache: the first level can have only
 /// a few lines in flight, and other reads would then wait, too.
 ///

@@ -21,6 +21,7 @@
 #include "base/region.hpp"
 #include "base/sample_view.hpp"
 #include "base/stack_view.hpp"
+#include "unlocked.hpp"
 
 namespace tricue::bindings {
 
@@ -249,31 +250,6 @@ inline std::array<double, 3> channel_gains(const Array<double>& gains) {
     if (each.size() != 3)
         throw py::value_error("gains: expected float64 (3,), got (" + std::to_string(each.size()) + ",)");
     return {each[0], each[1], each[2]};
-}
-
-/// How much work a kernel has, for `unlocked`, at most a billion: the kernel hasn't checked its arguments yet, and their product may
-/// not fit an integer.
-template <typename... Factors>
-std::ptrdiff_t work_of(Factors... factors) {
-    return static_cast<std::ptrdiff_t>(std::clamp((static_cast<double>(factors) * ...), 0.0, 1e9));
-}
-
-/// The same of a region's pixels, so many times each; none where its corners are the wrong way round.
-template <typename... Factors>
-std::ptrdiff_t work_in(const Region& region, Factors... times) {
-    const std::ptrdiff_t none = 0;
-    return work_of(std::max(none, std::ptrdiff_t{region.x1} - region.x0),
-                   std::max(none, std::ptrdiff_t{region.y1} - region.y0), times...);
-}
-
-/// Runs a kernel, without the GIL where it has enough work, in pixels or numbers to go through: to hand the GIL over and get it
-/// back takes longer than a small kernel, and two trackers in two threads would do little else.
-template <typename Kernel>
-auto unlocked(std::ptrdiff_t work, Kernel&& kernel) {
-    constexpr std::ptrdiff_t kEnough = 4096;
-    if (work < kEnough) return kernel();
-    const py::gil_scoped_release release;
-    return kernel();
 }
 
 /// A new array, C-contiguous; without the steps by which pybind11 makes arrays of any layout, which take as long again.
