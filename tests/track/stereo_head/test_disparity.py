@@ -18,7 +18,7 @@ def test_the_margin_leaves_enough_of_a_small_head(axes: tuple[float, float], x: 
     wide = np.random.default_rng(3).integers(0, 200, (80, 140, 3), dtype=np.uint8)
     left, right = (np.ascontiguousarray(wide[:, at : at + 120]) for at in (10, 17))
     k = kernel_sets.load("native")
-    pair = PreparedPair.of(k, left, right, None, DEFAULT)
+    pair = PreparedPair.of(k, left, right, np.inf, None, DEFAULT)
     found = measure_disparity(k, pair, (x, 44.2, *axes), (3, 11), DEFAULT)
     assert found is not None
     assert found.disparity == pytest.approx(7, abs=0.1)

@@ -21,7 +21,7 @@ def shifted_pair(disparity: int, brighter: int = 0) -> PreparedPair:
     left, right = wide[:, 10:130], wide[:, 10 + disparity : 130 + disparity].copy()
     right[36:40] = wide[36:40, 9 + disparity : 129 + disparity]
     k = kernel_sets.load("native")
-    return PreparedPair.of(k, np.ascontiguousarray(left), right + np.uint8(brighter), None, PAPER)
+    return PreparedPair.of(k, np.ascontiguousarray(left), right + np.uint8(brighter), np.inf, None, PAPER)
 
 
 def brute_force(pair: PreparedPair, limits: tuple[int, int]) -> np.ndarray:

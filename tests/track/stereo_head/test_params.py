@@ -19,9 +19,9 @@ PRINTED = {name: value for name, value in PAPER.items() if value != getattr(Para
 """What the paper's form changes."""
 UNSEEN = {
     *("color_noise", "color_drift", "intersection_noise"),
-    *("min_intersection_to_learn", "learning_gate", "max_deviations", "search"),
+    *("min_intersection_to_learn", "learning_gate", "max_deviations", "search", "min_head_cells"),
 }
-"""What doesn't show in this scene unless other choices are the paper's, too."""
+"""What doesn't show in this scene, of 160 columns, unless other choices are the paper's, too."""
 
 
 def assert_sane(tracks: list[Track]) -> None:
@@ -65,7 +65,7 @@ def test_the_printed_form_has_no_stage_of_ours():
     constant position (6), the polynomial of one pixel (9); nothing that the paper doesn't have.
     """
     p = Params.paper()
-    assert (p.resolution, p.search, p.disparities) == (160, (8, 2), (4, 4))
+    assert (p.resolution, p.min_head_cells, p.search, p.disparities) == (160, 0, (8, 2), (4, 4))
     assert (p.prefilter, p.uniqueness, p.subpixel, p.disparity_statistic) == (False, 0, False, "mean")
     assert (p.motion, p.noise_model, p.disparity_noise) == ("constant", "polynomial", 1)
     assert (p.learn, p.learning_gate, p.feedback, p.fuse) == ("all", "absolute", True, True)

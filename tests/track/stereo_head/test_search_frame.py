@@ -50,7 +50,7 @@ def stage(
         for side, shift in zip(sides, (0, disparity), strict=True):
             mask = ((columns + shift - middle[0]) / half[0]) ** 2 + ((rows - middle[1]) / half[1]) ** 2 < 1
             side[mask] = np.roll(texture, -shift, axis=1)[mask]
-    return PreparedPair.of(load("native"), sides[0], sides[1], None, P), boxes
+    return PreparedPair.of(load("native"), sides[0], sides[1], np.inf, None, P), boxes
 
 
 def histogram(k, color: np.ndarray) -> np.ndarray:
@@ -175,6 +175,6 @@ def test_what_is_too_small_is_not_searched(kernels):
     """A head whose ellipse would be smaller than a searched cell is not found: None."""
     geometry = StereoGeometry.of(rig())
     image = cv2.resize(np.zeros((2, 2, 3), np.uint8), (160, 120))
-    pair = PreparedPair.of(load("native"), image, image, None, P)
+    pair = PreparedPair.of(load("native"), image, image, np.inf, None, P)
     tiny = anywhere(histogram(kernels, SKIN))._replace(size=(0.002, 0.002))
     assert search_frame(kernels, pair, geometry, tiny, P) is None

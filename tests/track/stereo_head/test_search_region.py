@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tricue import StereoHeadTracker
 from tricue.kernels import load
-from tricue.track.stereo_head.prepared_pair import PreparedPair
+from tricue.track.stereo_head.prepared_pair import PreparedPair, cell_side
 from tricue.track.stereo_head.search_region import crop_region
 
 Params = StereoHeadTracker.Params
@@ -36,7 +36,7 @@ def mean_color(image: np.ndarray) -> np.ndarray:
 def all_bins(k, image: np.ndarray, light: np.ndarray | None) -> np.ndarray:
     """The bins of an image's cells, with the light compensated to a first mean color."""
     height, width = image.shape[:2]
-    return PreparedPair.of(k, image, image, light, P).bins(k, (0, 0, width, height), 1, P)
+    return PreparedPair.of(k, image, image, np.inf, light, P).bins(k, (0, 0, width, height), 1, P)
 
 
 @pytest.mark.parametrize("gains", [(2, 2, 2), (2, 1, 4), (1, 1, 1)], ids=str)
@@ -57,7 +57,7 @@ def test_gains_are_those_of_the_light(gain):
     """
     first = picture(60, 80) // 2 + 20
     lit = np.rint(first * gain).astype(np.uint8)
-    gains = PreparedPair.of(K, lit, lit, mean_color(first), P).gains
+    gains = PreparedPair.of(K, lit, lit, np.inf, mean_color(first), P).gains
     np.testing.assert_allclose(gains, 1 / gain, rtol=0.5 / mean_color(lit).min())
 
 
@@ -77,7 +77,7 @@ def test_a_region_is_a_part_of_the_whole(region, step, light, kernels):
     """Bins of a region, over the edge too, are those of the whole picture in that light, and none outside."""
     image = picture(24, 32) // 4
     lit = 2 * image
-    pair = PreparedPair.of(K, lit, lit, mean_color(image) if light else None, P)
+    pair = PreparedPair.of(K, lit, lit, np.inf, mean_color(image) if light else None, P)
     expected = kernels.color_bins(image if light else lit, region, P.color_space, step)
     np.testing.assert_array_equal(pair.bins(kernels, region, step, P), expected)
 
@@ -87,7 +87,7 @@ def test_black_and_white_have_finite_gains(level, kernels):
     """A picture without light, or full of it, has finite gains, and one bin everywhere: black stays black."""
     image = np.full((24, 32, 3), level, np.uint8)
     light = mean_color(picture(24, 32))
-    assert np.isfinite(PreparedPair.of(K, image, image, light, P).gains).all()
+    assert np.isfinite(PreparedPair.of(K, image, image, np.inf, light, P).gains).all()
     bins = all_bins(kernels, image, light)
     assert (bins == bins[0, 0]).all()
     if level == 0:
@@ -103,7 +103,7 @@ def test_cells_are_squares_of_step_pixels(width, resolution, step):
     lie in a row.
     """
     image = picture(48, width)
-    pair = PreparedPair.of(K, image, shifted(image, 3), None, Params(resolution=resolution))
+    pair = PreparedPair.of(K, image, shifted(image, 3), np.inf, None, Params(resolution=resolution))
     assert pair.step == step
     assert pair.shape == (48 // step, width // step)
     middles = np.ascontiguousarray(image[step // 2 :: step, step // 2 :: step])
@@ -112,6 +112,24 @@ def test_cells_are_squares_of_step_pixels(width, resolution, step):
     expected = K.color_bins(middles, region, P.color_space, 1)
     np.testing.assert_array_equal(pair.bins(K, region, 1, P), expected)
     np.testing.assert_allclose(pair.mean, middles.mean(axis=(0, 1)), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("width", "head_width", "least", "side"),
+    [
+        (1920, 92.0, 18, 5),
+        (1920, 300.0, 18, 12),
+        (640, 72.0, 18, 4),
+        (640, 71.9, 18, 3),
+        (640, 9.0, 18, 1),
+        (160, 9.0, 18, 1),
+        (1920, 92.0, 0, 12),
+    ],
+)
+def test_cells_are_small_enough_for_the_head(width, head_width, least, side):
+    """``min_head_cells`` lie across it unless that takes cells of less than a pixel."""
+    p = Params(min_head_cells=least)
+    assert cell_side((width // 2, width, 3), head_width, p) == side
 
 
 @pytest.mark.parametrize("right", ["color", "gray"])
@@ -125,7 +143,7 @@ def test_disparities_of_a_region_are_those_of_the_whole_images(shape, limits, el
     """
     image = picture(*shape)
     other = shifted(image, 4) if right == "color" else shifted(image, 4)[..., 1].copy()
-    pair = PreparedPair.of(K, image, other, None, P)
+    pair = PreparedPair.of(K, image, other, np.inf, None, P)
     side = pair.step if cells else 1
     whole = [K.reduce_gray(each, side) for each in (image, other)]
     height, width = shape[0] // side, shape[1] // side
@@ -148,7 +166,7 @@ def test_the_images_stay_as_they_were():
     image = picture(48, 64)
     left, right = image.copy(), shifted(image, 2)
     kept = right.copy()
-    PreparedPair.of(K, left, right, 2 * mean_color(left), P)
+    PreparedPair.of(K, left, right, np.inf, 2 * mean_color(left), P)
     np.testing.assert_array_equal(left, image)
     np.testing.assert_array_equal(right, kept)
 
@@ -159,7 +177,7 @@ def test_cells_near_a_disparity_are_coherent(width, expected, kernels):
     cells more or less.
     """
     image = picture(3 * width // 4, width)
-    pair = PreparedPair.of(K, image, shifted(image, round(expected)), None, P)
+    pair = PreparedPair.of(K, image, shifted(image, round(expected)), np.inf, None, P)
     ellipse = (width / 2, 3 * width / 8, 10.0 * pair.step, 12.0 * pair.step)
     shares = [
         crop_region(kernels, pair, ellipse, expected + off * pair.step, P).coherent.mean()
@@ -175,7 +193,7 @@ def test_a_region_covers_all_that_the_search_touches(center, kernels):
     depth, those inside the bin of their color.
     """
     image = picture(120, 160)
-    pair = PreparedPair.of(K, image, shifted(image, 5), None, P)
+    pair = PreparedPair.of(K, image, shifted(image, 5), np.inf, None, P)
     x, y = center
     cropped = crop_region(kernels, pair, (x, y, 8.0, 10.0), 5.0, P)
     assert cropped.bins.shape == cropped.coherent.shape

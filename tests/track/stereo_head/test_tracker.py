@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tricue import Box, Frame, Status, StereoHeadTracker, StereoRig, Track
+from tricue import Box, Frame, Intrinsics, Status, StereoHeadTracker, StereoRig, Track
 from tricue.errors import TargetNotFoundError
 from tricue.scenes import StereoScene
 
@@ -71,6 +71,46 @@ def test_follows_a_head(kind, followed):
     assert held.mean() >= HELD[kind]
     seen = [track.status is Status.TRACKED for _, tracks in runs for track in tracks]
     assert np.mean(seen) >= 0.95
+
+
+def widened(scene: StereoScene) -> tuple[list[Frame], list[Box], StereoRig]:
+    """A scene of 160x120 in the middle of gray images of 640x480."""
+    left, top = 240, 180
+    frames = []
+    for frame in scene.frames:
+        views = [np.full((480, 640, 3), 90, np.uint8) for _ in range(2)]
+        for view, inner in zip(views, (frame.color, frame.right), strict=True):
+            view[top : top + 120, left : left + 160] = inner
+        frames.append(Frame(views[0], right=views[1], timestamp=frame.timestamp))
+    camera = scene.rig.intrinsics
+    lens = Intrinsics(camera.fx, camera.fy, camera.cx + left, camera.cy + top, 640, 480)
+    boxes = [Box(box.x + left, box.y + top, box.width, box.height) for box in scene.boxes]
+    return frames, boxes, StereoRig(lens, scene.rig.baseline)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_follows_a_head_in_a_wide_view(seed, heads, follow):
+    """A head of 7 to 25 pixels in images of 640x480 is held as well as in images of 160x120; in 160 columns,
+    it would be 2 to 6 cells wide.
+    """
+    frames, boxes, rig = widened(heads(seed))
+    tracks = follow(StereoHeadTracker(rig=rig), frames, boxes[0])
+    assert (overlaps(tracks, boxes) > 0.5).mean() >= HELD["normal"]
+
+
+def test_finds_lost_heads_again_in_a_wide_view(heads, follow):
+    """After half a second of gray images, most of them within WITHIN + BACK frames; one head's tracker stays
+    on its neck.
+    """
+    gray, end = np.full((480, 640, 3), 90, np.uint8), 35 + WITHIN + BACK
+    found = 0
+    for seed in SEEDS:
+        frames, boxes, rig = widened(heads(seed))
+        frames[20:35] = [Frame(gray, right=gray, timestamp=frame.timestamp) for frame in frames[20:35]]
+        tracks = follow(StereoHeadTracker(rig=rig), frames[:end], boxes[0])
+        assert tracks[34].status is Status.LOST
+        found += tracks[-1].box.iou(boxes[end - 1]) > 0.5
+    assert found >= 2
 
 
 @pytest.mark.parametrize("kind", HELD)

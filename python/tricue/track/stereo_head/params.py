@@ -16,13 +16,22 @@ NEVER = 1e9  # seconds or standard deviations, never reached
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StereoHeadParams(Params):
-    """The head is searched in a reduced image of about ``resolution`` columns. A cell is one of its pixels.
+    """The head is searched in a reduced image of about ``resolution`` columns, or of more if the head were
+    less than ``min_head_cells`` wide there. A cell is one of its pixels.
 
     :meth:`paper` has the values with which the tracker is the one that the paper prints.
     """
 
     resolution: int = parameter(
         160, unit="cells", source="section 5", low=16, doc="columns of the image that is searched"
+    )
+    min_head_cells: int = parameter(
+        18,
+        unit="cells",
+        source=OURS,
+        low=0,
+        high=1000,
+        doc="width that the head has at least in that image, if need be with more columns; 0: any",
     )
     search: tuple[int, int] = parameter(
         (8, 4),
@@ -337,6 +346,7 @@ class StereoHeadParams(Params):
           disparities, the prediction stays.
         """
         return cls(
+            min_head_cells=0,
             search=(8, 2),
             hair=0.0,
             compensate_light=False,

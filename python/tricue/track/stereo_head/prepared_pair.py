@@ -39,14 +39,20 @@ class PreparedPair(NamedTuple):
 
     @classmethod
     def of(
-        cls, k: Kernels, left: Image, right: Image, first_mean: Color | None, p: StereoHeadParams
+        cls,
+        k: Kernels,
+        left: Image,
+        right: Image,
+        head_width: float,
+        first_mean: Color | None,
+        p: StereoHeadParams,
     ) -> "PreparedPair":
         """Prepare the images of a frame, left BGR, right as it is.
 
-        first_mean: mean color of the first left image; None to not compensate the light.
+        head_width: pixels, about. first_mean: mean color of the first left image; None to not compensate the
+        light.
         """
-        height, width = left.shape[:2]
-        step = max(1, min(round(width / p.resolution), height, width))
+        step = cell_side(left.shape, head_width, p)
         b, g, r = k.image_mean(left, step).tolist()
         gains = None
         if first_mean is not None:
@@ -84,3 +90,12 @@ class PreparedPair(NamedTuple):
         """The side of the matching window, pixels."""
         widest = MAX_WINDOW_PREFILTERED if p.prefilter else MAX_WINDOW_GRAY
         return min(p.window + 2 * (self.step - 1), widest)
+
+
+def cell_side(shape: tuple[int, ...], head_width: float, p: StereoHeadParams) -> int:
+    """The side of a cell, pixels, for images of this shape and a head about so many pixels wide."""
+    height, width = shape[:2]
+    side = max(1, min(round(width / p.resolution), height, width))
+    if side == 1 or head_width >= side * p.min_head_cells:
+        return side
+    return max(1, int(head_width / p.min_head_cells))

@@ -11,11 +11,12 @@ from tricue.arrays import Floats
 from tricue.kernels import Kernels
 from tricue.track.stereo_head.disparity import limits_between
 from tricue.track.stereo_head.params import StereoHeadParams
-from tricue.track.stereo_head.prepared_pair import Disparities, Ellipse, PreparedPair
+from tricue.track.stereo_head.prepared_pair import Disparities, Ellipse, PreparedPair, cell_side
 from tricue.track.stereo_head.search_local import score_matches
 from tricue.track.stereo_head.stereo_geometry import Point, StereoGeometry
 
-CELL_STRIDE = 3  # every third cell is searched, in both directions
+CELL_STRIDE = 3  # every third cell of ``resolution`` columns is searched, in both directions
+MIN_SEARCHED_WIDTH = 4  # searched cells, of a head as far away as it was; for a small head there are more
 DISTANCE_RATIO = 0.85  # ratio of a searched distance to the next farther one
 MIN_SEMI_AXIS = 1.0  # of an ellipse, in searched cells
 
@@ -42,10 +43,11 @@ def search_frame(
     k: Kernels, pair: PreparedPair, geometry: StereoGeometry, head: LostHead, p: StereoHeadParams
 ) -> tuple[Ellipse, float] | None:
     """The ellipse and the disparity, pixels, most like the head; None if it can't be in the image."""
-    step = pair.step * CELL_STRIDE
-    disparities = _match_cells(k, pair, geometry, head, p)
+    stride = _stride(pair, geometry.width(head.size, head.last_seen[2]), p)
+    step = pair.step * stride
+    disparities = _match_cells(k, pair, geometry, head, p)[stride // 2 :: stride, stride // 2 :: stride]
     rows, columns = disparities.shape
-    bins = pair.bins(k, (0, 0, columns * CELL_STRIDE, rows * CELL_STRIDE), CELL_STRIDE, p)
+    bins = pair.bins(k, (0, 0, columns * stride, rows * stride), stride, p)
     best: tuple[float, Ellipse, float] | None = None
     for z in _sample_distances(*head.distances(p)):
         disparity = geometry.disparity(z)
@@ -93,9 +95,14 @@ def _select_reachable(
 def _match_cells(
     k: Kernels, pair: PreparedPair, geometry: StereoGeometry, head: LostHead, p: StereoHeadParams
 ) -> Disparities:
-    """The disparity of each searched cell, in cells, within the head's possible range."""
+    """The disparity of each cell, in cells, within the head's possible range."""
     height, width = pair.shape
     first, last = limits_between(geometry, *head.distances(p), pair.step)
     region, limits = (0, 0, width, height), (first - 1, last + 1)
-    disparities = pair.disparities(k, region, limits, p, ellipse=False, cells=True)
-    return disparities[CELL_STRIDE // 2 :: CELL_STRIDE, CELL_STRIDE // 2 :: CELL_STRIDE]
+    return pair.disparities(k, region, limits, p, ellipse=False, cells=True)
+
+
+def _stride(pair: PreparedPair, head_width: float, p: StereoHeadParams) -> int:
+    """Of how many cells one is searched, in both directions, for a head of about so many pixels."""
+    coarsest = CELL_STRIDE * cell_side(pair.left.shape, math.inf, p)
+    return max(1, int(min(coarsest, head_width / MIN_SEARCHED_WIDTH) / pair.step))

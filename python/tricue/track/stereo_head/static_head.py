@@ -100,7 +100,7 @@ def measure_static_head(
             left, right, _ = validation.stereo_pair(frame, state.shape)
         except ValueError as error:
             raise ValueError(f"frame {count}: {error}") from error
-        pair = PreparedPair.of(k, left, right, state.first_mean, p)
+        pair = PreparedPair.of(k, left, right, 2 * ellipse[2], state.first_mean, p)
         found = measure(k, pair, state.geometry, ellipse, disparity, state.first_histogram, p)
         if found is not None:
             color = k.histogram_mean(found.histogram, p.color_space)

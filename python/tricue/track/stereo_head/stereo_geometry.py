@@ -52,6 +52,10 @@ class StereoGeometry(NamedTuple):
         fx, fy, cx, cy, _ = self.numbers
         return fx * x / z + cx + 0.5, fy * y / z + cy + 0.5, size[0] / 2 * fx / z, size[1] / 2 * fy / z
 
+    def width(self, size: tuple[float, float], z: float) -> float:
+        """The width, pixels, of an ellipse with a size, meters, at a distance z, meters."""
+        return size[0] * self.numbers[0] / z
+
     def size(self, minor: float, major: float, z: float) -> tuple[float, float]:
         """Width and height, meters, of an ellipse at a distance z, meters; semi-axes in pixels."""
         return 2 * minor * z / float(self.rig[0]), 2 * major * z / float(self.rig[1])

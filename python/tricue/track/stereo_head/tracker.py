@@ -89,7 +89,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, StereoHeadState]):
         if max(head.width, head.height) > MAX_BOX_SIDE:
             raise BoxError(f"box: expected a head of at most {MAX_BOX_SIDE} pixels, got {tuple(head)}")
         warn_of_stereo(as_frame(frame))
-        pair = PreparedPair.of(self._k, left, right, None, self.params)
+        pair = PreparedPair.of(self._k, left, right, head.width, None, self.params)
         first_mean = pair.mean if self.params.compensate_light else None
         first = self._measure_first(pair, geometry, head)
         histogram, model, color = self._mix(first.histogram, first.histogram, 0.0, first.histogram)
@@ -120,7 +120,8 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, StereoHeadState]):
         before = validation.require_initialized(self._state)
         left, right, timestamp = validation.stereo_pair(frame, before.shape, self.rig)
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
-        pair = PreparedPair.of(self._k, left, right, before.first_mean, self.params)
+        width = before.geometry.width(before.size, before.filter.mean.item(2))
+        pair = PreparedPair.of(self._k, left, right, width, before.first_mean, self.params)
         return self._keep(self._follow(before, pair, seconds, timestamp), frame)
 
     def _measure_first(self, pair: PreparedPair, geometry: StereoGeometry, head: Box) -> HeadMeasurement:
