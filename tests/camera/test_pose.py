@@ -55,6 +55,17 @@ def test_an_angle_that_is_none_is_named(name):
         Pose.from_pan_tilt(**{"pan": 0.0, "tilt": 0.0, name: np.nan})
 
 
+@pytest.mark.parametrize("name", ["pan", "tilt"])
+def test_degrees_are_told(name, recwarn):
+    """At the caller's line, in the words of PanTilt; a whole turn in radians gives no warning."""
+    expected = rf"^{name}: expected radians, got about -40, which looks like degrees"
+    with pytest.warns(UserWarning, match=expected) as told:
+        Pose.from_pan_tilt(**{"pan": 0.0, "tilt": 0.0, name: -41.0})
+    assert told[0].filename == __file__
+    Pose.from_pan_tilt(-2 * np.pi, 2 * np.pi)
+    assert not recwarn
+
+
 def test_covariance_is_that_of_the_moved_points():
     """The covariance of sampled points, transformed one by one, is the transformed covariance, exactly."""
     root = np.diag([0.1, 0.2, 0.9])

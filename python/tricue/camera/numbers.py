@@ -2,8 +2,11 @@
 """Checks of numbers: each returns the number, or raises TypeError or ValueError that names the argument."""
 
 import math
+import warnings
 from numbers import Integral, Real
 from typing import Any
+
+MAX_ANGLE = 2 * math.pi  # radians, of a pan-tilt head; only those that turn several times have larger ones
 
 
 def finite(value: Any, name: str, unit: str) -> float:
@@ -37,6 +40,13 @@ def positive_whole(value: Any, name: str, unit: str) -> int:
     if not isinstance(value, Integral) or isinstance(value, bool):
         raise TypeError(f"{name}: expected a whole number, {unit}, got {value!r:.80}")
     return int(positive(value, name, unit))
+
+
+def warn_of_degrees(value: float, name: str, unit: str) -> None:
+    """Warn, at the line that calls the caller, of a number so large that it looks like degrees."""
+    about = float(f"{value:.1g}")  # the same in most frames, as Python shows each text of a line only once
+    got = f"about {about:g}, which looks like degrees; math.radians converts it"
+    warnings.warn(f"{name}: expected {unit}, got {got}", UserWarning, stacklevel=3)
 
 
 def pinhole(

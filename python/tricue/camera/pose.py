@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from tricue.arrays import Floats
-from tricue.camera.numbers import finite
+from tricue.camera.numbers import MAX_ANGLE, finite, warn_of_degrees
 
 MAX_SKEW = 1e-3
 """How much RᵀR may differ from the identity: enough for a rotation written with few digits."""
@@ -46,9 +46,13 @@ class Pose:
         """Of a camera on a pan-tilt head: the world's axes are the camera's where both angles are 0.
 
         pan, tilt: the head's angles as in :class:`tricue.PanTilt`, radians: pan to the right, then tilt
-        upward. The axes are assumed to meet at the camera's center, which is at ``translation``.
+        upward. The axes are assumed to meet at the camera's center, which is at ``translation``. Warns
+        (UserWarning) of an angle beyond a whole turn, which looks like degrees.
         """
         about_y, about_x = finite(pan, "pan", "radians"), finite(tilt, "tilt", "radians")
+        for angle, name in ((about_y, "pan"), (about_x, "tilt")):
+            if abs(angle) > MAX_ANGLE:
+                warn_of_degrees(angle, name, "radians")
         cos, sin = math.cos(about_y), math.sin(about_y)
         turn = np.array([[cos, 0, sin], [0, 1, 0], [-sin, 0, cos]])
         cos, sin = math.cos(about_x), math.sin(about_x)

@@ -4,14 +4,13 @@ section 6: tracks become commands for a pan-tilt head.
 """
 
 import math
-import warnings
 from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from tricue.camera.frame import as_seconds
-from tricue.camera.numbers import finite, positive
+from tricue.camera.numbers import MAX_ANGLE, finite, positive, warn_of_degrees
 from tricue.camera.rig import Intrinsics
 from tricue.track.base import validation
 from tricue.track.base.track import Status, Track
@@ -19,7 +18,6 @@ from tricue.track.base.track import Status, Track
 Angles = tuple[float, float]  # pan, tilt
 Waiting = tuple[tuple[float, np.ndarray], ...]  # seconds, and pan and tilt speeds, of commands
 
-MAX_ANGLE = 2 * math.pi  # radians; only heads that turn several times have larger limits
 MAX_SPEED = 4 * math.pi  # rad/s, two turns a second; no common head is faster
 MAX_DEAD_BAND = math.radians(validation.DEFAULT_FIELD_OF_VIEW / 2)  # farther aside, a target is out of sight
 
@@ -99,7 +97,7 @@ class PanTilt:
             (self.dead_band, MAX_DEAD_BAND, "dead_band", "radians"),
         ):
             if value > largest:
-                _warn_of_degrees(value, name, unit)
+                warn_of_degrees(value, name, unit)
         self.reset()
 
     def reset(self) -> None:
@@ -139,7 +137,7 @@ class PanTilt:
         angles = np.array([finite(given[0], "pan", "radians"), finite(given[1], "tilt", "radians")])
         for angle, limits, name in zip(angles.tolist(), self.limits, ("pan", "tilt"), strict=True):
             if abs(angle) > max(MAX_ANGLE, *map(abs, limits)):
-                _warn_of_degrees(angle, name, "radians")
+                warn_of_degrees(angle, name, "radians")
         # Everything that may raise an error comes before any change.
         seen = track.status is Status.TRACKED and bool(track.score)
         direction = self._direction(track, angles) if seen else None
@@ -242,13 +240,6 @@ def _speed_that_stops(room: np.ndarray, change: float, interval: float) -> np.nd
     steps = room / (change * interval)
     n = np.floor((np.sqrt(1 + 8 * np.maximum(steps, 0)) - 1) / 2)
     return np.asarray(change * (n / 2 + steps / (n + 1)))
-
-
-def _warn_of_degrees(value: float, name: str, unit: str) -> None:
-    """Warn at the line that calls the controller."""
-    about = float(f"{value:.1g}")  # the same in most frames, as Python shows each text of a line only once
-    got = f"about {about:g}, which looks like degrees; math.radians converts it"
-    warnings.warn(f"{name}: expected {unit}, got {got}", UserWarning, stacklevel=3)
 
 
 def _wrapped(angle: np.ndarray) -> np.ndarray:
