@@ -217,6 +217,15 @@ def test_results_are_not_written_among_the_sequences(dataset, capsys):
     assert sorted(dataset.iterdir()) == there
 
 
+def test_progress_of_a_search(tmp_path, capsys, monkeypatch):
+    """The search of a large folder for sequences isn't silent."""
+    monkeypatch.setattr("tricue.cli.progress._PLAIN_EVERY", 0.0)
+    (tmp_path / "data" / "a").mkdir(parents=True)
+    assert main(["evaluate", str(tmp_path / "data"), "--output", str(tmp_path / "out")]) == 2
+    searched = "".join(f"{count}  folders searched for sequences\n" for count in (1, 2))
+    assert capsys.readouterr().err.startswith(f"{searched}tricue evaluate: ")
+
+
 def test_a_sequence_that_cannot_be_read_is_told_and_the_exit_code_is_1(tmp_path, capsys):
     """The others have their table."""
     write_sequence(tmp_path / "data" / "good", 5)

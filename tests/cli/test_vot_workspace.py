@@ -56,6 +56,18 @@ def test_it_says_what_it_wrote_and_what_to_run(
     assert "exit with 0 even where they fail" in printed[-1]
 
 
+def test_progress_of_a_search(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It proves that the search of a large folder for sequences isn't silent."""
+    monkeypatch.setattr("tricue.cli.progress._PLAIN_EVERY", 0.0)
+    (tmp_path / "data" / "a").mkdir(parents=True)
+    words = ["--trackers", "color-particle", "--sequences", str(tmp_path / "data")]
+    assert main(["vot-workspace", str(tmp_path / "vot"), *words]) == 2
+    searched = "".join(f"{count}  folders searched for sequences\n" for count in (1, 2))
+    assert capsys.readouterr().err.startswith(f"{searched}tricue vot-workspace: ")
+
+
 def test_trackers_are_named_once(data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """It proves that a tracker that is named twice is one, and that what is left out is told."""
     names = "color-particle, color-particle"

@@ -11,7 +11,7 @@ from typing import Any
 
 from tricue.cli.arguments import any_tracker_names, count, output_file, seconds, words
 from tricue.cli.option_names import by_options, naming_options
-from tricue.cli.progress import Progress
+from tricue.cli.progress import SEARCH_NOTE, Progress
 from tricue.cli.settings import read_settings, third_party_settings
 from tricue.draw.writable import check_writable
 from tricue.evaluation import baselines, tables
@@ -209,6 +209,7 @@ def run(options: argparse.Namespace) -> int:
                 fresh=options.fresh,
                 scheduler=options.scheduler,
                 on_progress=show,
+                on_search=partial(progress, note=SEARCH_NOTE),
                 work=partial(perform, ahead=options.ahead),
             )
         except KeyboardInterrupt:

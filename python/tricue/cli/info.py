@@ -13,7 +13,7 @@ import numpy as np
 
 from tricue.cli.arguments import add_topics
 from tricue.cli.option_names import by_options
-from tricue.cli.progress import Progress
+from tricue.cli.progress import SEARCH_NOTE, Progress
 from tricue.cli.source_options import UNIT_HELP
 from tricue.data import layouts
 from tricue.data.datasets import find_sequences
@@ -100,7 +100,7 @@ def _open(options: argparse.Namespace) -> Source:
 def _sequences_below(root: Path) -> list[Path]:
     """The sequences in a folder, with progress, as the search of a whole disk takes minutes."""
     with Progress() as progress:
-        found = find_sequences(root, partial(progress, note="folders searched for sequences"))
+        found = find_sequences(root, partial(progress, note=SEARCH_NOTE))
     return [path for path in found if path != root]
 
 

@@ -6,6 +6,7 @@ import time
 from typing import TextIO
 
 BAR_WIDTH = 24
+SEARCH_NOTE = "folders searched for sequences"
 _TERMINAL_EVERY, _PLAIN_EVERY = 0.1, 10.0  # seconds
 
 

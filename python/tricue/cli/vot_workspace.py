@@ -4,10 +4,12 @@
 import argparse
 import shlex
 import sys
+from functools import partial
 from pathlib import Path
 
 from tricue.cli.arguments import tracker_names
 from tricue.cli.option_names import by_options, naming_options
+from tricue.cli.progress import SEARCH_NOTE, Progress
 from tricue.data.datasets import find_sequences
 from tricue.evaluation.toolkits.vot_workspace import TRACKERS, write_workspace
 
@@ -71,11 +73,13 @@ def commands(folder: Path, trackers: list[str], sequence: str) -> list[str]:
 
 
 def _recordings(root: Path | None) -> list[Path]:
-    """The sequence folders under ``root``."""
+    """The sequence folders under ``root``, with progress, as the search of a whole disk takes minutes."""
     if root is None:
         return []
     if not root.is_dir():
         raise FileNotFoundError(f"{root}: there is no such folder")
-    if not (found := find_sequences(root)):
+    with Progress() as progress:
+        found = find_sequences(root, partial(progress, note=SEARCH_NOTE))
+    if not found:
         raise ValueError(f"{root}: expected folders of sequences with true boxes in it, found none")
     return found

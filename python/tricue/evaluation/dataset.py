@@ -6,7 +6,7 @@ An :class:`Entry` is small: it can be sent to another process or machine, which 
 
 import hashlib
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from pathlib import Path
@@ -243,13 +243,16 @@ class OpenedSequence:
         return found.hexdigest()
 
 
-def find_entries(root: Path, reading: ReadOptions = ReadOptions()) -> list[Entry]:
+def find_entries(
+    root: Path, reading: ReadOptions = ReadOptions(), progress: Callable[[int], None] = lambda _: None
+) -> list[Entry]:
     """The sequences in or under a folder, one per labeled target, sorted by name.
 
-    ValueError if there is none, and for a malformed sequence. Targets that are never visible are left out.
+    progress: as :func:`find_sequences` takes it. ValueError if there is none, and for a malformed sequence.
+    Targets that are never visible are left out.
     """
     entries = []
-    for place in find_sequences(root):
+    for place in find_sequences(root, progress):
         name = _relative_name(root, place)
         labeled = list_targets(place) if place.is_dir() else ()
         each = [Entry(f"{name}/{target}", place, target, reading) for target in labeled]

@@ -168,15 +168,17 @@ def evaluate(
     scheduler: str | None = None,
     fresh: bool = False,
     on_progress: Callable[["ProgressUpdate"], None] = lambda _: None,
+    on_search: Callable[[int], None] = lambda _: None,
     work: Perform = perform,
 ) -> Evaluation:
     """Run on the data set at ``root`` what ``folder`` doesn't have yet, and score all runs.
 
     jobs, scheduler: as :func:`tricue.evaluation.schedule.run_tasks` takes them. fresh: whether to run
-    everything again. on_progress: called after each run. ValueError or OSError, before the first run, for an
-    unusable data set, folder or option.
+    everything again. on_progress: called after each run. on_search: gets the number of folders that were
+    searched for sequences so far. ValueError or OSError, before the first run, for an unusable data set,
+    folder or option.
     """
-    plan = _Plan(Path(root), options)
+    plan = _Plan(Path(root), options, on_search)
     store = Store(Path(folder) / RUNS)
     store.prepare()
     failed = dict(plan.failed)
@@ -204,7 +206,7 @@ def evaluate(
 class _Plan:
     """The tasks of an evaluation, and the sequences that they run on."""
 
-    def __init__(self, root: Path, options: Options) -> None:
+    def __init__(self, root: Path, options: Options, on_search: Callable[[int], None]) -> None:
         self.options = options
         kinds = {kind: Order.named(kind) for each in options.orders.values() for kind in each}
         self._orders = {kind: order for kind, order in kinds.items() if kind != ONE_PASS}
@@ -213,7 +215,7 @@ class _Plan:
         self.trackers: tuple[TrackerSpec, ...] = (*specs, *results)
         require_unique(each.name for each in self.trackers)
         self.failed: dict[str, str] = {}
-        self.opened = dict(self._open_all(find_entries(root, options.reading)))
+        self.opened = dict(self._open_all(find_entries(root, options.reading, on_search)))
         self.left_out: dict[tuple[str, str], str] = {}
         self.scored: dict[Task, tuple[ScoredRun, Speed]] = {}
         self.restarted: dict[Task, Robustness] = {}
