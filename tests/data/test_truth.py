@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from tricue.data.box_table import read_box_table
 from tricue.data.truth import OTB_TRUTH, VOT_TRUTH, find_truth, otb_targets, read_truth_file
 
 
@@ -47,6 +48,26 @@ def test_bad_lines_are_named(tmp_path: Path, line: str) -> None:
     """It proves that a line that is no box is an error with the file's name and the line's number."""
     with pytest.raises(ValueError, match=r"groundtruth.txt, line 2: expected four numbers"):
         read(tmp_path, VOT_TRUTH, f"1,2,3,4\n{line}\n1,2,3,4\n")
+
+
+@pytest.mark.parametrize("name", [OTB_TRUTH, VOT_TRUTH, "init.txt"])
+@pytest.mark.parametrize("text", ["0.1,0.9,0.2,0.1\n0,0,0,0\n", "nan,nan,nan,nan\n0,0,0.4,1\n"])
+def test_shares_of_the_image_are_told(tmp_path: Path, name: str, text: str) -> None:
+    """Boxes as YOLO writes them aren't taken as pixels, of which the target would be a part of one."""
+    with pytest.raises(
+        ValueError, match=rf"{name}, line 1: expected boxes in pixels, .* shares of the image"
+    ):
+        read(tmp_path, name, text)
+
+
+@pytest.mark.parametrize(
+    "text", ["0,0,1,1\n1,1,1,1\n", "0.5,0.25,1,1\n", "0,0,0.5,0.5\n2,0,0.5,0.5\n", "0,0,0,0\n"]
+)
+def test_boxes_of_a_pixel_are_no_shares(tmp_path: Path, text: str) -> None:
+    """Nor are smaller ones that move on, nor a target that is always absent."""
+    assert len(read(tmp_path, VOT_TRUTH, text)) == text.count("\n")
+    (tmp_path / "boxes.csv").write_text(text)
+    assert len(read_box_table(tmp_path / "boxes.csv").boxes) == text.count("\n")
 
 
 def test_a_folder_without_truth(tmp_path: Path) -> None:

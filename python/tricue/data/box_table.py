@@ -23,6 +23,7 @@ from tricue.data.truth import (
     check_sizes,
     encoding_of,
     lines_of,
+    refuse_shares,
     truth_from_rows,
 )
 
@@ -96,11 +97,7 @@ def read_box_table(path: str | Path) -> Truth:
         numbers.extend(row.box())
         places.extend(map(row.number, _POSITION_COLUMNS))
     given = truth_from_rows(numbers)
-    if not given.absent.all() and np.nanmax(given.boxes) <= 1:
-        raise ValueError(
-            f"{first}: expected boxes in pixels, got no number above 1, as in shares of the image; multiply "
-            "them by its width and height"
-        )
+    refuse_shares(given, first)
     boxes, absent = np.full((frames.length, 4), np.nan), np.zeros(frames.length, np.bool_)
     boxes[frames.numbers], absent[frames.numbers] = given.boxes, given.absent
     return Truth(boxes, absent, _positions(places, frames))

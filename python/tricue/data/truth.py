@@ -112,12 +112,13 @@ def read_truth_file(path: str | Path, count: int | None = None) -> Truth:
 
     Commas, tabs, semicolons or blanks separate the numbers. VOT's polygons and masks become their bounding
     boxes. count: how many numbers of a line to read; by default all. ValueError names a line with anything
-    else.
+    else, and the first for shares of the image in place of pixels.
     """
     path, numbers = Path(path), array("d")  # millions of tuples would take gigabytes
     for number, line in enumerate(lines_of(path), 1):
         numbers.extend(_true_box(line, f"{path}, line {number}", count))
     truth = truth_from_rows(numbers)
+    refuse_shares(truth, f"{path}, line 1")
     if path.name == OTB_TRUTH or _OTB_TARGET_TRUTH.fullmatch(path.name):
         return truth._replace(boxes=truth.boxes - [1, 1, 0, 0])
     return truth
@@ -202,6 +203,18 @@ def check_sizes(box: Box, place: str, line: str) -> Box:
     if max(map(abs, box)) > MAX_COORDINATE:
         raise ValueError(f"{place}: expected at most a million pixels, got {line.strip()!r:.60}")
     return box
+
+
+def refuse_shares(truth: Truth, place: str) -> None:
+    """ValueError names the place if boxes, not moved yet, are shares of the image: no number is above 1, and
+    one is narrower or lower than a pixel. Those of a target of one pixel in the image's corner aren't.
+    """
+    boxes = truth.boxes[~truth.absent]
+    if boxes.size and np.abs(boxes).max() <= 1 and boxes[:, 2:].min() < 1:
+        raise ValueError(
+            f"{place}: expected boxes in pixels, got no number above 1, as in shares of the image; multiply "
+            "them by its width and height"
+        )
 
 
 def _apply_tag(truth: Truth, tag: NDArray[np.bool_]) -> Truth:
