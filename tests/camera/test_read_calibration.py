@@ -64,12 +64,17 @@ def test_blanks_of_kittis_file(tmp_path: Path) -> None:
     assert read_intrinsics(path, SIZE, "depth") == CAMERA
 
 
-def test_a_byte_order_mark_is_no_part_of_the_text(tmp_path: Path) -> None:
-    """It proves that a file is known as before once Windows' editor has saved it, also by its first line."""
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+def test_a_byte_order_mark_is_no_part_of_the_text(tmp_path: Path, encoding: str) -> None:
+    """It proves that a file of any text format is known as before once Windows' editor or PowerShell has
+    written it, also by its first line.
+    """
     files = [opencv(tmp_path / "d.yml").rename(tmp_path / "yaml.txt"), kitti(tmp_path / "calib.txt")]
     files[1].write_text(files[1].read_text().partition("\n")[2])
+    files += [opencv(tmp_path / "d.yml"), opencv(tmp_path / "d.xml"), opencv(tmp_path / "d.json")]
+    files += [toml(tmp_path / "c.toml", "width = 640\nheight = 480\n")]
     for path in files:
-        path.write_text(path.read_text(), encoding="utf-8-sig")
+        path.write_text(path.read_text(), encoding=encoding)
         assert read_intrinsics(path, SIZE, "depth") == CAMERA, path
 
 

@@ -126,10 +126,11 @@ def test_vot_reads_what_its_pattern_names(tmp_path: Path) -> None:
     assert levels(open_source(tmp_path)) == [10, 20]
 
 
-def test_a_byte_order_mark_in_vots_file(tmp_path: Path) -> None:
-    """It proves that the first key counts where Windows' editor has saved the sequence file."""
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+def test_a_byte_order_mark_in_vots_file(tmp_path: Path, encoding: str) -> None:
+    """It proves that the first key counts where Windows' editor or PowerShell has written the file."""
     images(tmp_path / "color", ["00000001.png"])
-    (tmp_path / "sequence").write_text("channels.color=color/%08d.png\nfps=4\n", encoding="utf-8-sig")
+    (tmp_path / "sequence").write_text("channels.color=color/%08d.png\nfps=4\n", encoding=encoding)
     assert levels(open_source(tmp_path)) == [10]
 
 

@@ -73,6 +73,16 @@ def test_a_labeled_target(tmp_path: Path) -> None:
     assert open_source(root).truth is None
 
 
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+def test_a_byte_order_mark_in_kittis_files(tmp_path: Path, encoding: str) -> None:
+    """Windows' editor or PowerShell may have written the labels and the calibration."""
+    root = tracking(tmp_path / "kitti", LABELS)
+    truth = open_source(root, target="Car 7").positions
+    for path in (root / "label_02" / "0005.txt", root / "calib" / "0005.txt"):
+        path.write_text(path.read_text(), encoding=encoding)
+    np.testing.assert_array_equal(open_source(root, target="Car 7").positions, truth)
+
+
 def test_labels_are_by_the_files_numbers(tmp_path: Path) -> None:
     """It proves that of a cut copy, whose images don't begin at 0, the right ones come, and that one that is
     labeled but isn't there is named.

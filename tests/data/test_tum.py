@@ -21,6 +21,16 @@ def test_tum_pairs_by_time(tmp_path: Path) -> None:
     assert source.notes == ("left out 1 of 5 color images, with no depth image within 0.02 s",)
 
 
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+def test_a_byte_order_mark_in_tums_lists(tmp_path: Path, encoding: str) -> None:
+    """Windows' editor or PowerShell may have written them, with a time in the first line."""
+    folder = tum(tmp_path, [1.0, 2.0], [1.0, 2.0])
+    for name in ("rgb.txt", "depth.txt"):
+        lines = (folder / name).read_text().splitlines()
+        (folder / name).write_text("\n".join(lines[2:]), encoding=encoding)
+    assert [frame.timestamp for frame in open_source(folder)] == [1.0, 2.0]
+
+
 def test_tum_serves_the_closest_first(tmp_path: Path) -> None:
     """It proves that of two color images that are near one depth image the nearer one gets it."""
     source = open_source(tum(tmp_path, [10.0, 10.012], [10.010]))

@@ -141,6 +141,18 @@ def test_vots_confidences_are_any_numbers(tmp_path, folders, found):
     assert theirs.scored.scores.tolist() == [1, *range(-2, -FRAMES, -1), 1]
 
 
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+def test_results_with_a_byte_order_mark(tmp_path, there, found, encoding):
+    """PowerShell may have written the boxes and the confidences, all of which are read."""
+    place = tmp_path / "longterm" / "there"
+    write_lines(place / "there_001.txt", lines(found))
+    write_lines(place / "there_001_confidence.value", ["0.5"] * FRAMES)
+    for path in place.iterdir():
+        path.write_text(path.read_text(), encoding=encoding)
+    (record,), *_ = results_spec(f"theirs={tmp_path}").read(there)
+    assert record.run.scores.tolist() == [0.5] * FRAMES
+
+
 def test_bytes_that_are_no_text_are_no_confidences(tmp_path, there, found):
     """It proves that a damaged companion file ends no evaluation: what it doesn't tell is unknown."""
     place = tmp_path / "longterm" / "there"

@@ -18,6 +18,7 @@ from tricue.camera import toml
 from tricue.camera.numbers import pinhole, positive, positive_whole
 from tricue.camera.opencv_file import OpenCVFile
 from tricue.camera.pose import Pose
+from tricue.camera.text import lines_of
 from tricue.camera.types import Matrix, PathLike, Size
 
 T = TypeVar("T")
@@ -325,8 +326,7 @@ def _name_file(path: PathLike, check: Callable[[], T]) -> T:
 
 def _kitti_values(path: PathLike) -> dict[str, list[float]]:
     """The numbers of each line "key: numbers" or "key numbers"; other lines, such as dates, are skipped."""
-    lines = pathlib.Path(path).read_text(encoding="utf-8-sig", errors="replace").splitlines()
-    split = filter(None, (line.replace(":", " ", 1).split() for line in lines))
+    split = filter(None, (line.replace(":", " ", 1).split() for line in lines_of(pathlib.Path(path))))
     return {key: numbers for key, *words in split if (numbers := _numbers(words)) is not None}
 
 

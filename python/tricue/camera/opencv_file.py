@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import cv2
 import numpy as np
 
+from tricue.camera.text import encoding_of
 from tricue.camera.types import Matrix, PathLike, Size
 
 if TYPE_CHECKING:
@@ -42,7 +43,7 @@ class OpenCVFile:
         content = pathlib.Path(path).read_bytes()
         if len(content) > MAX_BYTES:
             raise ValueError(f"{path}: expected a calibration of at most 1 MB, got {len(content):,} bytes")
-        self._text = _with_head(content.decode("utf-8-sig", "replace").replace("\0", " "))
+        self._text = _with_head(content.decode(encoding_of(content), "replace").replace("\0", " "))
         if _levels(self._text) > MAX_LEVELS or _DASHES.search(self._text):
             raise ValueError(f"{path}: expected a calibration, its values are nested too deeply")
 

@@ -12,6 +12,7 @@ from tricue.camera import toml
 from tricue.camera.calibration_formats import ImageSizeError, other_size, read_princeton_camera
 from tricue.camera.registration import Registration
 from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.camera.text import read_text
 from tricue.camera.types import PathLike, Size
 
 TOML, PRINCETON, OPENCV, KITTI = "toml", "princeton", "opencv", "kitti"
@@ -110,7 +111,7 @@ def _format(path: Path) -> str:
         return TOML
     if path.suffix.lower() == ".mat":
         return PRINCETON
-    text = path.read_text(encoding="utf-8-sig", errors="replace")
+    text = read_text(path)
     if path.suffix.lower() in (".yml", ".yaml", ".xml", ".json") or re.match(r"\s*(%YAML|<\?xml|\{)", text):
         return OPENCV
     if re.search(r"^\s*P(_rect_)?\d+:?\s", text, re.MULTILINE):

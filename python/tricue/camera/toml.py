@@ -9,6 +9,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from tricue.camera.text import open_text
+
 Value = bool | int | float | str | tuple[Any, ...]
 
 
@@ -21,10 +23,11 @@ def read(path: str | os.PathLike[str]) -> dict[str, Any]:
 
         raise ImportError(f"TOML on Python 3.10 needs an extra: {install_extra('toml')}") from None
     try:
-        return dict(parser.loads(Path(path).read_text(encoding="utf-8-sig")))
+        with open_text(Path(path), errors="strict") as file:
+            return dict(parser.loads(file.read()))
     except RecursionError:
         raise ValueError(f"{path}: expected a TOML file, its values are nested too deeply") from None
-    except ValueError as error:  # both bad TOML and bad UTF-8
+    except ValueError as error:  # both bad TOML and a bad encoding
         raise ValueError(f"{path}: expected a TOML file, {error}") from None
 
 

@@ -15,14 +15,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.camera.text import lines_of, open_text
 from tricue.data.files import is_video
 from tricue.data.truth import (
     MAX_FRAME_NUMBER,
     MAX_VALUE,
     Truth,
     check_sizes,
-    encoding_of,
-    lines_of,
     refuse_shares,
     truth_from_rows,
 )
@@ -164,7 +163,7 @@ def _rows(path: Path) -> Iterator[_Row]:
 
 def _first_cells(path: Path) -> list[str]:
     """The values of a table's first line."""
-    with path.open(encoding=encoding_of(path), errors="replace") as file:
+    with open_text(path) as file:
         line = file.readline(10_000)
     return _cells(line, _delimiter(line))
 

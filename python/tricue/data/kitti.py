@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.calibration_formats import read_kitti_offset
+from tricue.camera.text import lines_of
 from tricue.data.files import image_paths
 from tricue.data.streams import Images, Stream
 from tricue.data.truth import MAX_FRAME_NUMBER, MAX_VALUE, Truth, truth_from_rows
@@ -67,9 +68,8 @@ def read_labels(path: Path) -> list[LabeledTarget]:
 
     ValueError names a line that isn't a label, or a target's second label in one frame.
     """
-    lines = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
     rows: dict[tuple[int, str], dict[int, list[float]]] = {}
-    for number, line in enumerate(lines, 1):
+    for number, line in enumerate(lines_of(path), 1):
         if not line.strip():
             continue
         label = _line(line)

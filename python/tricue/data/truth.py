@@ -6,11 +6,10 @@ count from 0. Princeton has <sequence>.txt, which is public for few sequences, a
 alone. Folders without these files may have a table, boxes.csv; see :mod:`tricue.data.box_table`.
 """
 
-import codecs
 import math
 import re
 from array import array
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple, TypeVar
 
@@ -18,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tricue.camera.box import MAX_COORDINATE
+from tricue.camera.text import lines_of, read_lines
 
 OTB_TRUTH, VOT_TRUTH, PRINCETON_FIRST_BOX = "groundtruth_rect.txt", "groundtruth.txt", "init.txt"
 ABSENT_TAGS = ("absent.tag", "absence.label", "full_occlusion.txt", "out_of_view.txt")
@@ -122,31 +122,6 @@ def read_truth_file(path: str | Path, count: int | None = None) -> Truth:
     if path.name == OTB_TRUTH or _OTB_TARGET_TRUTH.fullmatch(path.name):
         return truth._replace(boxes=truth.boxes - [1, 1, 0, 0])
     return truth
-
-
-def read_lines(path: Path) -> list[str]:
-    """The lines of a text file, see :func:`lines_of`."""
-    return list(lines_of(path))
-
-
-def lines_of(path: Path) -> Iterator[str]:
-    """The lines of a text file one by one, without empty ones at the end; bytes that aren't in its encoding
-    are replaced.
-    """
-    empty = list[str]()
-    with path.open(encoding=encoding_of(path), errors="replace") as file:
-        for line in file:
-            empty.append(line.removesuffix("\n"))
-            if line.strip():
-                yield from empty
-                empty.clear()
-
-
-def encoding_of(path: Path) -> str:
-    """UTF-16, as Excel and PowerShell write it, for a text file with its byte order mark, else UTF-8."""
-    with path.open("rb") as file:
-        mark = file.read(2)
-    return "utf-16" if mark in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE) else "utf-8-sig"
 
 
 def _truth_path(folder: Path, target: str | None) -> Path | None:

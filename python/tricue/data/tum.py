@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from tricue.camera.text import lines_of
 from tricue.data.depth_images import DepthReader
 from tricue.data.files import listed_path
 from tricue.data.streams import Stream, TimedPaths, timed_images
@@ -55,10 +56,9 @@ def _read_list(path: Path) -> TimedPaths:
     """The times and images of a list, sorted by time; empty if there is no such file."""
     if not path.is_file():
         return []
-    lines = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
     images = [
         _entry(line, path, number)
-        for number, line in enumerate(lines, 1)
+        for number, line in enumerate(lines_of(path), 1)
         if line.strip() and not line.lstrip().startswith("#")
     ]
     if not images:

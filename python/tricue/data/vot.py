@@ -5,6 +5,7 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
+from tricue.camera.text import lines_of
 from tricue.data.depth_images import METERS_PER_MILLIMETER, DepthReader
 from tricue.data.files import image_paths, listed_path
 from tricue.data.streams import Images, Stream, plausible_fps
@@ -28,7 +29,7 @@ def read_channels(folder: Path, scale: float | None) -> dict[str, Stream] | None
 
 def _listed(folder: Path, reader: DepthReader) -> dict[str, Stream]:
     """The channels that the file lists as patterns, such as color/%08d.jpg."""
-    lines = (folder / SEQUENCE_FILE).read_text(encoding="utf-8-sig", errors="replace").splitlines()
+    lines = lines_of(folder / SEQUENCE_FILE)
     values = {
         key.strip(): value.strip() for key, found, value in (line.partition("=") for line in lines) if found
     }

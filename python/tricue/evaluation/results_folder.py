@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 
 from tricue.arrays import Floats
 from tricue.camera.box import MAX_COORDINATE
+from tricue.camera.text import read_lines, read_text
 from tricue.data.otb import has_otb_truth
-from tricue.data.truth import read_box, read_lines
+from tricue.data.truth import read_box
 from tricue.evaluation.dataset import Entry, OpenedSequence
 from tricue.evaluation.one_pass import Run
 from tricue.evaluation.record import Record
@@ -329,7 +330,7 @@ def _read_values(path: Path, name: str, frames: int) -> Floats | None:
     place = path.with_name(f"{path.stem}_{name}.value")
     if not place.is_file():
         return None
-    text = place.read_text(encoding="utf-8", errors="replace")
+    text = read_text(place)
     values = [next(iter(_numbers(line)), np.nan) for line in text.splitlines()]
     values = [np.nan] * (len(values) == frames - 1) + values
     return np.array(values[:frames], dtype=np.float64) if len(values) >= frames else None
