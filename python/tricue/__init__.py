@@ -4,7 +4,11 @@
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from tricue import start
 from tricue.doctor.called import is_called as doctor_is_called
+
+if start.is_command():
+    start.exit_at_interrupts()
 
 if not doctor_is_called():  # it has to run, and say what is wrong, even if none of this can be imported
     try:

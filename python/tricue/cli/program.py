@@ -21,9 +21,10 @@ import tricue
 from tricue.cli.option_names import by_options
 from tricue.cli.signals import clean_exits
 from tricue.errors import one_line
+from tricue.start import INTERRUPTED, raise_interrupts
 
 USAGE = 2
-INTERRUPTED, CLOSED_PIPE = 130, 141
+CLOSED_PIPE = 141
 NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[+-]\d+)?")
 MAX_LISTED = 3  # of the arguments that aren't known
 
@@ -87,6 +88,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             stream.reconfigure(errors="backslashreplace")
     words = list(sys.argv[1:] if arguments is None else arguments)
     try:
+        raise_interrupts()
         command = next((word for word in words if not word.startswith("-")), "")
         options = parser(command).parse_args(words)
     except KeyboardInterrupt:  # importing the command takes a while
