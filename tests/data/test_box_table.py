@@ -68,6 +68,14 @@ def test_byte_order_marks(tmp_path: Path, encoding: str) -> None:
     assert read_box_table(table).boxes.tolist() == read_truth_file(plain).boxes.tolist() == [[1, 2, 3, 4]]
 
 
+@pytest.mark.parametrize("header", ["frame;x;y;w;h\n", ""])
+@pytest.mark.parametrize("mark", [";", "\t"])
+def test_decimal_commas(tmp_path: Path, header: str, mark: str) -> None:
+    """Spreadsheets of many countries write them, beside semicolons or tabs; points are read as before."""
+    text = f"{header}0;1,5;-2,25;3;4,0\n1;1.5;-,5;3e0;4,5e1\n".replace(";", mark)
+    assert read(tmp_path, text).boxes.tolist() == [[1.5, -2.25, 3, 4], [1.5, -0.5, 3, 45]]
+
+
 @pytest.mark.parametrize("row", ["1,,,,", "1,nan,nan,nan,nan", "1,5,5,0,9", "1,5,5,9,0", "1,NaN,2,3,4"])
 def test_absent_is_not_unknown(tmp_path: Path, row: str) -> None:
     """It proves that a row without a box says "absent", and that a frame without a row is unknown."""
@@ -129,7 +137,7 @@ def test_an_empty_table(tmp_path: Path) -> None:
         ("x,y,w,h,width\n1,2,3,4,5\n", "line 1: expected columns .* each once"),
         ("x,y,w,h\n1,2,3,4\n\n1,2,3,4\n", "line 3: expected 4 values, got ''"),
         ("x,y,w,h\n1,2,3\n", "line 2: expected 4 values, got '1,2,3'"),
-        ("frame;x;y;w;h\n0;1,5;2;3;4\n", "line 2: expected a number x, got '1,5'"),
+        ("frame;x;y;w;h\n0;1,5,6;2;3;4\n", "line 2: expected a number x, got '1,5,6'"),
         ("1 2 3 4\n1 2 3\n", "line 2: expected 4 values, got '1 2 3'"),
         ("1,2,3,4\n1,2,3,4,5\n", "line 2: expected 4 values"),
         ("x,y,w,h\n1,two,3,4\n", "line 2: expected a number y, got 'two'"),

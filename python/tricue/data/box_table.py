@@ -7,6 +7,7 @@ Without a header they are x, y, width, height, or the frame number followed by t
 
 import csv
 import math
+import re
 from array import array
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -44,6 +45,7 @@ _OTHER_NAMES |= {
     for axis in "xy"
     for name in (f"{axis}_center", f"{axis}center", f"center_{axis}", f"center{axis}", f"{axis}c")
 }
+_DECIMAL_COMMA = re.compile(r"([+-]?\d*),(\d+(?:[eE][+-]?\d+)?)")
 _HEADERLESS_COLUMNS = {4: _BOX_COLUMNS, 5: ("frame", *_BOX_COLUMNS)}
 
 
@@ -180,9 +182,16 @@ def _cells(line: str, delimiter: str | None) -> list[str]:
     if delimiter is None:
         return line.split()
     try:
-        return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter), [])]
+        cells = [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter), [])]
     except csv.Error:  # a cell longer than csv's limit
         return []
+    return cells if delimiter == "," else list(map(_with_decimal_point, cells))
+
+
+def _with_decimal_point(cell: str) -> str:
+    """A number with a point in place of a decimal comma, as spreadsheets of many countries write it."""
+    number = _DECIMAL_COMMA.fullmatch(cell)
+    return f"{number[1]}.{number[2]}" if number else cell
 
 
 def _names(cells: list[str]) -> tuple[str, ...] | None:
