@@ -68,6 +68,16 @@ def test_byte_order_marks(tmp_path: Path, encoding: str) -> None:
     assert read_box_table(table).boxes.tolist() == read_truth_file(plain).boxes.tolist() == [[1, 2, 3, 4]]
 
 
+@pytest.mark.parametrize("name", ["Frame_Number", "frame_index", "frame_idx", "frame_no", "frame_id"])
+def test_other_names_of_the_frame(tmp_path: Path, name: str) -> None:
+    """Frames without a row are unknown then, too, and no row is taken for another frame's."""
+    boxes = read(tmp_path, f"{name},x,y,w,h\n0,1,2,3,4\n2,5,6,7,8\n").boxes
+    assert np.isnan(boxes[1]).all()
+    assert boxes[[0, 2]].tolist() == [[1, 2, 3, 4], [5, 6, 7, 8]]
+    other = f"{name},frame,x,y,w,h\ncamera,0,1,2,3,4\ncamera,1,5,6,7,8\n"
+    assert read(tmp_path, other).boxes.tolist() == [[1, 2, 3, 4], [5, 6, 7, 8]]
+
+
 @pytest.mark.parametrize("header", ["frame;x;y;w;h\n", ""])
 @pytest.mark.parametrize("mark", [";", "\t"])
 def test_decimal_commas(tmp_path: Path, header: str, mark: str) -> None:

@@ -45,6 +45,8 @@ _OTHER_NAMES |= {
     for axis in "xy"
     for name in (f"{axis}_center", f"{axis}center", f"center_{axis}", f"center{axis}", f"{axis}c")
 }
+_FRAME_NAMES = ("frame", *(f"frame_{end}" for end in ("number", "index", "idx", "no", "id")))
+"""Names of the column of frame numbers; if a table has several, the first counts."""
 _DECIMAL_COMMA = re.compile(r"([+-]?\d*),(\d+(?:[eE][+-]?\d+)?)")
 _HEADERLESS_COLUMNS = {4: _BOX_COLUMNS, 5: ("frame", *_BOX_COLUMNS)}
 
@@ -86,9 +88,10 @@ class _Row(NamedTuple):
 def read_box_table(path: str | Path) -> Truth:
     """The boxes in a table, pixels from 0, and the target's positions if there are columns x_m, y_m or z_m.
 
-    Each row is one frame, in order, unless a column ``frame`` gives its number from 0; frames without a row
-    are unknown. Empty cells, NaN, or a width or height of 0 mean that the target is absent. Other columns
-    are ignored. ValueError names the file and the line, also for shares of the image in place of pixels.
+    Each row is one frame, in order, unless a column ``frame`` (or ``frame_number``, and the like) gives its
+    number from 0; frames without a row are unknown. Empty cells, NaN, or a width or height of 0 mean that the
+    target is absent. Other columns are ignored. ValueError names the file and the line, also for shares of
+    the image in place of pixels.
     """
     frames, numbers, places = _Frames(), array("d"), array("d")  # millions of lists would take gigabytes
     first = ""
@@ -198,8 +201,9 @@ def _names(cells: list[str]) -> tuple[str, ...] | None:
     """The column names in lower case; None if the line holds values."""
     if all(not cell or _is_number(cell) for cell in cells):
         return None
-    lower = (cell.lstrip("# ").lower() for cell in cells)
-    return tuple(_OTHER_NAMES.get(name, name) for name in lower)
+    lower = [cell.lstrip("# ").lower() for cell in cells]
+    frame = next((name for name in _FRAME_NAMES if name in lower), "")
+    return tuple("frame" if name == frame else _OTHER_NAMES.get(name, name) for name in lower)
 
 
 def _box_columns(columns: Sequence[str]) -> tuple[str, ...]:
