@@ -51,6 +51,22 @@ def test_another_target_is_not_compared_with_the_truth(
     assert ("not compared with the true boxes" in printed) is not compared
 
 
+def test_a_missing_image_is_told(
+    sequence: Path, drift_tracker: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that true boxes aren't compared with other images' tracks, and that info says so, too."""
+    (sequence / "img" / "0004.png").unlink()
+    told = (
+        f"{sequence}/img: expected images 0000 to 0009, one for each of 10 true boxes, got none with number"
+    )
+    assert main(["track", str(sequence), "--tracker", drift_tracker]) == 0
+    printed = capsys.readouterr().out
+    assert f"not compared with the true boxes: {told} 0004\n" in printed
+    assert "AUC" not in printed
+    assert main(["info", str(sequence)]) == 0
+    assert f"{told} 0004\n" in capsys.readouterr().out
+
+
 BAD = [
     (["track", "nowhere"], "tricue track: nowhere: there is no such file or folder"),
     (["track", "{walk}/img"], "tricue track: .*; give --box x,y,width,height or --detect face"),

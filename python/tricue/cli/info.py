@@ -31,6 +31,7 @@ from tricue.data.summary import (
     summarize_topics,
     summarize_truth,
 )
+from tricue.data.truth_check import find_missing_image
 
 EXAMPLES = """\
 examples:
@@ -119,6 +120,7 @@ def _facts(source: Source, options: argparse.Namespace) -> Summary:
     unit = f"{source.format.split()[0]}'s format"
     given = "" if options.depth_scale is None else "--depth-scale"
     notes = [*source.notes, *source.remarks, *filter(None, map(note_other_sizes, source.channels.values()))]
+    notes += [*filter(None, [find_missing_image(Path(options.place), source)])]
     depth = source.channels.get("depth")
     return {
         "name": source.name,

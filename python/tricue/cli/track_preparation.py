@@ -20,6 +20,7 @@ from tricue.cli.starts import choose_start, default_tracker
 from tricue.cli.steps import Start
 from tricue.data.input_files import input_files
 from tricue.data.open_source import Source, open_source
+from tricue.data.truth_check import find_missing_image
 from tricue.draw.video import check_name, written_path
 from tricue.draw.writable import check_writable
 from tricue.errors import BoxError
@@ -36,6 +37,7 @@ class TrackRun(NamedTuple):
         frames; None for one.
     first, end: the numbers of the first frame and of the one after the last, None for all.
     assumed: whether the camera is only assumed.
+    mismatch: why the true boxes can't be compared with the tracks; "" if they can.
     """
 
     source: Source
@@ -48,6 +50,7 @@ class TrackRun(NamedTuple):
     first: int = 0
     end: int | None = None
     assumed: bool = False
+    mismatch: str = ""
 
     def known(self, step: Step) -> Step:
         """The step, without positions if no camera is known that would make them meters."""
@@ -104,7 +107,7 @@ def prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
     first, end = min([frame for frame, _ in boxes], default=options.start), options.end
     start = choose_start(options, source, tracker, rig, known)
     run = TrackRun(source, tracker, known, start, rig, first=first, end=None if end is None else end + 1)
-    run = run._replace(assumed=found.assumed)
+    run = run._replace(assumed=found.assumed, mismatch=find_missing_image(Path(options.input), source))
     if several:
         _check_boxes(boxes, source)
         run = run._replace(targets=_targets(options, found.keywords), boxes=boxes)

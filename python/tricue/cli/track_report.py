@@ -82,7 +82,9 @@ def report(run: TrackRun, clock: RunClock, record: RunRecord, interrupted: bool)
         print(f"started in frame {first}")
     truth = run.source.truth
     if truth is not None and np.isfinite(truth[run.first + 1 :]).any():
-        if _starts_on_another(truth, found):
+        if run.mismatch:
+            print(f"not compared with the true boxes: {run.mismatch}")
+        elif _starts_on_another(truth, found):
             print("not compared with the true boxes: the first box doesn't touch the true one of its frame")
         else:
             print(_score(truth, found, run.first, clock.decoded))

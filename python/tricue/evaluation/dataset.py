@@ -5,7 +5,6 @@ An :class:`Entry` is small: it can be sent to another process or machine, which 
 """
 
 import hashlib
-import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -22,10 +21,10 @@ from tricue.data.datasets import find_sequences
 from tricue.data.input_files import stream_files
 from tricue.data.layouts import list_targets
 from tricue.data.open_source import Source, open_source
-from tricue.data.otb import find_range
 from tricue.data.recordings.recording import is_recording
 from tricue.data.streams import Images, Video
 from tricue.data.summary import count_frames
+from tricue.data.truth_check import find_missing_image
 
 STEREO_CALIBRATION = "calibration.yml"
 """File name of OpenCV's calibration of a stereo pair, searched beside its images."""
@@ -33,8 +32,6 @@ CLIPPED_FORMATS = ("VOT", "VOT RGB-D", "KITTI tracking")
 """Formats whose boxes end at the image's edge: both true and tracked boxes are clipped to the image before
 they are compared, as in the VOT toolkit.
 """
-NUMBERED_FORMATS = ("OTB", "VOT", "VOT RGB-D", "images", "stereo pair")
-"""Formats whose images have consecutive numbers as names. LaSOT and GOT-10k are "images"."""
 
 CAMERA_KEYS = {"fx", "fy", "cx", "cy"}  # of a camera's TOML table
 OPTIONAL_CAMERA_KEYS = {"width", "height", "pose", "rotation", "translation"}
@@ -180,10 +177,8 @@ class OpenedSequence:
         if length is not None and length < start + 2:
             frames = "1 frame" if length == 1 else f"{length} frames"
             raise ValueError(f"{self.entry.place}: expected a frame after the first true box, got {frames}")
-        if self.source.format in NUMBERED_FORMATS:
-            for stream in self.source.channels.values():
-                if isinstance(stream, Images):
-                    _check_numbers(self.entry.place, stream, len(self.boxes))
+        if reason := find_missing_image(self.entry.place, self.source):
+            raise ValueError(reason)
 
     @property
     def start(self) -> int:
@@ -286,33 +281,6 @@ def short_names(entries: Sequence[Entry]) -> dict[str, str]:
 def _relative_name(root: Path, place: Path) -> str:
     relative = place.relative_to(root)
     return relative.with_suffix("").as_posix() if relative.parts else place.resolve().stem
-
-
-def _check_numbers(place: Path, images: Images, boxes: int) -> None:
-    """ValueError names the first missing image if the number of true boxes equals that of images including
-    the missing ones. If images have, say, only every other number, the boxes are as many as the images.
-    """
-    matches = [re.fullmatch(r"(.*?)(\d+)", path.stem) for path in images.paths]
-    named = [match for match in matches if match]
-    if len(named) < len(matches) or len({match[1] for match in named}) > 1:
-        return
-    numbers = [int(match[2]) for match in named]
-    first, last = min(numbers), max(numbers)
-    if boxes != last - first + 1 and boxes < len(numbers):
-        first, last = find_range(place, boxes)
-    missing = sorted({*range(first, last + 1)} - {*numbers}) if boxes == last - first + 1 else []
-    if missing:
-        low, high, gone = (_image_name(number, named) for number in (first, last, missing[0]))
-        raise ValueError(
-            f"{images.paths[0].parent}: expected images {low} to {high}, one for each of {boxes} true boxes,"
-            f" got none with number {gone}"
-        )
-
-
-def _image_name(number: int, others: Sequence[re.Match[str]]) -> str:
-    """The number as in the names of other images, with leading zeros if they have them."""
-    width = min(len(match[2]) for match in others)
-    return f"{number:0{width}d}"
 
 
 def _depth_scale_of(entry: Entry, scale: float | None) -> float | None:
