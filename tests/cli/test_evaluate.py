@@ -438,6 +438,17 @@ def test_sequences_that_have_too_few_frames(tmp_path, capsys):
     assert "short: 1 row of true boxes more than there are frames" in captured.out.splitlines()
 
 
+def test_doubtful_true_boxes_are_told(tmp_path, capsys):
+    """A table of frames that count from 1 is told below the table."""
+    write_sequence(tmp_path / "data" / "walk", 5)
+    (tmp_path / "data" / "walk" / "groundtruth_rect.txt").unlink()
+    rows = [f"{frame},30,20,20,20\n" for frame in range(1, 6)]
+    (tmp_path / "data" / "walk" / "boxes.csv").write_text("frame,x,y,w,h\n" + "".join(rows))
+    arguments = ["evaluate", str(tmp_path / "data"), "--trackers", "still-box"]
+    assert main([*arguments, "--output", str(tmp_path / "out")]) == 0
+    assert "walk: the table's last frame is 5, but frames count from 0" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("text", "names"),
     [

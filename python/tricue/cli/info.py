@@ -31,7 +31,7 @@ from tricue.data.summary import (
     summarize_topics,
     summarize_truth,
 )
-from tricue.data.truth_check import find_missing_image
+from tricue.data.truth_check import find_doubts, find_missing_image
 
 EXAMPLES = """\
 examples:
@@ -121,6 +121,8 @@ def _facts(source: Source, options: argparse.Namespace) -> Summary:
     given = "" if options.depth_scale is None else "--depth-scale"
     notes = [*source.notes, *source.remarks, *filter(None, map(note_other_sizes, source.channels.values()))]
     notes += [*filter(None, [find_missing_image(Path(options.place), source)])]
+    first = next(iter(channels.values()))
+    notes += find_doubts(source, (first["width"], first["height"]), frames)
     depth = source.channels.get("depth")
     return {
         "name": source.name,

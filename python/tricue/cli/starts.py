@@ -62,13 +62,15 @@ def choose_start(
     return None if box is None else lambda _: box
 
 
-def start_hint(error: ValueError, source: Source, tracker: Tracker) -> str:
-    """A hint on how to fix an error on the first frame; "" if the message suffices."""
+def start_hint(error: ValueError, source: Source, tracker: Tracker, first: int = 0) -> str:
+    """A hint on how to fix an error on the first frame, with this number; "" if the message suffices."""
     if isinstance(error, NoDepthInBoxError) and tracker.traits.disparity_range is not None:
         near, far = tracker.traits.disparity_range
         return f"; --set {near}=METERS and --set {far}=METERS change the range of the search"
     if isinstance(error, BoxNeededError) and tracker.traits.detects:
         return ""
+    if isinstance(error, BoxNeededError) and (later := _true_box_after(first, source)):
+        return f"; the next true box is that of frame {later}: --start {later}, or {BOX_HINT}"
     if isinstance(error, BoxError):
         return f"; {BOX_HINT}" if tracker.traits.detects else f"; {BOX_HINT} or {FACE_HINT}"
     if isinstance(error, MissingChannelError):
@@ -78,6 +80,12 @@ def start_hint(error: ValueError, source: Source, tracker: Tracker) -> str:
             "color": f"; --tracker {depth_tracker()} tracks in depth",
         }.get(error.channel, "")  # a third-party error may lack it
     return ""
+
+
+def _true_box_after(first: int, source: Source) -> int | None:
+    """The number of the first frame after another that has a true box; None if there is none."""
+    count = 0 if source.truth is None else len(source.truth)
+    return next((number for number in range(first + 1, count) if source.true_box(number)), None)
 
 
 def in_options(text: str) -> str:

@@ -33,6 +33,7 @@ from tricue.cli.track_report import (
     require_all_started,
 )
 from tricue.data.streams import image_names
+from tricue.data.truth_check import find_doubts
 from tricue.export.table import TableForm
 from tricue.track.base.track import Track, Tracker
 from tricue.track.multi.tracker import MultiTracker
@@ -51,7 +52,8 @@ def run(options: argparse.Namespace) -> int:
     with redirect_stdout(sys.stderr if options.json == STANDARD_OUTPUT else sys.stdout):
         report(run, clock, record, interrupted)
         results = _results(options, run, outputs, record.tracks.get(1, {}))
-        for note in [*record.notes, *notes, *run.source.remarks, *results]:
+        doubts = find_doubts(run.source, clock.start_size, _length(run, clock, interrupted))
+        for note in [*record.notes, *notes, *run.source.remarks, *doubts, *results]:
             print(by_options(note))
     if not interrupted:
         require_all_started(run, clock)
@@ -98,11 +100,20 @@ def _with_hints(found: Iterator[Step], run: TrackRun, clock: RunClock) -> Iterat
     except ValueError as error:
         if clock.decoded == 1 and not any(clock.statuses.values()):
             errors = [each for each in (error, error.__cause__) if isinstance(each, ValueError)]
-            hint = next(filter(None, (start_hint(each, run.source, run.tracker) for each in errors)), "")
+            hint = next(
+                filter(None, (start_hint(each, run.source, run.tracker, run.first) for each in errors)), ""
+            )
             raise ValueError(f"{in_options(str(error))}{hint}") from None
         if clock.last_size != clock.start_size:
             raise ValueError(changed_size(run, clock)) from None
         raise
+
+
+def _length(run: TrackRun, clock: RunClock, interrupted: bool) -> int | None:
+    """The number of the source's frames; None if unknown, as of a video that wasn't read to its end."""
+    if run.source.length is not None or interrupted or run.end is not None:
+        return run.source.length
+    return run.first + clock.decoded
 
 
 def _outputs(options: argparse.Namespace, run: TrackRun, clock: RunClock) -> Iterator[Output]:

@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""Checks whether true boxes fit the images: a missing image moves them to other frames."""
+"""Checks whether true boxes fit the images: a row too many or a missing image moves them to other frames, and
+corners in place of sizes make other boxes.
+"""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
 
 from tricue.data.otb import find_range
 from tricue.data.source import Source
@@ -11,6 +16,9 @@ from tricue.data.streams import Images
 
 NUMBERED_FORMATS = ("OTB", "VOT", "VOT RGB-D", "images", "stereo pair")
 """Formats whose images have consecutive numbers as names. LaSOT and GOT-10k are "images"."""
+
+FAR_BEYOND = 1.25  # of the image's size: true boxes are seldom drawn so far outside
+MIN_SHARE_BEYOND = 0.05  # of the boxes: a target that leaves the image may have some
 
 
 def find_missing_image(place: Path, source: Source) -> str:
@@ -50,3 +58,35 @@ def _image_name(number: int, others: Sequence[re.Match[str]]) -> str:
     """The number as in the names of other images, with leading zeros if they have them."""
     width = min(len(match[2]) for match in others)
     return f"{number:0{width}d}"
+
+
+def find_doubts(source: Source, size: tuple[int, int], frames: int | None) -> Iterator[str]:
+    """What looks wrong about the true boxes, a sentence each.
+
+    size: width and height of the images in whose pixels they are. frames: of the source; None if unknown.
+    """
+    if source.truth is None or source.absent is None or not len(source.truth):
+        return
+    unknown = np.isnan(source.truth[0]).any() and not source.absent[0]
+    if unknown and frames is not None and len(source.truth) == frames + 1:
+        yield (
+            f"the table's last frame is {frames}, but frames count from 0, up to {frames - 1}; "
+            "if the table counts from 1, subtract 1"
+        )
+    beyond = _count_corners(source.truth[np.isfinite(source.truth).all(axis=1)], size)
+    if beyond:
+        yield (
+            f"{beyond} true boxes reach far beyond the image, {size[0]}x{size[1]} px, but would fit it as "
+            "corners x1,y1,x2,y2; if they are, write width and height, or boxes.csv with a header"
+        )
+
+
+def _count_corners(boxes: NDArray[np.float64], size: tuple[int, int]) -> int:
+    """How many boxes reach far beyond the image, if they are many, and all numbers would do as corners; else
+    0. Of boxes, all of them larger than their distance from the image's corner, hardly any do.
+    """
+    low, high = boxes[:, :2], boxes[:, 2:]
+    if not ((low >= 0) & (low < high) & (high <= size)).all():
+        return 0
+    beyond = int((low + high > np.multiply(FAR_BEYOND, size)).any(axis=1).sum())
+    return beyond if beyond > MIN_SHARE_BEYOND * len(boxes) else 0

@@ -7,13 +7,14 @@ the missing runs and ends with the same numbers.
 
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from tricue.data.truth_check import find_doubts
 from tricue.errors import one_line
 from tricue.evaluation.attributes.measure import SequenceAttributes
 from tricue.evaluation.dataset import Entry, OpenedSequence, ReadOptions, find_entries
@@ -299,7 +300,7 @@ class _Plan:
         notes = (
             missing_note(self.options.trackers),
             *self._results_notes(),
-            *self._surplus_notes(),
+            *self._truth_notes(),
             *self._unknown_notes(),
         )
         return Evaluation(
@@ -316,8 +317,8 @@ class _Plan:
                     [f"{spec.name}: results in {spec.form} form", f"{count} of {total} sequences", *how]
                 )
 
-    def _surplus_notes(self) -> Iterator[str]:
-        """The sequences that have true boxes after their last frame."""
+    def _truth_notes(self) -> Iterator[str]:
+        """The sequences that have true boxes after their last frame, or doubtful ones."""
         seen: dict[str, int] = {}  # frames of videos, whose length only runs show
         for task, (run, _) in self.scored.items():
             if task.kind == ONE_PASS and not isinstance(task.tracker, ResultsSpec):
@@ -327,6 +328,8 @@ class _Plan:
             if frames is not None and (more := len(opened.boxes) - frames) > 0:
                 rows = "1 row" if more == 1 else f"{more} rows"
                 yield f"{name}: {rows} of true boxes more than there are frames"
+            with suppress(OSError, ValueError):  # of images that can't be read, which failed runs tell
+                yield from (f"{name}: {doubt}" for doubt in find_doubts(opened.source, opened.size, frames))
 
     def _unknown_notes(self) -> Iterator[str]:
         """The sequences of which only the first true box is known, such as those of test sets."""
