@@ -3,10 +3,10 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from itertools import count, pairwise
+from itertools import combinations, count, pairwise, permutations
 from operator import index
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,7 @@ from tricue.camera.frame import Frame
 from tricue.camera.numbers import positive
 from tricue.camera.read_calibration import KITTI_COLOR_CAMERAS
 from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.data.image_numbers import find_mismatch, find_unpaired
 from tricue.data.joint import Moment, common_joint, joints_of
 from tricue.data.live import Health, close_all, lives_of, total_health
 from tricue.data.streams import MAX_FPS, Images, Stream, Video, remark_on_steps_back, steps_back
@@ -71,7 +72,16 @@ class Source:
         known = {name: stream.length for name, stream in self.channels.items() if stream.length is not None}
         if len(set(known.values())) > 1:
             got = " and ".join(f"{length} {name}" for name, length in known.items())
-            raise ValueError(f"{self.name}: expected as many {' as '.join(known)} images, got {got}")
+            raise ValueError(
+                f"{self.name}: expected as many {' as '.join(known)} images, got {got}{self._unpaired()}"
+            )
+
+    def _unpaired(self) -> str:
+        """Which image has no other of its number, for an error; "" if names don't tell."""
+        for images, others in permutations(filter(_is_untimed, self.channels.values()), 2):
+            if alone := find_unpaired(images.paths, others.paths):
+                return f"; {others.paths[0].parent} has none for {alone}"
+        return ""
 
     @property
     def fps(self) -> float:
@@ -116,6 +126,12 @@ class Source:
         clock = self.clock
         if isinstance(clock, Images) and (numbers := steps_back(clock.times or ())):
             found.append(remark_on_steps_back(numbers))
+        for images, others in combinations(filter(_is_untimed, self.channels.values()), 2):
+            if pair := find_mismatch(images.paths, others.paths):
+                found.append(
+                    f"images are paired by order, though names differ from {pair[0]} and {pair[1]} on; "
+                    "remove those that have no other of their number"
+                )
         return tuple(found)
 
     @property
@@ -228,6 +244,11 @@ class Source:
                 f"fps={rate:g}: expected with images without times, but {self.name} has its own, "
                 f"{clock.fps:.4g} frames per second; leave it out"
             )
+
+
+def _is_untimed(stream: Stream) -> TypeGuard[Images]:
+    """Whether images are paired by order, not by their times."""
+    return isinstance(stream, Images) and stream.times is None
 
 
 def _increasing(indices: Iterable[int]) -> list[int]:
