@@ -2,6 +2,7 @@
 import tracemalloc
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 from hypothesis import given
@@ -10,6 +11,7 @@ from tricue import Box, Status, Track
 from tricue.camera.frame import Frame
 from tricue.cli.outputs import CsvOutput, Step
 from tricue.data.box_table import BOX_TABLE, find_box_table, find_video_box_table, read_box_table
+from tricue.data.open_source import open_source
 from tricue.data.truth import OTB_TRUTH, Truth, read_truth_file
 
 
@@ -76,6 +78,49 @@ def test_other_names_of_the_frame(tmp_path: Path, name: str) -> None:
     assert boxes[[0, 2]].tolist() == [[1, 2, 3, 4], [5, 6, 7, 8]]
     other = f"{name},frame,x,y,w,h\ncamera,0,1,2,3,4\ncamera,1,5,6,7,8\n"
     assert read(tmp_path, other).boxes.tolist() == [[1, 2, 3, 4], [5, 6, 7, 8]]
+
+
+def named(folder: Path, text: str) -> Truth:
+    """The truth of a folder of three images with such a table."""
+    for name in ("a1.jpg", "b.2.jpg", "c3.jpg"):
+        cv2.imwrite(str(folder / name), np.zeros((48, 64, 3), np.uint8))
+    (folder / BOX_TABLE).write_text(text)
+    source = open_source(folder)
+    assert source.truth is not None
+    assert source.absent is not None
+    return Truth(source.truth, source.absent)
+
+
+@pytest.mark.parametrize("name", ["filename", "file_name", "File", "image", "image_name"])
+@pytest.mark.parametrize("written", ["{}.jpg", "labeled/{}.png", "C:\\labels\\{}.jpg", "{}"])
+def test_images_are_named(tmp_path: Path, name: str, written: str) -> None:
+    """As labeling tools write them, for some of the images in any order; the others are unknown."""
+    rows = [
+        f"{written.format(image)},64,48,car,{box}" for image, box in (("c3", "1,2,4,6"), ("a1", "5,6,12,14"))
+    ]
+    truth = named(tmp_path, f"{name},width,height,class,xmin,ymin,xmax,ymax\n" + "\n".join(rows))
+    assert truth.boxes[[0, 2]].tolist() == [[5, 6, 7, 8], [1, 2, 3, 4]]
+    assert np.isnan(truth.boxes[1]).all()
+    assert not truth.absent.any()
+
+
+def test_bad_names_of_images_are_named(tmp_path: Path) -> None:
+    """Another image than the folder's, or one twice."""
+    with pytest.raises(ValueError, match=r"line 3: expected the name of an image, got 'd.jpg'"):
+        named(tmp_path, "image,x,y,w,h\na1.jpg,1,2,3,4\nd.jpg,1,2,3,4\n")
+    with pytest.raises(ValueError, match="line 3: expected each frame once, got 0 again"):
+        named(tmp_path, "image,x,y,w,h\na1.jpg,1,2,3,4\na1.jpg,1,2,3,4\n")
+
+
+def test_other_files_are_ignored(tmp_path: Path) -> None:
+    """A column of another name, or of files that aren't the images, such as their video, names no frames."""
+    for header, cell in (
+        ("label", "b.2.jpg"),
+        ("file", "clip.mp4"),
+        ("file", ""),
+        ("frame,image", "0,b.2.jpg"),
+    ):
+        assert named(tmp_path, f"{header},x,y,w,h\n{cell},1,2,3,4\n").boxes.tolist() == [[1, 2, 3, 4]]
 
 
 @pytest.mark.parametrize("header", ["frame;x;y;w;h\n", ""])

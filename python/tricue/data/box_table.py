@@ -10,7 +10,7 @@ import math
 import re
 from array import array
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from typing import NamedTuple
 
 import numpy as np
@@ -47,6 +47,8 @@ _OTHER_NAMES |= {
 }
 _FRAME_NAMES = ("frame", *(f"frame_{end}" for end in ("number", "index", "idx", "no", "id")))
 """Names of the column of frame numbers; if a table has several, the first counts."""
+_FILE_NAMES = ("filename", "file_name", "file", "image", "image_name", "image_file", "image_path")
+"""Names of the column of the images' files; it counts if its first cell is one of the images."""
 _DECIMAL_COMMA = re.compile(r"([+-]?\d*),(\d+(?:[eE][+-]?\d+)?)")
 _HEADERLESS_COLUMNS = {4: _BOX_COLUMNS, 5: ("frame", *_BOX_COLUMNS)}
 
@@ -85,15 +87,20 @@ class _Row(NamedTuple):
         return check_sizes([left, top, width, height], self.place, ",".join(self.cells.values()))
 
 
-def read_box_table(path: str | Path) -> Truth:
+def read_box_table(path: str | Path, images: Sequence[str] = ()) -> Truth:
     """The boxes in a table, pixels from 0, and the target's positions if there are columns x_m, y_m or z_m.
 
     Each row is one frame, in order, unless a column ``frame`` (or ``frame_number``, and the like) gives its
-    number from 0; frames without a row are unknown. Empty cells, NaN, or a width or height of 0 mean that the
-    target is absent. Other columns are ignored. ValueError names the file and the line, also for shares of
-    the image in place of pixels.
+    number from 0, or a column ``filename`` or ``image`` its image's name; frames without a row are unknown.
+    Empty cells, NaN, or a width or height of 0 mean that the target is absent. Other columns are ignored.
+    images: the names of the frames' files, in order. ValueError names the file and the line, also for shares
+    of the image in place of pixels.
     """
-    frames, numbers, places = _Frames(), array("d"), array("d")  # millions of lists would take gigabytes
+    frames, numbers, places = (
+        _Frames(images),
+        array("d"),
+        array("d"),
+    )  # millions of lists would take gigabytes
     first = ""
     for row in _rows(Path(path)):
         first = first or row.place
@@ -224,9 +231,12 @@ def _is_number(text: str) -> bool:
 
 
 class _Frames:
-    """The frame number of each row: from its column ``frame``, or, without one, its index."""
+    """The frame number of each row: from its column ``frame`` or the name of its image, or its index."""
 
-    def __init__(self) -> None:
+    def __init__(self, images: Sequence[str]) -> None:
+        self._by_name = {Path(name).stem: index for index, name in enumerate(images)}
+        self._by_name |= {name: index for index, name in enumerate(images)}  # before stems
+        self._column: str | None = None  # that names images; "" for none
         self._numbers = array("q")
         self._seen = bytearray()  # by frame
 
@@ -242,12 +252,31 @@ class _Frames:
 
     def add(self, row: _Row) -> None:
         """Add a row's number. ValueError for one that is no frame's, or that another row has."""
-        frame = _frame_of(row) if "frame" in row.cells else len(self._numbers)
+        frame = _frame_of(row) if "frame" in row.cells else self._frame_by_name(row)
         self._seen.extend(bytes(max(0, frame + 1 - len(self._seen))))
         if self._seen[frame]:
             raise ValueError(f"{row.place}: expected each frame once, got {frame} again")
         self._seen[frame] = True
         self._numbers.append(frame)
+
+    def _frame_by_name(self, row: _Row) -> int:
+        """The frame of the image that the row names; ValueError for another; without names the row's index.
+
+        The images may have another suffix, or another folder, than those that were labeled.
+        """
+        if self._column is None:
+            found = (name for name in _FILE_NAMES if self._index(row.cells.get(name, "")) is not None)
+            self._column = next(found, "")
+        if not self._column:
+            return len(self._numbers)
+        name = row.cells[self._column]
+        if (index := self._index(name)) is None:
+            raise ValueError(f"{row.place}: expected the name of an image, got {name!r:.60}")
+        return index
+
+    def _index(self, name: str) -> int | None:
+        file = PureWindowsPath(name)  # which takes both kinds of slashes
+        return self._by_name.get(file.name, self._by_name.get(file.stem))
 
 
 def _frame_of(row: _Row) -> int:

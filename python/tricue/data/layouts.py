@@ -11,7 +11,7 @@ from tricue.data import kitti, otb, princeton, tum, viewer_images, vot
 from tricue.data.box_table import find_box_table, read_box_table
 from tricue.data.depth_images import DepthReader, is_depth, require_scale
 from tricue.data.files import image_paths, natural_order, video_paths
-from tricue.data.streams import Images, Stream, Video, timed_images
+from tricue.data.streams import Images, Stream, Video, image_names, timed_images
 from tricue.data.truth import (
     Truth,
     add_tags_and_depths,
@@ -60,7 +60,7 @@ def read_layout(folder: Path, scale: float | None, target: str | None = None) ->
     table = find_box_table(folder, color.path if isinstance(color, Video) else None)
     if table is None:
         return layout
-    truth = add_tags_and_depths(read_box_table(table), folder)
+    truth = add_tags_and_depths(read_box_table(table, image_names(layout.channels)), folder)
     return layout._replace(truth=truth, notes=(*layout.notes, note_box_table(table)))
 
 
