@@ -51,6 +51,14 @@ def wide_bits(folder: Path) -> None:
     cv2.imwrite(str(folder / "1.png"), np.full((30, 40, 3), 9000, np.uint16))
 
 
+def meters_as_floats(folder: Path) -> Path:
+    """A folder of color, and of depth in meters."""
+    color_folder(folder / "color", 1)
+    (folder / "depth").mkdir()
+    cv2.imwrite(str(folder / "depth" / "1.tiff"), np.full((48, 64), 1.5, np.float32))
+    return folder
+
+
 def cut_off(folder: Path) -> Source:
     """A folder of depth whose second image ends in the middle."""
     depth_folder(folder, [1000, 1000])
@@ -113,6 +121,10 @@ def uneven_vot(folder: Path) -> Source:
         (beside(eight_bits), r"1.png: expected depth, 16 bits .*, got uint8 \(48, 64, 3\); .* not meters"),
         (beside(gray_bits), r"1.png: .* got uint8 \(30, 40\); 8 bits are a picture of the depth, not meters"),
         (beside(wide_bits), r"1.png: expected depth, 16 bits of one channel, got uint16 \(30, 40, 3\)"),
+        (
+            lambda f: next(iter(open_source(meters_as_floats(f), depth_scale=1))),
+            r"1.tiff: expected depth, 16 bits .*, got float32 \(48, 64\); write meters as millimeters into",
+        ),
         (eight_bits_in_the_middle, "expected images of one kind, found 1 of color and 1 of depth"),
         (cut_off, "2.png: expected an image, this file can't be read as one"),
         (beside(lambda f: f.mkdir()), "d: expected a folder of images or a sequence, found neither"),

@@ -12,6 +12,13 @@ from tricue.camera.numbers import positive
 from tricue.data.streams import read_image
 
 METERS_PER_MILLIMETER = 0.001
+_FLOAT_HINT = "; write meters as millimeters into 16-bit PNG files"
+HINTS = {
+    "uint8": "; 8 bits are a picture of the depth, not meters",
+    "float32": _FLOAT_HINT,
+    "float64": _FLOAT_HINT,
+}
+"""What to do about depth of other types."""
 
 
 @dataclass(frozen=True)
@@ -32,9 +39,9 @@ class DepthReader:
     def __call__(self, path: Path) -> NDArray[np.float32]:
         units = read_image(path, cv2.IMREAD_UNCHANGED)
         if units.dtype != np.uint16 or units.ndim != 2:
-            picture = "; 8 bits are a picture of the depth, not meters" if units.dtype == np.uint8 else ""
+            hint = HINTS.get(units.dtype.name, "")
             raise ValueError(
-                f"{path}: expected depth, 16 bits of one channel, got {units.dtype} {units.shape}{picture}"
+                f"{path}: expected depth, 16 bits of one channel, got {units.dtype} {units.shape}{hint}"
             )
         if self.rotated:
             units = (units >> 3) | (units << 13)
