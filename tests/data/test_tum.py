@@ -31,6 +31,17 @@ def test_a_byte_order_mark_in_tums_lists(tmp_path: Path, encoding: str) -> None:
     assert [frame.timestamp for frame in open_source(folder)] == [1.0, 2.0]
 
 
+def test_tum_lists_of_windows(tmp_path: Path) -> None:
+    """It proves that backslashes part folders, and lead out of the sequence no more than slashes do."""
+    folder = tum(tmp_path, [1.0, 2.0], [1.0, 2.0])
+    for name in ("rgb.txt", "depth.txt"):
+        (folder / name).write_text((folder / name).read_text().replace("/", "\\"), newline="\r\n")
+    assert levels(open_source(folder)) == [10, 20]
+    (folder / "rgb.txt").write_text("1.0 ..\\rgb\\1.png\n")
+    with pytest.raises(ValueError, match=r"rgb\.txt: expected files below its folder, got '\.\./rgb/1\.png'"):
+        open_source(folder)
+
+
 def test_tum_serves_the_closest_first(tmp_path: Path) -> None:
     """It proves that of two color images that are near one depth image the nearer one gets it."""
     source = open_source(tum(tmp_path, [10.0, 10.012], [10.010]))

@@ -51,6 +51,7 @@ _JPEG_FRAMES = set(range(0xC0, 0xD0)) - {0xC4, 0xC8, 0xCC}
 
 def listed_path(folder: Path, name: str, list_file: Path) -> Path:
     """The path of a file that a list names; ValueError for one outside the folder."""
+    name = name.replace("\\", "/")  # lists that were written on Windows
     if Path(name).is_absolute() or ".." in Path(name).parts:
         raise ValueError(f"{list_file}: expected files below its folder, got {name!r:.80}")
     return folder / name
