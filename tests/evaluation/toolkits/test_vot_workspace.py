@@ -304,6 +304,20 @@ def test_a_workspace_grows_and_keeps_what_it_has(tmp_path: Path) -> None:
     assert write_workspace(ws, ["flow-depth"]).sequences == ["a", "b"]
 
 
+def test_true_boxes_that_do_not_fit_are_told(tmp_path: Path) -> None:
+    """A sequence that lacks an image between others is left out, and corners in place of sizes are told."""
+    gap, corners = otb(tmp_path / "gap"), vot(tmp_path / "corners")
+    sorted((gap / "img").iterdir())[1].unlink()
+    write_truth(corners / "groundtruth.txt", np.full((FRAMES, 4), [40, 20, 60, 45]))
+    report = write_workspace(tmp_path / "ws", ["color-particle"], [gap, corners])
+    assert report.sequences == ["corners"]
+    left_out, doubt = report.notes
+    assert left_out.startswith(
+        f"left out {gap}: {gap / 'img'}: expected images 0000 to 0003, one for each of"
+    )
+    assert doubt.startswith(f"{corners}: {FRAMES} true boxes reach far beyond the image, {WIDTH}x{HEIGHT} px")
+
+
 def test_what_trackers_cannot_run_on_is_left_out(tmp_path: Path) -> None:
     """It proves that each recording is left out with its reason, not found out by the toolkit's end."""
     color, hidden, bare = otb(tmp_path / "color"), vot(tmp_path / "hidden"), tum(tmp_path / "bare")

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tricue.data.open_source import Source, open_source
+from tricue.data.truth_check import find_doubts, find_missing_image
 from tricue.draw.writable import naming
 from tricue.errors import one_line
 from tricue.evaluation.toolkits.trax_server import select_channels
@@ -170,7 +171,11 @@ def _usable_recordings(
         try:
             source = open_source(place)
             reason = _unusable_reason(source, needs)  # this may read the first images
-            hints = [*filter(None, vot_channels(source)[1:]), *_rate_hints(source, needs)]
+            missing = find_missing_image(place, source)
+            (channel, *_), note = vot_channels(source)
+            doubts = find_doubts(source, source.channels[channel].size, source.length)
+            hints = [*filter(None, [note]), *_rate_hints(source, needs)]
+            hints += [f"{place}: {doubt}" for doubt in doubts]
         except (OSError, ValueError) as error:
             report.notes.append(f"left out {place}: {one_line(error)}")
             continue
@@ -179,6 +184,8 @@ def _usable_recordings(
             report.notes.append(f"left out {place}: the workspace has a sequence {name}")
         elif reason:
             report.notes.append(f"left out {place}: it {reason}")
+        elif missing:
+            report.notes.append(f"left out {place}: {missing}")
         else:
             taken.add(name)
             report.notes += [*source.notes, *hints]
