@@ -95,6 +95,19 @@ def test_otb_sequences(tmp_path: Path) -> None:
     assert source.first_box == Box(10, 20, 5, 6)
 
 
+def test_a_video_beside_images(tmp_path: Path) -> None:
+    """It proves that a note tells of a video that is left out for images beside it."""
+    folder = images(tmp_path / "a", ["poster.png"])
+    (folder / "preview.gif").touch()
+    assert open_source(folder).notes == ()
+    video(folder / "v.avi")
+    source = open_source(folder)
+    assert source.length == 1
+    assert source.notes == (
+        f"left out {folder / 'v.avi'}, as images are beside it; name the file to open it",
+    )
+
+
 def test_a_video_with_truth(tmp_path: Path) -> None:
     """It proves that a folder with one video and a truth file is a sequence; its first box may be unknown."""
     video(tmp_path / "video.avi")

@@ -10,7 +10,7 @@ from tricue.camera.read_calibration import KITTI_COLOR_CAMERAS
 from tricue.data import kitti, otb, princeton, tum, viewer_images, vot
 from tricue.data.box_table import find_box_table, read_box_table
 from tricue.data.depth_images import DepthReader, is_depth, require_scale
-from tricue.data.files import image_paths, natural_order, video_paths
+from tricue.data.files import image_paths, is_video, natural_order, video_paths
 from tricue.data.streams import Images, Stream, Video, image_names, timed_images
 from tricue.data.truth import (
     Truth,
@@ -139,13 +139,15 @@ def _read_plain_layout(folder: Path, scale: float | None, target: str | None) ->
     notes: tuple[str, ...] = ()
     if images:
         channels["color"] = _color_images(images)
+        if images[0].parent == folder and (video := next(filter(is_video, video_paths(folder)), None)):
+            notes = (f"left out {video}, as images are beside it; name the file to open it",)
         if images[0].parent == folder / "left" and (folder / "right").is_dir():
             channels["right"] = Images(image_paths(folder / "right"))
-    elif video := _video(folder, optional=bool(depth)):
-        channels["color"] = video
+    elif found := _video(folder, optional=bool(depth)):
+        channels["color"] = found
     if depth and channels and scale is None:
         unit = "depth_scale gives its meters per unit, 0.001 for millimeters"
-        notes = (f"left out {folder / 'depth'}: {unit}",)
+        notes = (*notes, f"left out {folder / 'depth'}: {unit}")
     elif depth:
         channels["depth"] = depth_images(depth, scale)
     return _otb_range(folder, Layout(_plain_name(folder, channels), channels, truth, notes))
