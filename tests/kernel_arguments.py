@@ -30,6 +30,13 @@ def with_parts(
     return changed
 
 
+def grouped(values: Mapping[str, Any], parts: Mapping[str, Sequence[str]]) -> dict[str, Any]:
+    """Named arguments, from values of which some are parts of tuples."""
+    inside = {part for names in parts.values() for part in names}
+    arguments = {name: value for name, value in values.items() if name not in inside}
+    return arguments | {name: tuple(values[part] for part in names) for name, names in parts.items()}
+
+
 def with_argument(arguments: Sequence[Any], place: Place, value: Any) -> list[Any]:
     """The arguments with another value at a place."""
     changed = list(arguments)

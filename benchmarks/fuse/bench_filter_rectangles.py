@@ -37,14 +37,14 @@ def log_likelihood(states: Floats) -> Floats:
     """The log-likelihood of each rectangle."""
     seen = _core.depth_contrast(DEPTH, CAMERA, states, MODEL, *VIEW)
     likeness = -30 * seen[:, 0] ** 2 + 8 * (seen[:, 1] - seen[:, 3])
-    return likeness + _core.rectangle_prior(states, *PRIOR[0], *PRIOR[1])
+    return likeness + _core.rectangle_prior(states, *PRIOR)
 
 
 def script(*_: Any) -> tuple[Floats, ...]:
     """The baseline: a call for each stage, and NumPy between them."""
     previous = PARTICLES[_core.resample(WEIGHTS, 0.5)]
-    states = _core.propose(previous, *DYNAMICS, NOISE[0], *DETECTION, *BOUNDS)
-    weights, _ = _core.reweight(log_likelihood(states), states, previous, *DYNAMICS, *DETECTION)
+    states = _core.propose(previous, DYNAMICS, NOISE[0], DETECTION, BOUNDS)
+    weights, _ = _core.reweight(log_likelihood(states), states, previous, DYNAMICS, DETECTION)
     mean, *_ = _core.summarize(states, weights)
     states = mean + REFINEMENT[0] * NOISE[1]
     np.maximum(states[:, 3:], REFINEMENT[1], out=states[:, 3:])

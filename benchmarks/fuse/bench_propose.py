@@ -14,29 +14,22 @@ Floats = NDArray[np.float64]
 random = np.random.default_rng(0)
 ARGUMENTS = (
     random.normal(100, 20, (100, 4)),
-    np.array([3.0, -2.0, 0.0, 0.0]),
-    np.array([8.0, 8.0, 1.0, 1.0]),
+    (np.array([3.0, -2.0, 0.0, 0.0]), np.array([8.0, 8.0, 1.0, 1.0])),
     random.normal(size=(100, 4)),
-    np.array([110.0, 95.0]),
-    np.array([[8.0, 0.0], [-3.0, 5.0]]),
-    0.25,
-    np.array([0.0, 0.0, 5.0, 5.0]),
-    np.array([320.0, 240.0, 60.0, 60.0]),
+    (np.array([110.0, 95.0]), np.array([[8.0, 0.0], [-3.0, 5.0]]), 0.25),
+    (np.array([0.0, 0.0, 5.0, 5.0]), np.array([320.0, 240.0, 60.0, 60.0])),
 )
 
 
 def script(
     particles: Floats,
-    drift: Floats,
-    scale: Floats,
+    dynamics: tuple[Floats, Floats],
     noise: Floats,
-    mean: Floats,
-    root: Floats,
-    share: float,
-    lower: Floats,
-    upper: Floats,
+    detection: tuple[Floats, Floats, float],
+    bounds: tuple[Floats, Floats],
 ) -> Floats:
     """The baseline: the same without checks of arguments."""
+    (drift, scale), (mean, root, share), (lower, upper) = dynamics, detection, bounds
     moved = particles + drift + scale * noise
     every = round(1 / share)
     moved[every - 1 :: every, :2] = mean + noise[every - 1 :: every, :2] @ root.T

@@ -15,18 +15,16 @@ random = np.random.default_rng(0)
 STATE = np.array([0.1, -0.2, 3.0, 0.6, 1.7])
 ARGUMENTS = (
     random.normal(STATE, [0.2, 0.05, 0.2, 0.06, 0.1], (100, 5)),
-    np.array([0.55, 1.75]),
-    np.array([0.25, 0.2]),
-    STATE,
-    1.2 * np.array([0.05, 0.06, 0.06, 0.06, 0.08]),
-    12.0,
+    (np.array([0.55, 1.75]), np.array([0.25, 0.2])),
+    (STATE, 1.2 * np.array([0.05, 0.06, 0.06, 0.06, 0.08]), 12.0),
 )
 
 
 def script(
-    states: Floats, size: Floats, spread: Floats, state: Floats, deviation: Floats, most: float
+    states: Floats, mean_size: tuple[Floats, Floats], measured: tuple[Floats, Floats, float]
 ) -> Floats:
     """The baseline: the same without checks of arguments."""
+    (size, spread), (state, deviation, most) = mean_size, measured
     off, away = np.log(states[:, 3:] / size) / spread, (states - state) / deviation
     return -(off * off).sum(axis=1) / 2 - np.minimum((away * away).sum(axis=1) / 2, most)
 

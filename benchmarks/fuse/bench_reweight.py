@@ -17,11 +17,8 @@ ARGUMENTS = (
     -random.exponential(3, 100),
     PREVIOUS + random.normal(0, 8, (100, 4)),
     PREVIOUS,
-    np.array([3.0, -2.0, 0.0, 0.0]),
-    np.array([8.0, 8.0, 1.0, 1.0]),
-    np.array([110.0, 95.0]),
-    np.array([[8.0, 0.0], [-3.0, 5.0]]),
-    0.25,
+    (np.array([3.0, -2.0, 0.0, 0.0]), np.array([8.0, 8.0, 1.0, 1.0])),
+    (np.array([110.0, 95.0]), np.array([[8.0, 0.0], [-3.0, 5.0]]), 0.25),
 )
 
 
@@ -29,13 +26,11 @@ def script(
     log_likelihood: Floats,
     proposed: Floats,
     previous: Floats,
-    drift: Floats,
-    scale: Floats,
-    mean: Floats,
-    root: Floats,
-    share: float,
+    dynamics: tuple[Floats, Floats],
+    detection: tuple[Floats, Floats, float],
 ) -> tuple[Floats, float]:
     """The baseline: densities as in the textbook; NaN if all of them underflow."""
+    (drift, scale), (mean, root, share) = dynamics, detection
     position = proposed[:, :2]
     z = (position - previous[:, :2] - drift[:2]) / scale[:2]
     p = np.exp(-0.5 * (z * z).sum(axis=1)) / (scale[0] * scale[1])

@@ -57,17 +57,17 @@ void add_squares(const double* __restrict x, std::ptrdiff_t n, double middle, do
 }
 
 /// One column of the states after the other, so that all of them are computed at once.
-Vector log_sizes(StatesRef states, const MeanSize& mean) {
+Vector log_sizes(StatesRef states, const MeanSize& mean_size) {
     constexpr double kLeast = std::numeric_limits<double>::min(), kMost = std::numeric_limits<double>::max();
     const Index n = states.rows(), first = states.cols() - 2;
     Vector sums = Vector::Zero(n), relative(n);
     for (Index i = 0; i < 2; ++i) {
-        relative = states.col(first + i) / mean.size[i];
+        relative = states.col(first + i) / mean_size.size[i];
         if ((relative >= kLeast && relative <= kMost).all())
             take_logs(relative.data(), n);
         else
             for (double& each : relative) each = std::log(each);
-        add_squares(relative.data(), n, 0.0, mean.spread[i], sums.data());
+        add_squares(relative.data(), n, 0.0, mean_size.spread[i], sums.data());
     }
     return -0.5 * sums;
 }
@@ -87,14 +87,15 @@ void require_positive(VectorRef values, const char* name) {
         if (!(value > 0.0)) refuse(name, "numbers above 0", value);
 }
 
-void require_arguments(StatesRef states, const MeanSize& mean, const MeasuredState& measured) {
+void require_arguments(StatesRef states, const MeanSize& mean_size, const MeasuredState& measured) {
     const Index D = states.cols();
     if (D < 2) refuse("states", "2 columns or more", std::to_string(D));
     require_finite(states, "states");
     for (Index i = 0; i < states.rows(); ++i)
         for (Index j = D - 2; j < D; ++j)
             if (!(states(i, j) > 0.0)) refuse("states", "sizes above 0", states(i, j));
-    for (const auto& [values, name] : {std::pair{mean.size, "size"}, std::pair{mean.spread, "spread"}}) {
+    for (const auto& [values, name] :
+         {std::pair{mean_size.size, "size"}, std::pair{mean_size.spread, "spread"}}) {
         require_size(values, 2, name);
         require_finite(values, name);
         require_positive(values, name);
@@ -108,9 +109,9 @@ void require_arguments(StatesRef states, const MeanSize& mean, const MeasuredSta
 
 }  // namespace
 
-Vector rectangle_prior(StatesRef states, const MeanSize& mean, const MeasuredState& measured) {
-    require_arguments(states, mean, measured);
-    return log_sizes(states, mean) + log_measured(states, measured);
+Vector rectangle_prior(StatesRef states, const MeanSize& mean_size, const MeasuredState& measured) {
+    require_arguments(states, mean_size, measured);
+    return log_sizes(states, mean_size) + log_measured(states, measured);
 }
 
 }  // namespace tricue

@@ -29,6 +29,6 @@ struct MeasuredState {
 /// @returns float64 (N,), nats
 /// @throws std::invalid_argument on other shapes or values
 /// Source: ours; the measurement joins the likelihood as in Isard, Blake 1998 (ICondensation) it joins the proposal.
-Vector rectangle_prior(StatesRef states, const MeanSize& mean, const MeasuredState& measured);
+Vector rectangle_prior(StatesRef states, const MeanSize& mean_size, const MeasuredState& measured);
 
 }  // namespace tricue

@@ -5,13 +5,12 @@
 #include <tuple>
 
 #include "arrays.hpp"
-#include "fuse/propose.hpp"
 #include "fuse/rank_filter.hpp"
-#include "fuse/rectangle_prior.hpp"
 #include "fuse/resample.hpp"
 #include "fuse/reweight.hpp"
 #include "fuse/summarize.hpp"
 #include "kernel_docs.hpp"
+#include "proposal_arguments.hpp"
 #include "rank_arguments.hpp"
 
 namespace tricue::bindings {
@@ -22,29 +21,28 @@ Array<std::int64_t> resample_arrays(const Array<double>& weights, double offset)
     return give(unlocked(view.size(), [&] { return resample(view, offset); }));
 }
 
-Array<double> propose_arrays(const Array<double>& particles, const Array<double>& drift,
-                             const Array<double>& scale, const Array<double>& noise,
-                             const Array<double>& mean, const Array<double>& root, double share,
-                             const Array<double>& lower, const Array<double>& upper) {
+Array<double> propose_arrays(const Array<double>& particles, const DynamicsTuple& dynamics,
+                             const Array<double>& noise, const DetectionTuple& detection,
+                             const BoundsTuple& bounds) {
     const auto from = states(particles, "particles");
+    const Dynamics moves = dynamics_of(dynamics);
     const auto draws = states(noise, "noise");
-    const Dynamics dynamics{vector(drift, "drift"), vector(scale, "scale")};
-    const Detection detection{vector(mean, "mean"), states(root, "root"), share};
-    const Bounds bounds{vector(lower, "lower"), vector(upper, "upper")};
-    return give(unlocked(from.size(), [&] { return propose(from, dynamics, draws, detection, bounds); }));
+    const Detection seen = detection_of(detection);
+    const Bounds limits = bounds_of(bounds);
+    return give(unlocked(from.size(), [&] { return propose(from, moves, draws, seen, limits); }));
 }
 
 std::tuple<Array<double>, double> reweight_arrays(const Array<double>& log_likelihood,
                                                   const Array<double>& proposed,
-                                                  const Array<double>& previous, const Array<double>& drift,
-                                                  const Array<double>& scale, const Array<double>& mean,
-                                                  const Array<double>& root, double share) {
+                                                  const Array<double>& previous,
+                                                  const DynamicsTuple& dynamics,
+                                                  const DetectionTuple& detection) {
     const auto likelihood = vector(log_likelihood, "log_likelihood");
     const auto to = states(proposed, "proposed");
     const auto from = states(previous, "previous");
-    const Dynamics dynamics{vector(drift, "drift"), vector(scale, "scale")};
-    const Detection detection{vector(mean, "mean"), states(root, "root"), share};
-    auto result = unlocked(to.size(), [&] { return reweight(likelihood, to, from, dynamics, detection); });
+    const Dynamics moves = dynamics_of(dynamics);
+    const Detection seen = detection_of(detection);
+    auto result = unlocked(to.size(), [&] { return reweight(likelihood, to, from, moves, seen); });
     return {give(std::move(result.weights)), result.log_evidence};
 }
 
@@ -113,30 +111,17 @@ rank_filter_arrays(const Array<std::uint8_t>& image,
             give(std::move(result.correlations))};
 }
 
-Array<double> rectangle_prior_arrays(const Array<double>& particles, const Array<double>& size,
-                                     const Array<double>& spread, const Array<double>& state,
-                                     const Array<double>& deviation, double max_cost) {
-    const auto each = states(particles, "states");
-    const MeanSize mean{vector(size, "size"), vector(spread, "spread")};
-    const MeasuredState measured{vector(state, "state"), vector(deviation, "deviation"), max_cost};
-    return give(unlocked(each.size(), [&] { return rectangle_prior(each, mean, measured); }));
-}
-
 }  // namespace
 
 void define_fuse(py::module_& m) {
     m.def("resample", resample_arrays, py::arg("weights"), py::arg("offset"), docs::resample);
-    m.def("propose", propose_arrays, py::arg("particles"), py::arg("drift"), py::arg("scale"),
-          py::arg("noise"), py::arg("mean"), py::arg("root"), py::arg("share"), py::arg("lower"),
-          py::arg("upper"), docs::propose);
+    m.def("propose", propose_arrays, py::arg("particles"), py::arg("dynamics"), py::arg("noise"),
+          py::arg("detection"), py::arg("bounds"), docs::propose);
     m.def("rank_filter", rank_filter_arrays, py::arg("image"), py::arg("last"), py::arg("noise"),
           py::arg("dynamics"), py::arg("bounds"), py::arg("detection"), py::arg("pattern"),
           py::arg("appearance"), py::arg("factors"), py::arg("flat"), docs::rank_filter);
-    m.def("rectangle_prior", rectangle_prior_arrays, py::arg("states"), py::arg("size"), py::arg("spread"),
-          py::arg("state"), py::arg("deviation"), py::arg("max_cost"), docs::rectangle_prior);
     m.def("reweight", reweight_arrays, py::arg("log_likelihood"), py::arg("proposed"), py::arg("previous"),
-          py::arg("drift"), py::arg("scale"), py::arg("mean"), py::arg("root"), py::arg("share"),
-          docs::reweight);
+          py::arg("dynamics"), py::arg("detection"), docs::reweight);
     m.def("summarize", summarize_arrays, py::arg("particles"), py::arg("weights"), docs::summarize);
 }
 

@@ -2272,14 +2272,10 @@ def plane_support(
 
 def propose(
     particles: numpy.typing.NDArray[numpy.float64],
-    drift: numpy.typing.NDArray[numpy.float64],
-    scale: numpy.typing.NDArray[numpy.float64],
+    dynamics: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
     noise: numpy.typing.NDArray[numpy.float64],
-    mean: numpy.typing.NDArray[numpy.float64],
-    root: numpy.typing.NDArray[numpy.float64],
-    share: float,
-    lower: numpy.typing.NDArray[numpy.float64],
-    upper: numpy.typing.NDArray[numpy.float64],
+    detection: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
+    bounds: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     Draws the next particles from the mixture proposal: x' = x + drift + scale * noise, equation (30)
@@ -2292,16 +2288,20 @@ def propose(
 
     Args:
         particles: float64 (N, D), finite, the K numbers of a detection first
-        drift: float64 (D,): displacement in a frame, in the units of the state, finite
-        scale: float64 (D,): standard deviations, none negative; those of a detection's K numbers above
-            0 where a density is needed
+        dynamics: a tuple (drift, scale):
+            - drift: float64 (D,): displacement in a frame, in the units of the state, finite
+            - scale: float64 (D,): standard deviations, none negative; those of a detection's K numbers
+              above 0 where a density is needed
         noise: float64 (N, D): independent standard normal numbers
-        mean: float64 (K,): mean of the detection, K at least 1, at most D
-        root: float64 (K, K): Cholesky factor of its covariance, lower triangle, diagonal above 0;
-            numbers above the diagonal are not read
-        share: share of the particles that is drawn from it, in [0, 1); at 0 mean and root are not read
-        lower: float64 (D,): lower bounds of a state, may be infinite
-        upper: float64 (D,): upper bounds, not below the lower ones, may be infinite
+        detection: a tuple (mean, root, share):
+            - mean: float64 (K,): mean of the detection, K at least 1, at most D
+            - root: float64 (K, K): Cholesky factor of its covariance, lower triangle, diagonal above 0;
+              numbers above the diagonal are not read
+            - share: share of the particles that is drawn from it, in [0, 1); at 0 mean and root are not
+              read
+        bounds: a tuple (lower, upper):
+            - lower: float64 (D,): lower bounds of a state, may be infinite
+            - upper: float64 (D,): upper bounds, not below the lower ones, may be infinite
 
     Returns:
         float64 (N, D)
@@ -2659,11 +2659,8 @@ def rectangle_histogram(
 
 def rectangle_prior(
     states: numpy.typing.NDArray[numpy.float64],
-    size: numpy.typing.NDArray[numpy.float64],
-    spread: numpy.typing.NDArray[numpy.float64],
-    state: numpy.typing.NDArray[numpy.float64],
-    deviation: numpy.typing.NDArray[numpy.float64],
-    max_cost: float,
+    mean_size: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+    measured: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     Log-likelihood of rectangles before their depths are read, by the running mean of their size and by
@@ -2674,13 +2671,15 @@ def rectangle_prior(
 
     Args:
         states: float64 (N, D), D at least 2, finite, widths and heights above 0
-        size: float64 (2,): running mean of width and height, finite, above 0
-        spread: float64 (2,): standard deviations of the logarithms of their ratios to it, finite, above
-            0
-        state: float64 (D,): measured state, finite
-        deviation: float64 (D,): its standard deviations, above 0, infinite for numbers that were not
-            measured
-        max_cost: most that a state far from it loses, nats, at least 0
+        mean_size: a tuple (size, spread):
+            - size: float64 (2,): running mean of width and height, finite, above 0
+            - spread: float64 (2,): standard deviations of the logarithms of their ratios to it, finite,
+              above 0
+        measured: a tuple (state, deviation, max_cost):
+            - state: float64 (D,): measured state, finite
+            - deviation: float64 (D,): its standard deviations, above 0, infinite for numbers that were
+              not measured
+            - max_cost: most that a state far from it loses, nats, at least 0
 
     Returns:
         float64 (N,), nats
@@ -2865,11 +2864,8 @@ def reweight(
     log_likelihood: numpy.typing.NDArray[numpy.float64],
     proposed: numpy.typing.NDArray[numpy.float64],
     previous: numpy.typing.NDArray[numpy.float64],
-    drift: numpy.typing.NDArray[numpy.float64],
-    scale: numpy.typing.NDArray[numpy.float64],
-    mean: numpy.typing.NDArray[numpy.float64],
-    root: numpy.typing.NDArray[numpy.float64],
-    share: float,
+    dynamics: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+    detection: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
 ) -> tuple[numpy.typing.NDArray[numpy.float64], float]:
     """
     Weights of the particles that `propose` drew, equation (2) with the mixture as the proposal, in the
@@ -2887,13 +2883,16 @@ def reweight(
         log_likelihood: float64 (N,): log L, natural logarithms, -infinity for the impossible
         proposed: float64 (N, D): what `propose` returned
         previous: float64 (N, D): the particles that it was given
-        drift: float64 (D,): displacement in a frame, in the units of the state, finite
-        scale: float64 (D,): standard deviations, none negative; those of a detection's K numbers above
-            0 where a density is needed
-        mean: float64 (K,): mean of the detection, K at least 1, at most D
-        root: float64 (K, K): Cholesky factor of its covariance, lower triangle, diagonal above 0;
-            numbers above the diagonal are not read
-        share: share of the particles that is drawn from it, in [0, 1); at 0 mean and root are not read
+        dynamics: a tuple (drift, scale):
+            - drift: float64 (D,): displacement in a frame, in the units of the state, finite
+            - scale: float64 (D,): standard deviations, none negative; those of a detection's K numbers
+              above 0 where a density is needed
+        detection: a tuple (mean, root, share):
+            - mean: float64 (K,): mean of the detection, K at least 1, at most D
+            - root: float64 (K, K): Cholesky factor of its covariance, lower triangle, diagonal above 0;
+              numbers above the diagonal are not read
+            - share: share of the particles that is drawn from it, in [0, 1); at 0 mean and root are not
+              read
 
     Returns:
         weights: float64 (N,): weights of sum 1, equation (31)
@@ -4203,14 +4202,10 @@ class Kernels(Protocol):
     def propose(
         self,
         particles: numpy.typing.NDArray[numpy.float64],
-        drift: numpy.typing.NDArray[numpy.float64],
-        scale: numpy.typing.NDArray[numpy.float64],
+        dynamics: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
         noise: numpy.typing.NDArray[numpy.float64],
-        mean: numpy.typing.NDArray[numpy.float64],
-        root: numpy.typing.NDArray[numpy.float64],
-        share: float,
-        lower: numpy.typing.NDArray[numpy.float64],
-        upper: numpy.typing.NDArray[numpy.float64],
+        detection: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
+        bounds: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def pyramid_flow(
         self,
@@ -4307,11 +4302,8 @@ class Kernels(Protocol):
     def rectangle_prior(
         self,
         states: numpy.typing.NDArray[numpy.float64],
-        size: numpy.typing.NDArray[numpy.float64],
-        spread: numpy.typing.NDArray[numpy.float64],
-        state: numpy.typing.NDArray[numpy.float64],
-        deviation: numpy.typing.NDArray[numpy.float64],
-        max_cost: float,
+        mean_size: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+        measured: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def rectify_verged(
         self,
@@ -4353,11 +4345,8 @@ class Kernels(Protocol):
         log_likelihood: numpy.typing.NDArray[numpy.float64],
         proposed: numpy.typing.NDArray[numpy.float64],
         previous: numpy.typing.NDArray[numpy.float64],
-        drift: numpy.typing.NDArray[numpy.float64],
-        scale: numpy.typing.NDArray[numpy.float64],
-        mean: numpy.typing.NDArray[numpy.float64],
-        root: numpy.typing.NDArray[numpy.float64],
-        share: float,
+        dynamics: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+        detection: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
     ) -> tuple[numpy.typing.NDArray[numpy.float64], float]: ...
     def sad_disparity(
         self,

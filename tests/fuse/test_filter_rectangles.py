@@ -98,23 +98,25 @@ def test_is_what_its_stages_are() -> None:
     """The native kernel returns what the native stages, called one by one, return: the same bits."""
     arguments = case()
     model, _, _, _, reach, occluder_margin, *_ = arguments["likelihood"]
-    view, (mean_size, measured) = (model, *VIEW, reach, occluder_margin), arguments["prior"]
+    view, prior = (model, *VIEW, reach, occluder_margin), arguments["prior"]
 
     def log_likelihood(states: Floats) -> Floats:
         seen = _core.depth_contrast(arguments["depth"], CAMERA, states, *view)
         likeness = -30.0 * seen[:, 0] * seen[:, 0] + 8.0 * (seen[:, 1] - seen[:, 3])
-        return likeness + _core.rectangle_prior(states, *mean_size, *measured)
+        return likeness + _core.rectangle_prior(states, *prior)
 
     particles, weights, offset = arguments["before"]
     previous = particles[_core.resample(weights, offset)]
-    (drift, scale), detection = arguments["dynamics"], arguments["detection"]
-    first = _core.propose(previous, drift, scale, arguments["noise"][0], *detection, *arguments["bounds"])
-    weights, _ = _core.reweight(log_likelihood(first), first, previous, drift, scale, *detection)
+    dynamics, detection = arguments["dynamics"], arguments["detection"]
+    first = _core.propose(previous, dynamics, arguments["noise"][0], detection, arguments["bounds"])
+    weights, _ = _core.reweight(log_likelihood(first), first, previous, dynamics, detection)
     mean, *_ = _core.summarize(first, weights)
     spread, least = arguments["refinement"]
     close = mean + spread * arguments["noise"][1]
     np.maximum(close[:, 3:], least, out=close[:, 3:])
-    weights, _ = _core.reweight(log_likelihood(close), close, close, drift, spread, *detection[:2], 0.0)
+    weights, _ = _core.reweight(
+        log_likelihood(close), close, close, (dynamics[0], spread), (*detection[:2], 0.0)
+    )
     mean, covariance, _ = _core.summarize(close, weights)
     found = _core.filter_rectangles(**arguments)
     for one, other in zip(found, (close, weights, mean, covariance), strict=False):
@@ -163,8 +165,7 @@ def test_nothing_in_sight(kernels: Kernels) -> None:
     """Before an image without any depth the weights are those of the prior, and the histogram is empty."""
     nowhere = case(depth=np.full((60, 80), np.nan, np.float32), detection=(STATE, np.eye(5), 0.0))
     particles, weights, mean, _, observed, histogram = kernels.filter_rectangles(**nowhere)
-    mean_size, measured = nowhere["prior"]
-    prior = kernels.rectangle_prior(particles, *mean_size, *measured)
+    prior = kernels.rectangle_prior(particles, *nowhere["prior"])
     expected = np.exp(prior - prior.max())
     assert_allclose(weights, expected / expected.sum(), rtol=1e-9)
     assert_allclose(mean, weights @ particles, rtol=1e-9)

@@ -10,11 +10,14 @@ from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
+from tests.kernel_arguments import grouped
+
 Case = dict[str, Any]
+PARTS = {"dynamics": ("drift", "scale"), "detection": ("mean", "root", "share"), "bounds": ("lower", "upper")}
 
 
 def case(count: int = 40, dimensions: int = 4, seed: int = 0, **changes: object) -> Case:
-    """Arguments of `propose`, bounds wide open."""
+    """Values that `propose` takes, those in its tuples one by one; bounds wide open."""
     random = np.random.default_rng(seed)
     arguments: Case = {
         "particles": random.normal(100, 20, (count, dimensions)),
@@ -30,6 +33,11 @@ def case(count: int = 40, dimensions: int = 4, seed: int = 0, **changes: object)
     return arguments | changes
 
 
+def propose(k: Kernels, values: Case) -> NDArray[np.float64]:
+    """The particles that a set of kernels draws."""
+    return k.propose(**grouped(values, PARTS))
+
+
 @pytest.mark.parametrize("seed", range(20))
 def test_twin_moves_the_same(seed: int) -> None:
     """Native and reference agree to the last bit for any N, D, K and share: both add up in one order."""
@@ -40,7 +48,7 @@ def test_twin_moves_the_same(seed: int) -> None:
     gaussian = {"mean": random.normal(100, 20, seen), "root": np.tril(random.normal(0, 3, (seen, seen)))}
     gaussian["root"][np.diag_indices(seen)] = random.uniform(1, 5, seen)
     arguments = case(count, dimensions, seed, share=random.uniform(), **bounds, **gaussian)
-    assert_array_equal(_core.propose(**arguments), reference.propose(**arguments))
+    assert_array_equal(propose(_core, arguments), propose(reference, arguments))
 
 
 def spread_noise(dimensions: int) -> NDArray[np.float64]:
@@ -52,7 +60,7 @@ def test_moments_of_the_dynamics(kernels: Kernels) -> None:
     """Noise of mean 0 and covariance I moves one particle to mean x + drift, covariance diag(scale^2)."""
     noise = spread_noise(4)
     arguments = case(8, particles=np.tile([50.0, 60.0, 10.0, 12.0], (8, 1)), noise=noise, share=0.0)
-    moved = kernels.propose(**arguments)
+    moved = propose(kernels, arguments)
     assert_allclose(moved.mean(axis=0), arguments["particles"][0] + arguments["drift"])
     assert_allclose(np.cov(moved.T, ddof=0), np.diag(arguments["scale"] ** 2), atol=1e-12)
 
@@ -62,10 +70,10 @@ def test_moments_of_the_detection(kernels: Kernels) -> None:
     noise = np.zeros((16, 4))
     noise[1::2] = spread_noise(4)
     arguments = case(16, noise=noise, share=0.5)
-    detected = kernels.propose(**arguments)[1::2]
+    detected = propose(kernels, arguments)[1::2]
     assert_allclose(detected[:, :2].mean(axis=0), arguments["mean"])
     assert_allclose(np.cov(detected[:, :2].T, ddof=0), arguments["root"] @ arguments["root"].T)
-    dynamics = kernels.propose(**arguments | {"share": 0.0})
+    dynamics = propose(kernels, arguments | {"share": 0.0})
     assert_array_equal(detected[:, 2:], dynamics[1::2, 2:])
 
 
@@ -74,7 +82,7 @@ def test_the_detected_are_spread_evenly(kernels: Kernels) -> None:
     without.
     """
     arguments = case(100, share=0.23)
-    mixed, dynamics = kernels.propose(**arguments), kernels.propose(**arguments | {"share": 0.0})
+    mixed, dynamics = propose(kernels, arguments), propose(kernels, arguments | {"share": 0.0})
     detected = np.flatnonzero(np.any(mixed[:, :2] != dynamics[:, :2], axis=1))
     assert len(detected) == 23
     assert np.ptp(np.diff(detected)) <= 1
@@ -83,7 +91,7 @@ def test_the_detected_are_spread_evenly(kernels: Kernels) -> None:
 def test_stays_inside_the_bounds(kernels: Kernels) -> None:
     """What would leave the bounds stands on them, and what would not is untouched."""
     lower, upper = np.array([90.0, 95.0, -np.inf, 100.0]), np.array([110.0, 95.0, 100.0, np.inf])
-    free, held = kernels.propose(**case(200)), kernels.propose(**case(200, lower=lower, upper=upper))
+    free, held = propose(kernels, case(200)), propose(kernels, case(200, lower=lower, upper=upper))
     assert np.all((held >= lower) & (held <= upper))
     inside = (free >= lower) & (free <= upper)
     assert 0 < inside.mean() < 1
@@ -93,14 +101,14 @@ def test_stays_inside_the_bounds(kernels: Kernels) -> None:
 def test_without_detection_its_gaussian_is_not_read(kernels: Kernels) -> None:
     """With a share of 0 there may be no Gaussian: NaN and zeros pass and change nothing."""
     nothing = {"mean": np.full(2, np.nan), "root": np.zeros((2, 2)), "share": 0.0}
-    assert_array_equal(kernels.propose(**case(**nothing)), kernels.propose(**case(share=0.0)))
+    assert_array_equal(propose(kernels, case(**nothing)), propose(kernels, case(share=0.0)))
 
 
 def test_inputs_untouched(kernels: Kernels) -> None:
     """The particles that go in are not moved in place."""
     arguments = case()
     before = arguments["particles"].copy()
-    kernels.propose(**arguments)
+    propose(kernels, arguments)
     assert_array_equal(arguments["particles"], before)
 
 
@@ -134,7 +142,7 @@ def test_inputs_untouched(kernels: Kernels) -> None:
 def test_refuses_values(kernels: Kernels, changes: Case, message: str) -> None:
     """Each argument that doesn't fit is named, with what was expected and what came."""
     with pytest.raises(ValueError, match=message):
-        kernels.propose(**case(**changes))
+        propose(kernels, case(**changes))
 
 
 @pytest.mark.parametrize("name", ["particles", "drift", "scale", "noise", "mean", "root", "lower", "upper"])
@@ -142,6 +150,6 @@ def test_converts_nothing(name: str) -> None:
     """Single precision and strided views are named, never converted."""
     values = case()[name]
     with pytest.raises(TypeError, match=f"{name}: expected float64"):
-        _core.propose(**case(**{name: values.astype(np.float32)}))
+        propose(_core, case(**{name: values.astype(np.float32)}))
     with pytest.raises(ValueError, match=f"{name}: expected a C-contiguous"):
-        _core.propose(**case(**{name: np.repeat(values, 2, axis=-1)[..., ::2]}))
+        propose(_core, case(**{name: np.repeat(values, 2, axis=-1)[..., ::2]}))

@@ -98,9 +98,9 @@ def test_joins_the_kernels_that_it_stands_for(
     detection = mean, np.array([[first, 0], [cross, second]]), share
     if offset is not None:
         particles = particles[kernels.resample(weights, offset)]
-    moved = kernels.propose(particles, drift, scale, noise, *detection, lower, upper)
+    moved = kernels.propose(particles, (drift, scale), noise, detection, (lower, upper))
     likelihood = kernels.rank_likelihood(image, moved, *look)
-    weights, _ = kernels.reweight(likelihood, moved, particles, drift, scale, *detection)
+    weights, _ = kernels.reweight(likelihood, moved, particles, (drift, scale), detection)
     ellipse, _, effective = kernels.summarize(moved, weights)
     its_own = kernels.rank_likelihood(image, ellipse[None], *look)[0]
     window = kernels.rank_window(image, ellipse, look[0][0], look[1][0], FLATNESS)

@@ -78,7 +78,7 @@ def _call_stages(k: Any) -> None:
     k.changed_depth(depth, depth + np.float32(0.1), 0.02, 0.01)
     k.plane_support(depth, camera, plane, 0.05, 4)
     states = np.tile([0.0, 0.0, 2.0, 0.5, 1.7], (8, 1))
-    k.rectangle_prior(states, states[0, 3:], np.full(2, 0.1), states[0], np.full(5, 0.2), 4.0)
+    k.rectangle_prior(states, (states[0, 3:], np.full(2, 0.1)), (states[0], np.full(5, 0.2), 4.0))
     _call_target_stages(k, depth)
     _call_filter_stages(k, image)
 

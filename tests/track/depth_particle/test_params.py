@@ -139,9 +139,8 @@ def test_no_size_prior_means_none(walkers, follow):
         tracker.init(scene.frames[0], scene.boxes[0])
         state = tracker._state
         wide = np.stack([state.motion.state, state.motion.state * [1, 1, 1, 2, 2]])
-        prior = tracker._k.rectangle_prior(
-            wide, state.motion.mean_size, tracker._size_deviation, *NOT_MEASURED
-        )
+        mean_size = state.motion.mean_size, tracker._size_deviation
+        prior = tracker._k.rectangle_prior(wide, mean_size, NOT_MEASURED)
         costs[weight] = np.ptp(prior)
     assert costs[0.0] < 1e-100
     assert costs[1.0] > 5
@@ -155,7 +154,7 @@ def test_a_weight_multiplies_a_cost():
     for weight in (1.0, 4.0):
         tracker = DepthParticleTracker(size_prior=weight)
         measured = Measurement.create(state, weight)
-        prior = tracker._k.rectangle_prior(off, state[3:], tracker._size_deviation, *measured)
+        prior = tracker._k.rectangle_prior(off, (state[3:], tracker._size_deviation), measured)
         costs.append(prior[0] - prior)
     assert (costs[0][1:] > 0.1).all()
     np.testing.assert_allclose(costs[1], 4 * costs[0])

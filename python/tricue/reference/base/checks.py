@@ -8,6 +8,9 @@ from numpy.typing import NDArray
 
 from tricue.reference.base.arrays import Floats
 
+Dynamics = tuple[Floats, Floats]  # drift, scale
+Detection = tuple[Floats, Floats, float]  # mean, root, share
+
 MAX_IMAGE_SIDE = 16384  # of an image that a kernel makes, pixels
 
 
@@ -59,8 +62,9 @@ def require_weights(weights: Floats) -> None:
         refuse("weights", "a finite sum above 0", total)
 
 
-def require_dynamics(drift: Floats, scale: Floats, dimensions: int) -> None:
+def require_dynamics(dynamics: Dynamics, dimensions: int) -> None:
     """Refuse dynamics that have another size, aren't finite, or have a negative scale."""
+    drift, scale = dynamics
     for name, values in (("drift", drift), ("scale", scale)):
         require_shape(name, values, (dimensions,))
         require_finite(name, values)
@@ -68,8 +72,9 @@ def require_dynamics(drift: Floats, scale: Floats, dimensions: int) -> None:
         refuse("scale", "no negative number", float(scale.min()))
 
 
-def require_detection(mean: Floats, root: Floats, share: float, dimensions: int) -> None:
+def require_detection(detection: Detection, dimensions: int) -> None:
     """Refuse a share outside [0, 1), and, if the share is above 0, an invalid Gaussian."""
+    mean, root, share = detection
     if not 0 <= share < 1:
         refuse("share", "a number in [0, 1)", share)
     if not 1 <= mean.size <= dimensions:

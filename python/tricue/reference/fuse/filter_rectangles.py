@@ -7,12 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.reference.base.arrays import Floats
-from tricue.reference.base.checks import refuse, require_finite, require_shape
+from tricue.reference.base.checks import Detection, Dynamics, refuse, require_finite, require_shape
 from tricue.reference.cues.depth.depth_contrast import depth_contrast
 from tricue.reference.cues.depth.depth_distance import depth_distance
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
 from tricue.reference.fuse.propose import propose
-from tricue.reference.fuse.rectangle_prior import rectangle_prior
+from tricue.reference.fuse.rectangle_prior import MeanSize, MeasuredState, rectangle_prior
 from tricue.reference.fuse.resample import resample
 from tricue.reference.fuse.reweight import reweight
 from tricue.reference.fuse.summarize import summarize
@@ -29,27 +29,25 @@ def filter_rectangles(
     camera: Floats,
     before: tuple[Floats, Floats, float],
     noise: Floats,
-    dynamics: tuple[Floats, Floats],
+    dynamics: Dynamics,
     bounds: tuple[Floats, Floats],
-    detection: tuple[Floats, Floats, float],
+    detection: Detection,
     refinement: tuple[Floats, float],
     likelihood: Likelihood,
-    prior: tuple[tuple[Floats, Floats], tuple[Floats, Floats, float]],
+    prior: tuple[MeanSize, MeasuredState],
 ) -> tuple[Floats, Floats, Floats, Floats, Floats, Floats]:
     """Calls one twin after the other, for one or two rounds of sampling."""
     by = _Likelihood(*likelihood)
     _require(before, noise, refinement, by)
     view = _View(depth, camera, by)
-    (particles, weights, offset), (mean_size, (state, deviation, max_cost)) = before, prior
-    (drift, scale), (seen, root, share) = dynamics, detection
+    particles, weights, offset = before
 
     def log_likelihood(states: Floats) -> Floats:
-        known = rectangle_prior(states, *mean_size, state, deviation, max_cost)
-        return np.asarray(view.log_likelihood(states) + known)
+        return np.asarray(view.log_likelihood(states) + rectangle_prior(states, *prior))
 
     previous = particles[resample(weights, offset)]
-    states = propose(previous, drift, scale, noise[0], seen, root, share, *bounds)
-    weights, _ = reweight(log_likelihood(states), states, previous, drift, scale, seen, root, share)
+    states = propose(previous, dynamics, noise[0], detection, bounds)
+    weights, _ = reweight(log_likelihood(states), states, previous, dynamics, detection)
     mean, covariance, _ = summarize(states, weights)
     if len(noise) > 1:
         states = _draw_around(mean, *refinement, bounds[0][2], noise[1])
@@ -129,7 +127,7 @@ def _normalized(log_weights: Floats) -> Floats:
     """Normalized weights: reweight without a detection leaves the likelihoods unchanged."""
     states = np.zeros((len(log_weights), 1))
     one = np.ones(1)
-    return reweight(log_weights, states, states, one, one, one, np.eye(1), 0.0)[0]
+    return reweight(log_weights, states, states, (one, one), (one, np.eye(1), 0.0))[0]
 
 
 def _grid(rows: int, columns: int) -> Floats:

@@ -2,26 +2,20 @@
 """The mixture proposal (Sabeti, Parvizi, Wu 2008, section III.A and equation (30))."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tricue.reference.base import checks
+from tricue.reference.base.arrays import Floats
+from tricue.reference.base.checks import Detection, Dynamics
 
 
 def propose(
-    particles: NDArray[np.float64],
-    drift: NDArray[np.float64],
-    scale: NDArray[np.float64],
-    noise: NDArray[np.float64],
-    mean: NDArray[np.float64],
-    root: NDArray[np.float64],
-    share: float,
-    lower: NDArray[np.float64],
-    upper: NDArray[np.float64],
-) -> NDArray[np.float64]:
+    particles: Floats, dynamics: Dynamics, noise: Floats, detection: Detection, bounds: tuple[Floats, Floats]
+) -> Floats:
     """Moves all particles, then redraws those at which floor(share i) increases from the detection."""
+    (drift, scale), (mean, root, share), (lower, upper) = dynamics, detection, bounds
     _check(particles, noise, lower, upper)
-    checks.require_dynamics(drift, scale, particles.shape[1])
-    checks.require_detection(mean, root, share, particles.shape[1])
+    checks.require_dynamics(dynamics, particles.shape[1])
+    checks.require_detection(detection, particles.shape[1])
     moved = particles + drift + scale * noise
     passed = np.floor(np.arange(len(particles) + 1) * share)
     detected = np.diff(passed) > 0
@@ -29,15 +23,10 @@ def propose(
         moved[detected, d] = mean[d]
         for e in range(d + 1):
             moved[detected, d] += root[d, e] * noise[detected, e]
-    return np.clip(moved, lower, upper)
+    return np.asarray(np.clip(moved, lower, upper))
 
 
-def _check(
-    particles: NDArray[np.float64],
-    noise: NDArray[np.float64],
-    lower: NDArray[np.float64],
-    upper: NDArray[np.float64],
-) -> None:
+def _check(particles: Floats, noise: Floats, lower: Floats, upper: Floats) -> None:
     dimensions = particles.shape[1]
     checks.require_shape("noise", noise, particles.shape)
     checks.require_finite("particles", particles)

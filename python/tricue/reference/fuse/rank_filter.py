@@ -44,12 +44,13 @@ def rank_filter(
         log_weights = np.log(np.maximum(weights, MIN_WEIGHT))
     else:
         particles = particles[resample(weights, offset)]
-    (drift, scale), limits = map(np.array, dynamics), map(np.array, bounds)
+    (drift, scale), (lower, upper) = map(np.array, dynamics), map(np.array, bounds)
     mean, (first, cross, second), share = detection
     gaussian = np.array(mean), np.array([[first, 0.0], [cross, second]]), share
-    moved = propose(particles, drift, scale, _mixed(*noise, len(particles)), *gaussian, *limits)
+    motion = drift, scale
+    moved = propose(particles, motion, _mixed(*noise, len(particles)), gaussian, (lower, upper))
     log_likelihood = rank_likelihood(image, moved, pattern, appearance, factors) + log_weights
-    posterior, _ = reweight(log_likelihood, moved, particles, drift, scale, *gaussian)
+    posterior, _ = reweight(log_likelihood, moved, particles, motion, gaussian)
     ellipse, _, effective = summarize(moved, posterior)
     its_own = float(rank_likelihood(image, ellipse[None], pattern, appearance, factors)[0])
     window = rank_window(image, ellipse, pattern[0], appearance[0], flat)

@@ -6,12 +6,14 @@ import numpy as np
 from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse, require_finite, require_shape
 
+MeanSize = tuple[Floats, Floats]
+MeasuredState = tuple[Floats, Floats, float]
 
-def rectangle_prior(
-    states: Floats, size: Floats, spread: Floats, state: Floats, deviation: Floats, max_cost: float
-) -> Floats:
+
+def rectangle_prior(states: Floats, mean_size: MeanSize, measured: MeasuredState) -> Floats:
     """Sums the squared deviations of the sizes and of the states."""
-    _require(states, size, spread, state, deviation, max_cost)
+    _require(states, mean_size, measured)
+    (size, spread), (state, deviation, max_cost) = mean_size, measured
     off = np.log(states[:, -2:] / size) / spread
     with np.errstate(over="ignore"):
         away = (((states - state) / deviation) ** 2).sum(axis=1)
@@ -19,9 +21,8 @@ def rectangle_prior(
     return prior
 
 
-def _require(
-    states: Floats, size: Floats, spread: Floats, state: Floats, deviation: Floats, max_cost: float
-) -> None:
+def _require(states: Floats, mean_size: MeanSize, measured: MeasuredState) -> None:
+    (size, spread), (state, deviation, max_cost) = mean_size, measured
     dimensions = states.shape[1]
     if dimensions < 2:
         refuse("states", "2 columns or more", dimensions)

@@ -2,25 +2,20 @@
 """Importance weights under the mixture proposal (Sabeti, Parvizi, Wu 2008, equations (2), (30), (31))."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tricue.reference.base import checks
+from tricue.reference.base.arrays import Floats
+from tricue.reference.base.checks import Detection, Dynamics
 
 
 def reweight(
-    log_likelihood: NDArray[np.float64],
-    proposed: NDArray[np.float64],
-    previous: NDArray[np.float64],
-    drift: NDArray[np.float64],
-    scale: NDArray[np.float64],
-    mean: NDArray[np.float64],
-    root: NDArray[np.float64],
-    share: float,
-) -> tuple[NDArray[np.float64], float]:
+    log_likelihood: Floats, proposed: Floats, previous: Floats, dynamics: Dynamics, detection: Detection
+) -> tuple[Floats, float]:
     """Computes densities in the log domain, and subtracts the largest log-weight before the exponential."""
     _check(log_likelihood, proposed, previous)
-    checks.require_dynamics(drift, scale, proposed.shape[1])
-    checks.require_detection(mean, root, share, proposed.shape[1])
+    checks.require_dynamics(dynamics, proposed.shape[1])
+    checks.require_detection(detection, proposed.shape[1])
+    (drift, scale), (mean, root, share) = dynamics, detection
     log_weights = log_likelihood
     if share > 0:
         size = len(mean)
@@ -34,7 +29,7 @@ def reweight(
     return _normalized(log_weights)
 
 
-def _log_gaussian(offsets: NDArray[np.float64], root: NDArray[np.float64]) -> NDArray[np.float64]:
+def _log_gaussian(offsets: Floats, root: Floats) -> Floats:
     """Log density of N(0, root root^T) without the constant -K/2 log 2 pi, by forward substitution."""
     z = np.empty_like(offsets)
     with np.errstate(over="ignore"):
@@ -46,12 +41,12 @@ def _log_gaussian(offsets: NDArray[np.float64], root: NDArray[np.float64]) -> ND
     return np.asarray(-0.5 * (z**2).sum(axis=1) - np.log(root.diagonal()).sum())
 
 
-def _bounded(z: NDArray[np.float64]) -> NDArray[np.float64]:
+def _bounded(z: Floats) -> Floats:
     """Deviations limited to ±1e150, where the density is 0 anyway and squares are still finite."""
     return np.clip(z, -1e150, 1e150)
 
 
-def _normalized(log_weights: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
+def _normalized(log_weights: Floats) -> tuple[Floats, float]:
     """Equation (31) by log-sum-exp."""
     count, greatest = log_weights.size, float(log_weights.max())
     if greatest == -np.inf:
@@ -61,9 +56,7 @@ def _normalized(log_weights: NDArray[np.float64]) -> tuple[NDArray[np.float64], 
     return weights / total, greatest + float(np.log(total / count))
 
 
-def _check(
-    log_likelihood: NDArray[np.float64], proposed: NDArray[np.float64], previous: NDArray[np.float64]
-) -> None:
+def _check(log_likelihood: Floats, proposed: Floats, previous: Floats) -> None:
     if log_likelihood.size == 0:
         checks.refuse("log_likelihood", "at least one particle", "none")
     strange = log_likelihood[~(log_likelihood < np.inf)]

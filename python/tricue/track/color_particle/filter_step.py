@@ -69,12 +69,11 @@ def filter_step(
     else:
         particles = particles.take(k.resample(weights, noise.offset), axis=0)
     drift, scale, lower, upper = map(np.array, prediction)
-    detected = detection.arrays()
-    moved = k.propose(
-        particles, drift, scale, mix_sizes(noise.white, noise.correlation), *detected, lower, upper
-    )
+    dynamics, detected = (drift, scale), detection.arrays()
+    draws = mix_sizes(noise.white, noise.correlation)
+    moved = k.propose(particles, dynamics, draws, detected, (lower, upper))
     log_likelihood = appearance.log_likelihood(k, image, moved, searching) + log_weights
-    posterior, _ = k.reweight(log_likelihood, moved, particles, drift, scale, *detected)
+    posterior, _ = k.reweight(log_likelihood, moved, particles, dynamics, detected)
     ellipse, _, effective = k.summarize(moved, posterior)
     estimated = float(appearance.log_likelihood(k, image, ellipse[None], searching)[0])
     return ColorParticleSet(
