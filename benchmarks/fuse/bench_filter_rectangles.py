@@ -23,10 +23,10 @@ BOUNDS = np.array([-np.inf, -np.inf, 0.3, 0.1, 0.1]), np.array([np.inf, np.inf, 
 DETECTION = STATE, np.diag([0.05, 0.06, 0.06, 0.06, 0.08]), 0.4
 REFINEMENT = np.array([0.06, 0.05, 0.05, 0.03, 0.08]), 0.1
 MODEL = random.dirichlet(np.ones(64))
-VIEW = (14, 10), (1.25, 12), 0.5, 0.3
+VIEW = (MODEL, 0.5), (14, 10, 1.25, 12), 0.3
 PRIOR = (STATE[3:], np.array([0.25, 0.2])), (STATE, 1.2 * DETECTION[1].diagonal(), 12.0)
 WEIGHTS = np.full(N, 1 / N)
-LIKELIHOOD = MODEL, 0.0, 0.5, (*VIEW[0], *VIEW[1]), *VIEW[2:], False, 30.0, 8.0
+LIKELIHOOD = MODEL, 0.0, 0.5, VIEW[1], 0.5, 0.3, False, 30.0, 8.0
 ARGUMENTS = (
     *(DEPTH, CAMERA, (PARTICLES, WEIGHTS, 0.5), NOISE, DYNAMICS, BOUNDS, DETECTION, REFINEMENT),
     *(LIKELIHOOD, PRIOR),
@@ -35,7 +35,7 @@ ARGUMENTS = (
 
 def log_likelihood(states: Floats) -> Floats:
     """The log-likelihood of each rectangle."""
-    seen = _core.depth_contrast(DEPTH, CAMERA, states, MODEL, *VIEW)
+    seen = _core.depth_contrast(DEPTH, CAMERA, states, *VIEW)
     likeness = -30 * seen[:, 0] ** 2 + 8 * (seen[:, 1] - seen[:, 3])
     return likeness + _core.rectangle_prior(states, *PRIOR)
 

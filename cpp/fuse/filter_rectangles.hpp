@@ -29,12 +29,12 @@ struct DepthLikelihood {
     VectorRef model;  ///< float64 (L,): histogram of depth, of sum 1, or all 0, none negative
     /// the model's levels cover [middle - span, middle + span), meters; where the middle is 0, they are relative to Z
     double middle, span;
-    RectanglePattern places;  ///< (rows, columns, margin, along): grid and ring of depth_contrast
-    double reach;             ///< of the shares inside and around, meters, as in depth_contrast
-    double occluder_margin;   ///< meters, as in depth_contrast
-    bool linear;              ///< whether l(d) is the logarithm, not the square
-    double sharpness;         ///< nats
-    double contrast;          ///< nats
+    RectanglePattern places;
+    double reach;            ///< of the shares inside and around, meters, as in depth_contrast
+    double occluder_margin;  ///< meters, as in depth_contrast
+    bool linear;             ///< whether l(d) is the logarithm, not the square
+    double sharpness;        ///< nats
+    double contrast;         ///< nats
 };
 
 /// What is known of a rectangle before its depths are read.

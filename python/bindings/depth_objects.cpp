@@ -41,12 +41,19 @@ depth_components_arrays(const Array<std::uint8_t>& labels, const Array<float>& d
             give(std::move(found.rows)), give(std::move(found.image))};
 }
 
+using ReferenceTuple = Tuple<Array<double>, double>;
+
+ReferenceHistogram reference_histogram(const ReferenceTuple& model) {
+    const auto [histogram, reach] = unpack(model, "model");
+    return {vector(histogram, "model"), reach};
+}
+
 Array<double> depth_distance_arrays(const Array<float>& depth, const Array<double>& rectangles,
-                                    const Array<double>& model, const Array<double>& pattern, double reach,
+                                    const ReferenceTuple& model, const Array<double>& pattern,
                                     double occluder_margin) {
     const auto meters = depth_image(depth, "depth");
     const auto each = states(rectangles, "rectangles");
-    const ReferenceHistogram target{vector(model, "model"), reach};
+    const ReferenceHistogram target = reference_histogram(model);
     const auto places = states(pattern, "pattern");
     return give(unlocked(each.rows() * places.rows(),
                          [&] { return depth_distance(meters, each, target, places, occluder_margin); }));
@@ -62,17 +69,16 @@ Array<double> rectangle_histogram_arrays(const Array<float>& depth, const Array<
 }
 
 Array<double> depth_contrast_arrays(const Array<float>& depth, const Array<double>& camera,
-                                    const Array<double>& states_, const Array<double>& model,
-                                    std::pair<int, int> grid, std::pair<double, int> ring, double reach,
-                                    double occluder_margin) {
+                                    const Array<double>& rectangles, const ReferenceTuple& model,
+                                    const Tuple<int, int, double, int>& places, double occluder_margin) {
     const auto meters = depth_image(depth, "depth");
     const auto lens = vector(camera, "camera");
-    const auto each = states(states_, "states");
-    const ReferenceHistogram target{vector(model, "model"), reach};
-    const RectanglePattern places{grid.first, grid.second, ring.first, ring.second};
-    const auto work = work_of(grid.first, grid.second, each.rows());
+    const auto each = states(rectangles, "states");
+    const ReferenceHistogram target = reference_histogram(model);
+    const auto pattern = unpack_as<RectanglePattern>(places, "places");
+    const auto work = work_of(pattern.rows, pattern.columns, each.rows());
     return give(
-        unlocked(work, [&] { return depth_contrast(meters, lens, each, target, places, occluder_margin); }));
+        unlocked(work, [&] { return depth_contrast(meters, lens, each, target, pattern, occluder_margin); }));
 }
 
 Array<bool> cut_sides_arrays(const Array<float>& depth, const Array<double>& table,
@@ -199,8 +205,7 @@ void define_depth_objects(py::module_& m) {
           py::arg("border"), py::arg("beside"), py::arg("occluder_margin"), py::arg("share"),
           docs::cut_sides);
     m.def("depth_contrast", depth_contrast_arrays, py::arg("depth"), py::arg("camera"), py::arg("states"),
-          py::arg("model"), py::arg("grid"), py::arg("ring"), py::arg("reach"), py::arg("occluder_margin"),
-          docs::depth_contrast);
+          py::arg("model"), py::arg("places"), py::arg("occluder_margin"), docs::depth_contrast);
     m.def("depth_density", depth_density_arrays, py::arg("histogram"), py::arg("bandwidth"),
           docs::depth_density);
     m.def("segment_depth", segment_depth_arrays, py::arg("depth"), py::arg("searched"), py::arg("camera"),
@@ -212,7 +217,7 @@ void define_depth_objects(py::module_& m) {
           py::arg("far"), py::arg("levels"), py::arg("bins"), py::arg("min_area"), py::arg("image"),
           docs::depth_components);
     m.def("depth_distance", depth_distance_arrays, py::arg("depth"), py::arg("rectangles"), py::arg("model"),
-          py::arg("pattern"), py::arg("reach"), py::arg("occluder_margin"), docs::depth_distance);
+          py::arg("pattern"), py::arg("occluder_margin"), docs::depth_distance);
     m.def("measure_objects", measure_objects_arrays, py::arg("table"), py::arg("columns"), py::arg("rows"),
           py::arg("cut"), py::arg("camera"), py::arg("plane"), py::arg("feet"), docs::measure_objects);
     m.def("rectangle_histogram", rectangle_histogram_arrays, py::arg("depth"), py::arg("rectangle"),

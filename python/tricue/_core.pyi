@@ -712,10 +712,8 @@ def depth_contrast(
     depth: numpy.typing.NDArray[numpy.float32],
     camera: numpy.typing.NDArray[numpy.float64],
     states: numpy.typing.NDArray[numpy.float64],
-    model: numpy.typing.NDArray[numpy.float64],
-    grid: tuple[int, int],
-    ring: tuple[float, int],
-    reach: float,
+    model: tuple[numpy.typing.NDArray[numpy.float64], float],
+    places: tuple[int, int, float, int],
     occluder_margin: float,
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
@@ -733,12 +731,15 @@ def depth_contrast(
         camera: float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0; (0, 0) is the center of the
             first pixel
         states: float64 (N, 5): X, Y, Z, W, H, meters, camera frame; finite, Z above 0
-        model: float64 (L,): histogram of depth relative to Z, of sum 1, or all 0, none negative
-        grid: (rows, columns), 1 to 64 each: a rectangle is read in the middles of rows x columns equal
-            parts
-        ring: (margin, along): around it, on each side of a rectangle scaled by margin (at least 1,
-            finite), the middles of `along` (1 to 64) equal parts of the rectangle's own side are read
-        reach: the L levels of the histogram cover [-reach, reach), meters, finite, above 0
+        model: a tuple (histogram, reach):
+            - histogram: float64 (L,): of depths relative to the rectangle's; of sum 1, or all 0, none
+              negative
+            - reach: the L levels cover [-reach, reach), meters, finite, above 0
+        places: a tuple (rows, columns, margin, along):
+            - rows, columns: 1 to 64: inside, the middles of rows x columns equal parts are read
+            - margin: the ring is the rectangle scaled by this, finite, at least 1
+            - along: 1 to 64: on each side of the ring, the middles of so many equal parts of the
+              rectangle's own side are read
         occluder_margin: meters, finite, at least 0
 
     Returns:
@@ -779,9 +780,8 @@ def depth_density(
 def depth_distance(
     depth: numpy.typing.NDArray[numpy.float32],
     rectangles: numpy.typing.NDArray[numpy.float64],
-    model: numpy.typing.NDArray[numpy.float64],
+    model: tuple[numpy.typing.NDArray[numpy.float64], float],
     pattern: numpy.typing.NDArray[numpy.float64],
-    reach: float,
     occluder_margin: float,
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
@@ -798,9 +798,11 @@ def depth_distance(
     Args:
         depth: float32 (H, W), meters; may be empty
         rectangles: float64 (N, 5): center x, y, width, height, pixels; depth z, meters; finite
-        model: float64 (L,): histogram of depth relative to z, of sum 1, or all 0, none negative
+        model: a tuple (histogram, reach):
+            - histogram: float64 (L,): of depths relative to the rectangle's; of sum 1, or all 0, none
+              negative
+            - reach: the L levels cover [-reach, reach), meters, finite, above 0
         pattern: float64 (n, 2), n at least 1: (u, v), 1 being the right and the lower edge; finite
-        reach: the L levels of the histogram cover [-reach, reach), meters, finite, above 0
         occluder_margin: meters, finite, at least 0
 
     Returns:
@@ -1172,7 +1174,11 @@ def filter_rectangles(
             - model: float64 (L,): histogram of depth, of sum 1, or all 0, none negative
             - middle, span: the model's levels cover [middle - span, middle + span), meters; where the
               middle is 0, they are relative to Z
-            - places: (rows, columns, margin, along): grid and ring of depth_contrast
+            - places: a tuple (rows, columns, margin, along):
+                - rows, columns: 1 to 64: inside, the middles of rows x columns equal parts are read
+                - margin: the ring is the rectangle scaled by this, finite, at least 1
+                - along: 1 to 64: on each side of the ring, the middles of so many equal parts of the
+                  rectangle's own side are read
             - reach: of the shares inside and around, meters, as in depth_contrast
             - occluder_margin: meters, as in depth_contrast
             - linear: whether l(d) is the logarithm, not the square
@@ -3820,10 +3826,8 @@ class Kernels(Protocol):
         depth: numpy.typing.NDArray[numpy.float32],
         camera: numpy.typing.NDArray[numpy.float64],
         states: numpy.typing.NDArray[numpy.float64],
-        model: numpy.typing.NDArray[numpy.float64],
-        grid: tuple[int, int],
-        ring: tuple[float, int],
-        reach: float,
+        model: tuple[numpy.typing.NDArray[numpy.float64], float],
+        places: tuple[int, int, float, int],
         occluder_margin: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def depth_density(
@@ -3833,9 +3837,8 @@ class Kernels(Protocol):
         self,
         depth: numpy.typing.NDArray[numpy.float32],
         rectangles: numpy.typing.NDArray[numpy.float64],
-        model: numpy.typing.NDArray[numpy.float64],
+        model: tuple[numpy.typing.NDArray[numpy.float64], float],
         pattern: numpy.typing.NDArray[numpy.float64],
-        reach: float,
         occluder_margin: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def depth_edges(

@@ -20,7 +20,6 @@ Case = dict[str, Any]
 CAMERA = np.array([100.0, 101, 39.5, 29.5])
 STATE = np.array([0.1, -0.05, 2.0, 0.4, 0.7])
 LEVELS = 32
-VIEW = (14, 10), (1.25, 12)
 PLACES = (14, 10, 1.25, 12)
 PARTS = {
     "before": ("particles", "weights", "offset"),
@@ -98,7 +97,7 @@ def test_is_what_its_stages_are() -> None:
     """The native kernel returns what the native stages, called one by one, return: the same bits."""
     arguments = case()
     model, _, _, _, reach, occluder_margin, *_ = arguments["likelihood"]
-    view, prior = (model, *VIEW, reach, occluder_margin), arguments["prior"]
+    view, prior = ((model, reach), PLACES, occluder_margin), arguments["prior"]
 
     def log_likelihood(states: Floats) -> Floats:
         seen = _core.depth_contrast(arguments["depth"], CAMERA, states, *view)
@@ -132,13 +131,13 @@ def test_levels_and_reach_differ(kernels: Kernels, levels: tuple[float, float], 
     arguments = case(middle=middle, span=span, reach=reach)
     _, _, state, _, observed, histogram = kernels.filter_rectangles(**arguments)
     depth, (model, *_), per_meter = arguments["depth"], arguments["likelihood"], CAMERA[:2] / state[2]
-    (shares,) = kernels.depth_contrast(depth, CAMERA, state[None], model, *VIEW, reach, 0.3)
+    (shares,) = kernels.depth_contrast(depth, CAMERA, state[None], (model, reach), PLACES, 0.3)
     assert_allclose(observed[1:], shares[1:], rtol=1e-12)
     place = state[:2] * per_meter + (CAMERA[2:] + 0.5)
     rectangle = np.array([*place, *(state[3:] * per_meter), middle or state[2]])
     v, u = np.meshgrid(*((2 * np.arange(n) + 1) / n - 1 for n in (14, 10)), indexing="ij")
     places = np.column_stack([u.ravel(), v.ravel()])
-    distance = kernels.depth_distance(depth, rectangle[None], model, places, span, 0.3)[0, 0]
+    distance = kernels.depth_distance(depth, rectangle[None], (model, span), places, 0.3)[0, 0]
     assert_allclose(observed[0], distance, rtol=1e-12)
     assert_allclose(histogram, kernels.rectangle_histogram(depth, rectangle, LEVELS, places, span))
 

@@ -13,7 +13,7 @@ from tricue import _core, reference
 
 Depth = NDArray[np.float32]
 Floats = NDArray[np.float64]
-LEVELS, GRID, RING, REACH, NEARER = 64, (14, 10), (1.3, 12), 0.5, 0.2
+LEVELS, PLACES, REACH, NEARER = 64, (14, 10, 1.3, 12), 0.5, 0.2
 
 
 def read(depth: Depth, camera: Floats, states: Floats, u: Floats, v: Floats) -> Depth:
@@ -28,15 +28,14 @@ def script(
     depth: Depth,
     camera: Floats,
     states: Floats,
-    model: Floats,
-    grid: tuple[int, int],
-    ring: tuple[float, int],
-    reach: float,
+    model: tuple[Floats, float],
+    places: tuple[int, int, float, int],
     occluder_margin: float,
 ) -> Floats:
     """The baseline: two remaps, which round where we take the floor, and calcHist of each rectangle."""
-    v, u = middles(grid)
-    along, off = (2 * np.arange(ring[1]) + 1) / ring[1] - 1, np.full(ring[1], ring[0])
+    (reference_histogram, reach), (rows, columns, margin, n) = model, places
+    v, u = middles((rows, columns))
+    along, off = (2 * np.arange(n) + 1) / n - 1, np.full(n, margin)
     inside = read(depth, camera, states, u, v)
     around = read(
         depth,
@@ -49,9 +48,9 @@ def script(
     measured[:, 2] = (inside < -occluder_margin).mean(axis=1)
     measured[:, 3] = ((around >= -reach) & (around < reach)).mean(axis=1)
     for i, row in enumerate(inside):
-        histogram = cv2.calcHist([row], [0], None, [len(model)], [-reach, reach]).ravel()
+        histogram = cv2.calcHist([row], [0], None, [len(reference_histogram)], [-reach, reach]).ravel()
         counted = histogram.sum()
-        distance = np.linalg.norm(histogram / counted - model) / np.sqrt(2) if counted else 1
+        distance = np.linalg.norm(histogram / counted - reference_histogram) / np.sqrt(2) if counted else 1
         measured[i, :2] = distance, counted / len(row)
     return measured
 
@@ -78,7 +77,7 @@ def bench_depth_contrast(benchmark: Any, depth_contrast: Callable[..., Any], cam
     depth[rng.random(depth.shape) < 0.05] = np.nan
     states = rng.normal([-0.03, 0.58, 2.5, 0.65, 1.3], [0.1, 0.1, 0.1, 0.04, 0.08], (100, 5))
     model = np.histogram(rng.normal(0, 0.05, 5000), LEVELS, (-REACH, REACH))[0] / 5000
-    arguments = (depth, camera, states, model, GRID, RING, REACH, NEARER)
+    arguments = (depth, camera, states, (model, REACH), PLACES, NEARER)
     measured = benchmark(depth_contrast, *arguments)
     expected = reference.depth_contrast(*arguments)
     assert np.median(expected[:, 1] - expected[:, 3]) > 0.3

@@ -18,18 +18,19 @@ LEVELS, REACH, NEARER = 64, 0.5, 0.2
 
 
 def script(
-    depth: Depth, rectangles: Floats, model: Floats, pattern: Floats, reach: float, occluder_margin: float
+    depth: Depth, rectangles: Floats, model: tuple[Floats, float], pattern: Floats, occluder_margin: float
 ) -> Floats:
     """The baseline: one remap of all places, which rounds where we take the floor, and calcHist of each."""
+    reference_histogram, reach = model
     places = (rectangles[:, None, :2] + rectangles[:, None, 2:4] / 2 * pattern - 0.5).astype(np.float32)
     seen = cv2.remap(depth, places, None, cv2.INTER_NEAREST, borderValue=np.nan)
     # calcHist counts NaN, so unmeasured depths are put beyond the reach.
     relative = np.nan_to_num(seen - rectangles[:, 4:], nan=2 * reach).astype(np.float32)
     measured = np.empty((len(rectangles), 3))
     for i, row in enumerate(relative):
-        histogram = cv2.calcHist([row], [0], None, [len(model)], [-reach, reach]).ravel()
+        histogram = cv2.calcHist([row], [0], None, [len(reference_histogram)], [-reach, reach]).ravel()
         counted = histogram.sum()
-        distance = np.linalg.norm(histogram / counted - model) / np.sqrt(2) if counted else 1
+        distance = np.linalg.norm(histogram / counted - reference_histogram) / np.sqrt(2) if counted else 1
         measured[i] = distance, counted / len(row), np.count_nonzero(row < -occluder_margin) / len(row)
     return measured
 
@@ -51,7 +52,7 @@ def bench_depth_distance(benchmark: Any, depth_distance: Callable[..., Any]) -> 
     rectangles = rng.normal([85, 85, 50, 100, 2.5], [8, 8, 3, 6, 0.1], (100, 5))
     model = np.histogram(rng.normal(0, 0.05, 5000), LEVELS, (-REACH, REACH))[0] / 5000
     pattern = grid(16, 12)
-    arguments = (depth, rectangles, model, pattern, REACH, NEARER)
+    arguments = (depth, rectangles, (model, REACH), pattern, NEARER)
     measured = benchmark(depth_distance, *arguments)
     expected = reference.depth_distance(*arguments)
     assert_allclose(

@@ -9,11 +9,11 @@
 
 namespace tricue {
 
-/// Where an upright rectangle is read: `grid` inside and `ring` around it.
+/// Where an upright rectangle is read: on a grid inside it, and on a ring around it.
 struct RectanglePattern {
-    int rows, columns;
-    double margin;
-    int along;
+    int rows, columns;  ///< 1 to 64: inside, the middles of rows x columns equal parts are read
+    double margin;      ///< the ring is the rectangle scaled by this, finite, at least 1
+    int along;  ///< 1 to 64: on each side of the ring, the middles of so many equal parts of the rectangle's own side are read
 };
 
 /// The measurements of depth_distance for upright rectangles in meters, and the share around each of them that is at its depth,
@@ -27,10 +27,6 @@ struct RectanglePattern {
 /// @param depth float32 (H, W), meters; may be empty
 /// @param camera float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0; (0, 0) is the center of the first pixel
 /// @param states float64 (N, 5): X, Y, Z, W, H, meters, camera frame; finite, Z above 0
-/// @param model float64 (L,): histogram of depth relative to Z, of sum 1, or all 0, none negative
-/// @param grid (rows, columns), 1 to 64 each: a rectangle is read in the middles of rows x columns equal parts
-/// @param ring (margin, along): around it, on each side of a rectangle scaled by margin (at least 1, finite), the middles of
-///     `along` (1 to 64) equal parts of the rectangle's own side are read
 /// @param occluder_margin meters, finite, at least 0
 /// @returns float64 (N, 4): distance from the model in [0, 1], 1 where nothing counts; share of the places inside that count; share
 ///     inside with a depth below Z - occluder_margin; share of the places around that count

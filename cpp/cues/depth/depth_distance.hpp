@@ -8,8 +8,9 @@ namespace tricue {
 
 /// The histogram of a target's depths relative to its own depth.
 struct ReferenceHistogram {
+    /// float64 (L,): of depths relative to the rectangle's; of sum 1, or all 0, none negative
     VectorRef histogram;
-    double reach;  ///< the L levels of the histogram cover [-reach, reach), meters, finite, above 0
+    double reach;  ///< the L levels cover [-reach, reach), meters, finite, above 0
 };
 
 /// Distance of the depths in each rectangle from a model, and the shares of the rectangle at its depth and in front of it.
@@ -22,7 +23,6 @@ struct ReferenceHistogram {
 ///
 /// @param depth float32 (H, W), meters; may be empty
 /// @param rectangles float64 (N, 5): center x, y, width, height, pixels; depth z, meters; finite
-/// @param model float64 (L,): histogram of depth relative to z, of sum 1, or all 0, none negative
 /// @param pattern float64 (n, 2), n at least 1: (u, v), 1 being the right and the lower edge; finite
 /// @param occluder_margin meters, finite, at least 0
 /// @returns float64 (N, 3): the distance, in [0, 1], 1 where nothing counts; the share of the places that count; the share of the

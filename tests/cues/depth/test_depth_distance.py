@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
+from tests.kernel_arguments import Place, argument, with_argument
+
 Depth = NDArray[np.float32]
 Floats = NDArray[np.float64]
 EPS = float(np.finfo(np.float64).eps)
@@ -41,7 +43,7 @@ def case(seed: int, rectangles: int = 5, n: int = 30, levels: int = 16, reach: f
     corners, sizes = rng.uniform(-10, 60, (rectangles, 2)), rng.uniform(0, 30, (rectangles, 2))
     each = np.column_stack([corners, sizes, rng.normal(3, 0.3, rectangles)])
     model = rng.dirichlet(np.ones(levels))
-    return [depth, each, model, rng.uniform(-1, 1, (n, 2)), reach, 0.1]
+    return [depth, each, (model, reach), rng.uniform(-1, 1, (n, 2)), 0.1]
 
 
 @given(
@@ -81,7 +83,7 @@ def test_agrees_with_numpy(kernels: Kernels, levels: int) -> None:
     rng = np.random.default_rng(levels)
     model = rng.dirichlet(np.ones(levels))
     rectangle = np.array([[6.0, 6, 12, 12, 3.1]])
-    ((distance, counted, nearer),) = kernels.depth_distance(depth, rectangle, model, places(12), 0.7, 0.2)
+    ((distance, counted, nearer),) = kernels.depth_distance(depth, rectangle, (model, 0.7), places(12), 0.2)
     z = depth[(depth > 0) & (depth < np.inf)].astype(float)
     near = z[(z >= 3.1 - 0.7) & (z < 3.1 + 0.7)]
     counts, _ = np.histogram(near - 3.1, levels, (-0.7, 0.7))
@@ -95,7 +97,7 @@ def test_example_by_hand(kernels: Kernels) -> None:
     depth = np.array([[np.nan, 9.0], [1.75, 2.0]], np.float32)
     rectangle = np.array([[1.0, 1.0, 2.0, 2.0, 2.0]])
     model = np.array([0.0, 0.5, 0.5, 0.0])
-    args = (depth, rectangle, model, places(2), 0.5)
+    args = (depth, rectangle, (model, 0.5), places(2))
     assert_array_equal(kernels.depth_distance(*args, 0.125), [[0, 0.5, 0.25]])
     assert_array_equal(kernels.depth_distance(*args, 0.25), [[0, 0.5, 0]])
     farther = rectangle + [0, 0, 0, 0, 0.25]  # -0.5 and -0.25 are the levels 0 and 1
@@ -111,14 +113,14 @@ def test_reach_is_half_open(kernels: Kernels) -> None:
     first = np.array([1.0, 0, 0])
     for z, expected in ((1.5, [0, 1, 0]), (2.5, [1, 0, 0]), (1.25, [1, 0, 1])):
         measured = kernels.depth_distance(
-            np.full((1, 1), z, np.float32), rectangle, first, np.zeros((1, 2)), 0.5, 0.5
+            np.full((1, 1), z, np.float32), rectangle, (first, 0.5), np.zeros((1, 2)), 0.5
         )
         assert_array_equal(measured, [expected])
 
 
 def test_unseen(kernels: Kernels) -> None:
     """Outside the image, in one of no pixels, or of no measurement the distance is 1, the shares 0."""
-    model, pattern = np.array([0.5, 0.5]), places(3)
+    model, pattern = (np.array([0.5, 0.5]), 0.5), places(3)
     inside = np.array([[4.0, 4, 6, 6, 2]])
     for depth, rectangle in (
         (np.full((8, 8), 2, np.float32), inside + [30, 0, 0, 0, 0]),
@@ -127,16 +129,16 @@ def test_unseen(kernels: Kernels) -> None:
         (np.zeros((0, 8), np.float32), inside),
         (np.zeros((8, 0), np.float32), inside),
     ):
-        assert_array_equal(kernels.depth_distance(depth, rectangle, model, pattern, 0.5, 0.1), [[1, 0, 0]])
+        assert_array_equal(kernels.depth_distance(depth, rectangle, model, pattern, 0.1), [[1, 0, 0]])
 
 
 def test_edge_of_the_image(kernels: Kernels) -> None:
     """A place at -0.25 is outside, not in pixel 0; one at 0 is in it; one at the width is outside."""
     depth = np.full((1, 4), 2, np.float32)
-    model, pattern = np.ones(1), np.zeros((1, 2))
+    model, pattern = (np.ones(1), 0.5), np.zeros((1, 2))
     for x, seen in ((-0.25, 0), (0, 1), (3.75, 1), (4, 0)):
         rectangle = np.array([[x, 0.5, 1, 1, 2]])
-        assert kernels.depth_distance(depth, rectangle, model, pattern, 0.5, 0.1)[0, 1] == seen
+        assert kernels.depth_distance(depth, rectangle, model, pattern, 0.1)[0, 1] == seen
 
 
 @given(st.integers(0, 2**32), st.integers(-3, 3))
@@ -145,10 +147,10 @@ def test_walks_with_the_target(seed: int, step: int) -> None:
     rng = np.random.default_rng(seed)
     depth = (rng.integers(1, 1024, (20, 20)) / 128 + 4).astype(np.float32)  # moved without rounding
     rectangles = np.array([[10.0, 9, 12, 15, 8.5], [4, 15, 9, 9, 7.25]])
-    model = rng.dirichlet(np.ones(8))
-    here = _core.depth_distance(depth, rectangles, model, places(9), 1.0, 0.125)
+    model = rng.dirichlet(np.ones(8)), 1.0
+    here = _core.depth_distance(depth, rectangles, model, places(9), 0.125)
     there = _core.depth_distance(
-        depth + np.float32(step), rectangles + [0, 0, 0, 0, step], model, places(9), 1.0, 0.125
+        depth + np.float32(step), rectangles + [0, 0, 0, 0, step], model, places(9), 0.125
     )
     assert_array_equal(here, there)
 
@@ -156,57 +158,56 @@ def test_walks_with_the_target(seed: int, step: int) -> None:
 @given(st.integers(0, 2**32))
 def test_bounded(seed: int) -> None:
     """All is in [0, 1]; a rectangle's own histogram is at distance 0, one without a common level at 1."""
-    depth, rectangles, model, pattern, reach, nearer = case(seed)
+    depth, rectangles, model, pattern, nearer = case(seed)
     for k in (_core, reference):
-        measured = k.depth_distance(depth, rectangles, model, pattern, reach, nearer)
+        measured = k.depth_distance(depth, rectangles, model, pattern, nearer)
         assert measured.min() >= 0
         assert measured.max() <= 1
     flat, one = np.full((9, 9), 2, np.float32), np.array([[4.5, 4.5, 9, 9, 2]])
     for level, expected in ((2, 0), (1, 1)):
-        assert _core.depth_distance(flat, one, np.eye(4)[level], pattern, 1.0, 0.1)[0, 0] == expected
+        assert _core.depth_distance(flat, one, (np.eye(4)[level], 1.0), pattern, 0.1)[0, 0] == expected
 
 
 def test_model_of_nothing(kernels: Kernels) -> None:
     """From a model of zeros the distance is that of the histogram itself: sqrt(1/2) with all in one level."""
     rectangle = np.array([[4.5, 4.5, 9, 9, 2]])
     measured = kernels.depth_distance(
-        np.full((9, 9), 2, np.float32), rectangle, np.zeros(4), places(3), 1, 0.1
+        np.full((9, 9), 2, np.float32), rectangle, (np.zeros(4), 1.0), places(3), 0.1
     )
     assert_allclose(measured, [[ROOT_HALF, 1, 0]], rtol=1e-15)
 
 
-BAD_VALUES: list[tuple[int, Any, str]] = [
+BAD_VALUES: list[tuple[Place, Any, str]] = [
     (1, np.zeros((2, 4)), r"rectangles: expected shape \(2, 5\), got \(2, 4\)"),
     (1, np.full((2, 5), np.nan), "rectangles: expected finite numbers, got nan"),
-    (2, np.zeros(0), "model: expected at least one level, got none"),
-    (2, np.array([1.5, -0.5]), "model: expected finite numbers, none negative, got -0.5"),
-    (2, np.array([np.nan, 1]), "model: expected finite numbers, none negative, got nan"),
-    (2, np.array([0.5, 0.25]), "model: expected a sum of 1, or of 0, got 0.75"),
-    (2, np.full(2, 1e308), "model: expected a sum of 1, or of 0, got inf"),
+    ((2, 0), np.zeros(0), "model: expected at least one level, got none"),
+    ((2, 0), np.array([1.5, -0.5]), "model: expected finite numbers, none negative, got -0.5"),
+    ((2, 0), np.array([np.nan, 1]), "model: expected finite numbers, none negative, got nan"),
+    ((2, 0), np.array([0.5, 0.25]), "model: expected a sum of 1, or of 0, got 0.75"),
+    ((2, 0), np.full(2, 1e308), "model: expected a sum of 1, or of 0, got inf"),
     (3, np.zeros((5, 3)), r"pattern: expected shape \(5, 2\), got \(5, 3\)"),
     (3, np.zeros((0, 2)), "pattern: expected at least one place, got none"),
     (3, np.full((2, 2), np.inf), "pattern: expected finite numbers, got inf"),
-    (4, 0.0, "reach: expected a finite number above 0, got 0"),
-    (4, np.nan, "reach: expected a finite number above 0, got nan"),
-    (5, -0.1, "occluder_margin: expected a finite number, not negative, got -0.1"),
-    (5, np.inf, "occluder_margin: expected a finite number, not negative, got inf"),
+    ((2, 1), 0.0, "reach: expected a finite number above 0, got 0"),
+    ((2, 1), np.nan, "reach: expected a finite number above 0, got nan"),
+    (4, -0.1, "occluder_margin: expected a finite number, not negative, got -0.1"),
+    (4, np.inf, "occluder_margin: expected a finite number, not negative, got inf"),
 ]
 
 
 @pytest.mark.parametrize(("place", "value", "message"), BAD_VALUES)
-def test_refuses(kernels: Kernels, place: int, value: Any, message: str) -> None:
+def test_refuses(kernels: Kernels, place: Place, value: Any, message: str) -> None:
     """Wrong values and shapes are named."""
-    arguments = case(0)
-    arguments[place] = value
+    arguments = with_argument(case(0), place, value)
     with pytest.raises(ValueError, match=message):
         kernels.depth_distance(*arguments)
 
 
-@pytest.mark.parametrize("place", range(4))
-def test_native_refuses_other_types(place: int) -> None:
+@pytest.mark.parametrize("place", [0, 1, (2, 0), 3])
+def test_native_refuses_other_types(place: Place) -> None:
     """No argument is converted."""
     arguments = case(0)
-    arguments[place] = arguments[place].astype(np.float16)
+    arguments = with_argument(arguments, place, argument(arguments, place).astype(np.float16))
     with pytest.raises(TypeError, match="float16"):
         _core.depth_distance(*arguments)
 

@@ -67,7 +67,7 @@ def test_learns_what_it_is_compared_with(kernels: Kernels) -> None:
     arguments = case(4, depth=np.full((30, 30), 2.5, np.float32), rectangle=np.array([15.0, 15, 9, 9, 2.4]))
     depth, rectangle, _, pattern, reach = arguments.values()
     model = kernels.rectangle_histogram(**arguments)
-    assert kernels.depth_distance(depth, rectangle[None], model, pattern, reach, 0.3)[0, 0] == 0
+    assert kernels.depth_distance(depth, rectangle[None], (model, reach), pattern, 0.3)[0, 0] == 0
 
 
 BAD: list[tuple[dict[str, Any], str]] = [

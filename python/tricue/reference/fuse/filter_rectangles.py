@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import Detection, Dynamics, refuse, require_finite, require_shape
-from tricue.reference.cues.depth.depth_contrast import depth_contrast
+from tricue.reference.cues.depth.depth_contrast import RectanglePattern, depth_contrast
 from tricue.reference.cues.depth.depth_distance import depth_distance
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
 from tricue.reference.fuse.propose import propose
@@ -20,8 +20,7 @@ from tricue.reference.fuse.summarize import summarize
 NUMBERS = 5  # in a state
 MIN_LIKELIHOOD = 1e-12
 
-Places = tuple[int, int, float, int]
-Likelihood = tuple[Floats, float, float, Places, float, float, bool, float, float]
+Likelihood = tuple[Floats, float, float, RectanglePattern, float, float, bool, float, float]
 
 
 def filter_rectangles(
@@ -62,7 +61,7 @@ class _Likelihood(NamedTuple):
     model: Floats
     middle: float
     span: float
-    places: Places
+    places: RectanglePattern
     reach: float
     occluder_margin: float
     linear: bool
@@ -79,16 +78,14 @@ class _View(NamedTuple):
 
     def measure(self, states: Floats) -> Floats:
         """(N, 4) as by depth_contrast, but with the distance to the model in the model's own levels."""
-        by, (rows, columns, margin, along) = self.by, self.by.places
-        grid, ring = (rows, columns), (margin, along)
+        by = self.by
         is_one_range = by.middle == 0 and by.span == by.reach
-        model = by.model if is_one_range else np.zeros(1)
-        seen = depth_contrast(
-            self.depth, self.camera, states, model, grid, ring, by.reach, by.occluder_margin
-        )
+        model = by.model if is_one_range else np.zeros(1), by.reach
+        seen = depth_contrast(self.depth, self.camera, states, model, by.places, by.occluder_margin)
         if not is_one_range:
-            rectangles, places = self._in_pixels(states), _grid(rows, columns)
-            each = depth_distance(self.depth, rectangles, by.model, places, by.span, by.occluder_margin)
+            rectangles, places = self._in_pixels(states), _grid(*by.places[:2])
+            model = by.model, by.span
+            each = depth_distance(self.depth, rectangles, model, places, by.occluder_margin)
             seen[:, 0] = each[:, 0]
         return seen
 

@@ -46,10 +46,8 @@ class DepthModel(NamedTuple):
     def observe(self, k: Kernels, fg: Foreground, state: Floats) -> DepthObservation:
         """Compare the foreground in and around the rectangle of a state (5,) with the model."""
         p, states = self.p, state[None]
-        surround = p.margin, SURROUND_SAMPLES
-        measured = k.depth_contrast(
-            fg.depth, fg.camera, states, NO_HISTOGRAM, p.grid, surround, p.histogram_reach, p.occluder_margin
-        )[0]
+        model, places = (NO_HISTOGRAM, p.histogram_reach), (*p.grid, p.margin, SURROUND_SAMPLES)
+        measured = k.depth_contrast(fg.depth, fg.camera, states, model, places, p.occluder_margin)[0]
         measured[0] = self.distance(k, fg, states)[0]
         return self.observation(measured)
 
@@ -68,8 +66,8 @@ class DepthModel(NamedTuple):
     def distance(self, k: Kernels, fg: Foreground, states: Floats) -> Floats:
         """(N,) the distance (38) of the histograms in the rectangles of states (N, 5), in [0, 1]."""
         rectangles, reach = self._rectangles(fg, states)
-        margin = self.p.occluder_margin
-        measured = k.depth_distance(fg.depth, rectangles, self.histogram, grid(*self.p.grid), reach, margin)
+        model, places = (self.histogram, reach), grid(*self.p.grid)
+        measured = k.depth_distance(fg.depth, rectangles, model, places, self.p.occluder_margin)
         distance: Floats = measured[:, 0]
         return distance
 

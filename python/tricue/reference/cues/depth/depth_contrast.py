@@ -7,7 +7,9 @@ from numpy.typing import NDArray
 from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse, require_finite, require_shape
 from tricue.reference.base.depth_pixels import require_camera
-from tricue.reference.cues.depth.depth_distance import depth_distance
+from tricue.reference.cues.depth.depth_distance import ReferenceHistogram, depth_distance
+
+RectanglePattern = tuple[int, int, float, int]  # rows, columns, margin, along
 
 MAX_PLACES = 64
 OUTSIDE = np.array([-1.0, -1.0, 0.0, 0.0])  # a rectangle of no pixels
@@ -17,18 +19,18 @@ def depth_contrast(
     depth: NDArray[np.float32],
     camera: Floats,
     states: Floats,
-    model: Floats,
-    grid: tuple[int, int],
-    ring: tuple[float, int],
-    reach: float,
+    model: ReferenceHistogram,
+    places: RectanglePattern,
     occluder_margin: float,
 ) -> Floats:
     """Calls depth_distance for the projected rectangles, and for the rings around them."""
-    _require(camera, states, grid, ring)
+    _require(camera, states, places)
+    rows, columns, margin, along = places
+    only_shares = np.zeros(1), model[1]
     with np.errstate(over="ignore", invalid="ignore"):
         rectangles = _seen_by(camera, states)
-        inside = depth_distance(depth, rectangles, model, _grid(*grid), reach, occluder_margin)
-        around = depth_distance(depth, rectangles, np.zeros(1), _ring(*ring), reach, occluder_margin)
+        inside = depth_distance(depth, rectangles, model, _grid(rows, columns), occluder_margin)
+        around = depth_distance(depth, rectangles, only_shares, _ring(margin, along), occluder_margin)
     return np.column_stack([inside, around[:, 1]])
 
 
@@ -58,14 +60,15 @@ def _ring(margin: float, along: int) -> Floats:
     return np.concatenate([np.column_stack(side) for side in sides])
 
 
-def _require(camera: Floats, states: Floats, grid: tuple[int, int], ring: tuple[float, int]) -> None:
+def _require(camera: Floats, states: Floats, places: RectanglePattern) -> None:
+    rows, columns, margin, along = places
     require_camera(camera)
     require_shape("states", states, (len(states), 5))
     require_finite("states", states)
     if (states[:, 2] <= 0).any():
         refuse("states", "Z above 0", float(states[states[:, 2] <= 0, 2][0]))
-    for name, number in (("rows", grid[0]), ("columns", grid[1]), ("along", ring[1])):
+    for name, number in (("rows", rows), ("columns", columns), ("along", along)):
         if not 1 <= number <= MAX_PLACES:
             refuse(name, f"1 to {MAX_PLACES}", number)
-    if not 1 <= ring[0] < np.inf:
-        refuse("margin", "a finite number of at least 1", float(ring[0]))
+    if not 1 <= margin < np.inf:
+        refuse("margin", "a finite number of at least 1", float(margin))
