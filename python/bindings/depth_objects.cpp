@@ -81,15 +81,16 @@ Array<double> depth_contrast_arrays(const Array<float>& depth, const Array<doubl
         unlocked(work, [&] { return depth_contrast(meters, lens, each, target, pattern, occluder_margin); }));
 }
 
+using CutTuple = Tuple<int, double, double, double>;
+
 Array<bool> cut_sides_arrays(const Array<float>& depth, const Array<double>& table,
-                             const Array<double>& camera, int border, double beside, double occluder_margin,
-                             double share) {
+                             const Array<double>& camera, const CutTuple& cut) {
     const auto meters = depth_image(depth, "depth");
     const auto boxes = states(table, "table");
     const auto lens = vector(camera, "camera");
+    const auto sides = unpack_as<Cut>(cut, "cut");
     const auto work = boxes.rows() * 48;  // places
-    return give(unlocked(
-        work, [&] { return cut_sides(meters, boxes, lens, {border, beside, occluder_margin, share}); }));
+    return give(unlocked(work, [&] { return cut_sides(meters, boxes, lens, sides); }));
 }
 
 Eigen::Map<const Flags> flags(const Array<bool>& object, const char* name, int columns) {
@@ -100,17 +101,23 @@ Eigen::Map<const Flags> flags(const Array<bool>& object, const char* name, int c
     return {contiguous<bool>(array, name), array.shape(0), array.shape(1)};
 }
 
-Array<double> measure_objects_arrays(const Array<double>& table, const Array<float>& columns,
-                                     const Array<float>& rows, const Array<bool>& cut,
-                                     const Array<double>& camera, const Array<double>& plane, double feet) {
-    const auto boxes = states(table, "table");
-    const auto across = floats(columns, "columns", {-1, -1}, "float32 (C, bins)");
-    const auto down = floats(rows, "rows", {-1, -1}, "float32 (C, bins)");
-    const auto sides = flags(cut, "cut", 4);
+using GroundTuple = Tuple<Array<double>, double>;
+
+Ground ground_of(const GroundTuple& ground) {
+    const auto [plane, feet] = unpack(ground, "ground");
+    return {vector(plane, "plane"), feet};
+}
+
+Array<double> measure_objects_arrays(
+    const Tuple<Array<double>, Array<float>, Array<float>, Array<bool>>& objects, const Array<double>& camera,
+    const GroundTuple& ground) {
+    const auto [table, columns, rows, cut] = unpack(objects, "objects");
+    const ObjectTable each{states(table, "table"), floats(columns, "columns", {-1, -1}, "float32 (C, bins)"),
+                           floats(rows, "rows", {-1, -1}, "float32 (C, bins)"), flags(cut, "cut", 4)};
     const auto lens = vector(camera, "camera");
-    const auto floor = vector(plane, "plane");
-    return give(unlocked(across.size() + down.size(),
-                         [&] { return measure_objects({boxes, across, down, sides}, lens, {floor, feet}); }));
+    const Ground floor = ground_of(ground);
+    return give(
+        unlocked(each.columns.size() + each.rows.size(), [&] { return measure_objects(each, lens, floor); }));
 }
 
 using ObjectsTuple = Tuple<Array<double>, Array<bool>, Array<float>, Array<float>>;
@@ -177,18 +184,18 @@ Divisions divisions_of(const DivisionsTuple& divisions) {
 
 std::tuple<Array<double>, Array<bool>, Array<float>, Array<float>> segment_depth_arrays(
     const Array<float>& depth, const SearchedTuple& searched, const Array<double>& camera,
-    const Array<double>& plane, const RegionTuple& measured, const DivisionsTuple& divisions,
-    const Tuple<int, double, double, double>& cut, double feet) {
+    const GroundTuple& ground, const RegionTuple& measured, const DivisionsTuple& divisions,
+    const CutTuple& cut) {
     const auto meters = depth_image(depth, "depth");
     const auto [region, before, noise, noise_slope] = unpack(searched, "searched");
     const SearchedPixels pixels{unpack_as<Region>(region, "region"), depth_image(before, "before"), noise,
                                 noise_slope};
     const auto lens = vector(camera, "camera");
-    const auto floor = vector(plane, "plane");
+    const Ground floor = ground_of(ground);
     const Divisions by = divisions_of(divisions);
     const auto sides = unpack_as<Cut>(cut, "cut");
     auto found = unlocked(std::ptrdiff_t{meters.rows} * meters.cols, [&] {
-        return segment_depth(meters, pixels, lens, floor, region_of(measured), by, sides, feet);
+        return segment_depth(meters, pixels, lens, floor, region_of(measured), by, sides);
     });
     return {give(std::move(found.measured)), give(std::move(found.cut)), give(std::move(found.columns)),
             give(std::move(found.rows))};
@@ -202,15 +209,13 @@ void define_depth_objects(py::module_& m) {
     m.def("match_object", match_object_arrays, py::arg("objects"), py::arg("others"), py::arg("expected"),
           py::arg("signature"), py::arg("costs"), py::arg("complete"), docs::match_object);
     m.def("cut_sides", cut_sides_arrays, py::arg("depth"), py::arg("table"), py::arg("camera"),
-          py::arg("border"), py::arg("beside"), py::arg("occluder_margin"), py::arg("share"),
-          docs::cut_sides);
+          py::arg("cut"), docs::cut_sides);
     m.def("depth_contrast", depth_contrast_arrays, py::arg("depth"), py::arg("camera"), py::arg("states"),
           py::arg("model"), py::arg("places"), py::arg("occluder_margin"), docs::depth_contrast);
     m.def("depth_density", depth_density_arrays, py::arg("histogram"), py::arg("bandwidth"),
           docs::depth_density);
     m.def("segment_depth", segment_depth_arrays, py::arg("depth"), py::arg("searched"), py::arg("camera"),
-          py::arg("plane"), py::arg("measured"), py::arg("divisions"), py::arg("cut"), py::arg("feet"),
-          docs::segment_depth);
+          py::arg("ground"), py::arg("measured"), py::arg("divisions"), py::arg("cut"), docs::segment_depth);
     m.def("density_extrema", density_extrema_arrays, py::arg("density"), py::arg("prominence"),
           docs::density_extrema);
     m.def("depth_components", depth_components_arrays, py::arg("labels"), py::arg("depth"), py::arg("near"),
@@ -218,8 +223,8 @@ void define_depth_objects(py::module_& m) {
           docs::depth_components);
     m.def("depth_distance", depth_distance_arrays, py::arg("depth"), py::arg("rectangles"), py::arg("model"),
           py::arg("pattern"), py::arg("occluder_margin"), docs::depth_distance);
-    m.def("measure_objects", measure_objects_arrays, py::arg("table"), py::arg("columns"), py::arg("rows"),
-          py::arg("cut"), py::arg("camera"), py::arg("plane"), py::arg("feet"), docs::measure_objects);
+    m.def("measure_objects", measure_objects_arrays, py::arg("objects"), py::arg("camera"), py::arg("ground"),
+          docs::measure_objects);
     m.def("rectangle_histogram", rectangle_histogram_arrays, py::arg("depth"), py::arg("rectangle"),
           py::arg("levels"), py::arg("pattern"), py::arg("reach"), docs::rectangle_histogram);
 }

@@ -599,10 +599,7 @@ def cut_sides(
     depth: numpy.typing.NDArray[numpy.float32],
     table: numpy.typing.NDArray[numpy.float64],
     camera: numpy.typing.NDArray[numpy.float64],
-    border: int,
-    beside: float,
-    occluder_margin: float,
-    share: float,
+    cut: tuple[int, float, float, float],
 ) -> numpy.typing.NDArray[numpy.bool]:
     """
     The sides of its box at which a segmented object may continue: at the image's border, or behind
@@ -617,11 +614,13 @@ def cut_sides(
         table: float64 (C, 7), as depth_components gives it: x, y, width, height, area, depth z, label;
             sizes and z above 0
         camera: float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
-        border: pixels from the image's edge within which an object may continue outside, at least 0
-        beside: distance from the side at which something nearer is looked for, meters, finite, at least
-            0
-        occluder_margin: how much nearer than the object that must be, meters, finite, at least 0
-        share: share of the side on more than which it must be nearer, in [0, 1]
+        cut: a tuple (border, beside, occluder_margin, share):
+            - border: pixels from the image's edge within which an object may continue outside, at least
+              0
+            - beside: distance from the side at which something nearer is looked for, meters, finite, at
+              least 0
+            - occluder_margin: how much nearer than the object that must be, meters, finite, at least 0
+            - share: share of the side on more than which it must be nearer, in [0, 1]
 
     Returns:
         bool (C, 4): left, right, top, bottom
@@ -2067,13 +2066,14 @@ def match_object(
     """
 
 def measure_objects(
-    table: numpy.typing.NDArray[numpy.float64],
-    columns: numpy.typing.NDArray[numpy.float32],
-    rows: numpy.typing.NDArray[numpy.float32],
-    cut: numpy.typing.NDArray[numpy.bool],
+    objects: tuple[
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.bool],
+    ],
     camera: numpy.typing.NDArray[numpy.float64],
-    plane: numpy.typing.NDArray[numpy.float64],
-    feet: float,
+    ground: tuple[numpy.typing.NDArray[numpy.float64], float],
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     Segmented objects in meters: boxes at the depth of their objects, with the feet that were removed
@@ -2091,15 +2091,17 @@ def measure_objects(
     parts' depths is the object's.
 
     Args:
-        table: float64 (C, 7), as depth_components gives it: x, y, width, height, area, pixels; depth,
-            meters; label; all finite, sizes and depth above 0
-        columns, rows: float32 (C, bins): how an object's pixels are spread over its box, of sum 1
-        cut: bool (C, 4): whether each may continue at the left, right, top, bottom
+        objects: a tuple (table, columns, rows, cut):
+            - table: float64 (C, 7), as depth_components gives it: x, y, width, height, area, pixels;
+              depth, meters; label; all finite, sizes and depth above 0
+            - columns, rows: float32 (C, bins): how an object's pixels are spread over its box, of sum 1
+            - cut: bool (C, 4): whether each may continue at the left, right, top, bottom
         camera: float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0; (0, 0) is the center of the
             first pixel
-        plane: float64 (4,): nx, ny, nz, d of the floor, meters; zeros where none is known
-        feet: the lower edge of an object that stands on the floor is less than this above it, meters,
-            finite, at least 0
+        ground: a tuple (plane, feet):
+            - plane: float64 (4,): nx, ny, nz, d of the floor, meters; zeros where none is known
+            - feet: the lower edge of an object that stands on the floor is less than this above it,
+              meters, finite, at least 0
 
     Returns:
         float64 (C, 8): X, Y, Z of the box's center, Z being the object's mean depth, width, height;
@@ -3091,11 +3093,10 @@ def segment_depth(
     depth: numpy.typing.NDArray[numpy.float32],
     searched: tuple[tuple[int, int, int, int], numpy.typing.NDArray[numpy.float32], float, float],
     camera: numpy.typing.NDArray[numpy.float64],
-    plane: numpy.typing.NDArray[numpy.float64],
+    ground: tuple[numpy.typing.NDArray[numpy.float64], float],
     measured: tuple[int, int, int, int],
     divisions: tuple[tuple[float, float, int], float, float, float, float, int],
     cut: tuple[int, float, float, float],
-    feet: float,
 ) -> tuple[
     numpy.typing.NDArray[numpy.float64],
     numpy.typing.NDArray[numpy.bool],
@@ -3120,7 +3121,10 @@ def segment_depth(
               (0, 0) for none
             - noise, noise_slope: as noise and slope in changed_depth
         camera: float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
-        plane: float64 (4,): nx, ny, nz, d of the floor, meters; zeros where none is known
+        ground: a tuple (plane, feet):
+            - plane: float64 (4,): nx, ny, nz, d of the floor, meters; zeros where none is known
+            - feet: the lower edge of an object that stands on the floor is less than this above it,
+              meters, finite, at least 0
         measured: (x0, y0, x1, y1), pixels: outside of it nothing was measured
         divisions: a tuple (levels, gap, slope, bandwidth, prominence, min_area):
             - levels: (near, far, count), as in depth_histogram
@@ -3135,7 +3139,6 @@ def segment_depth(
               least 0
             - occluder_margin: how much nearer than the object that must be, meters, finite, at least 0
             - share: share of the side on more than which it must be nearer, in [0, 1]
-        feet: as in measure_objects
 
     Returns:
         measured: float64 (C, 8), as measure_objects gives it
@@ -3796,10 +3799,7 @@ class Kernels(Protocol):
         depth: numpy.typing.NDArray[numpy.float32],
         table: numpy.typing.NDArray[numpy.float64],
         camera: numpy.typing.NDArray[numpy.float64],
-        border: int,
-        beside: float,
-        occluder_margin: float,
-        share: float,
+        cut: tuple[int, float, float, float],
     ) -> numpy.typing.NDArray[numpy.bool]: ...
     def density_extrema(
         self, density: numpy.typing.NDArray[numpy.float64], prominence: float
@@ -4146,13 +4146,14 @@ class Kernels(Protocol):
     ) -> int: ...
     def measure_objects(
         self,
-        table: numpy.typing.NDArray[numpy.float64],
-        columns: numpy.typing.NDArray[numpy.float32],
-        rows: numpy.typing.NDArray[numpy.float32],
-        cut: numpy.typing.NDArray[numpy.bool],
+        objects: tuple[
+            numpy.typing.NDArray[numpy.float64],
+            numpy.typing.NDArray[numpy.float32],
+            numpy.typing.NDArray[numpy.float32],
+            numpy.typing.NDArray[numpy.bool],
+        ],
         camera: numpy.typing.NDArray[numpy.float64],
-        plane: numpy.typing.NDArray[numpy.float64],
-        feet: float,
+        ground: tuple[numpy.typing.NDArray[numpy.float64], float],
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def median_depths(
         self,
@@ -4389,11 +4390,10 @@ class Kernels(Protocol):
         depth: numpy.typing.NDArray[numpy.float32],
         searched: tuple[tuple[int, int, int, int], numpy.typing.NDArray[numpy.float32], float, float],
         camera: numpy.typing.NDArray[numpy.float64],
-        plane: numpy.typing.NDArray[numpy.float64],
+        ground: tuple[numpy.typing.NDArray[numpy.float64], float],
         measured: tuple[int, int, int, int],
         divisions: tuple[tuple[float, float, int], float, float, float, float, int],
         cut: tuple[int, float, float, float],
-        feet: float,
     ) -> tuple[
         numpy.typing.NDArray[numpy.float64],
         numpy.typing.NDArray[numpy.bool],

@@ -13,7 +13,7 @@ from tricue import _core, reference
 
 Depth = NDArray[np.float32]
 Floats = NDArray[np.float64]
-BORDER, BESIDE, NEARER, SHARE = 2, 0.08, 0.3, 0.15
+CUT = (2, 0.08, 0.3, 0.15)  # border, beside, occluder margin, share
 # x, y, width, height, area, depth, label: the person in the room, and objects behind, before and beside.
 TABLE = np.array(
     [
@@ -33,12 +33,10 @@ def script(
     depth: Depth,
     table: Floats,
     camera: Floats,
-    border: int,
-    beside: float,
-    occluder_margin: float,
-    share: float,
+    cut: tuple[int, float, float, float],
 ) -> NDArray[np.bool_]:
     """The baseline: one remap of all places, which rounds where we take the floor, and a mean per side."""
+    border, beside, occluder_margin, share = cut
     height, width = depth.shape
     x, y, w, h, z = table[:, [0, 1, 2, 3, 5]].T
     along = (2 * np.arange(12) + 1) / 12 - 1
@@ -61,7 +59,7 @@ def script(
 )
 def bench_cut_sides(benchmark: Any, cut_sides: Callable[..., Any], room: Depth, camera: Floats) -> None:
     """All find the same cut sides; each of the four sides is among them."""
-    arguments = room, TABLE, camera, BORDER, BESIDE, NEARER, SHARE
+    arguments = room, TABLE, camera, CUT
     cut = benchmark(cut_sides, *arguments)
     assert_array_equal(cut, reference.cut_sides(*arguments))
     assert cut.any(axis=0).all()

@@ -15,7 +15,7 @@ Shares = NDArray[np.float32]
 random = np.random.default_rng(0)
 DEPTH, SIZE = random.uniform(2, 6, 8), random.integers(8, 60, (8, 2))
 LOW = (2 - 0.28 * DEPTH) / 0.96 - random.uniform(0, 0.5, 8)  # meters: lower edges near the floor
-ARGUMENTS = (
+OBJECTS = (
     np.column_stack(
         [
             random.integers(0, 120, 8),
@@ -29,22 +29,16 @@ ARGUMENTS = (
     random.dirichlet(np.ones(16), 8).astype(np.float32),
     random.dirichlet(np.ones(16), 8).astype(np.float32),
     random.random((8, 4)) < 0.2,
-    np.array([190.0, 190.0, 87.5, 70.5]),
-    np.array([0.0, -0.96, -0.28, 2.0]),
-    0.35,
 )
+CAMERA, FEET = np.array([190.0, 190.0, 87.5, 70.5]), 0.35
+ARGUMENTS = OBJECTS, CAMERA, (np.array([0.0, -0.96, -0.28, 2.0]), FEET)
 
 
 def script(
-    table: Floats,
-    columns: Shares,
-    rows: Shares,
-    cut: NDArray[np.bool_],
-    camera: Floats,
-    plane: Floats,
-    feet: float,
+    objects: tuple[Floats, Shares, Shares, NDArray[np.bool_]], camera: Floats, ground: tuple[Floats, float]
 ) -> Floats:
     """The baseline: the same by way of corners; arguments aren't checked."""
+    (table, columns, rows, cut), (plane, feet) = objects, ground
     z = table[:, 5]
     scale = z[:, None] / camera[:2]
     low = (table[:, :2] - 0.5 - camera[2:]) * scale
@@ -85,5 +79,5 @@ def bench_measure_objects(benchmark: Any, measure_objects: Callable[..., Any]) -
     """All measure the same, within the rounding of lengths below 8 m; some objects stand on the floor."""
     measured = benchmark(measure_objects, *ARGUMENTS)
     assert_allclose(measured, reference.measure_objects(*ARGUMENTS), rtol=1e-12, atol=1e-13)
-    without = reference.measure_objects(*ARGUMENTS[:5], np.zeros(4), *ARGUMENTS[6:])
+    without = reference.measure_objects(OBJECTS, CAMERA, (np.zeros(4), FEET))
     assert 0 < np.count_nonzero(measured[:, 4] - without[:, 4] > 0.01) < 8

@@ -13,15 +13,19 @@ from tricue import _core, reference
 Depth = NDArray[np.float32]
 Floats = NDArray[np.float64]
 NEAR, FAR, LEVELS = 0.3, 8.0, 256
-EDGES, DENSITY, CUT, FEET = (0.06, 0.01), (4.0, 0.05), (2, 0.08, 0.3, 0.15), 0.35
-PLANE, MEASURED = np.array([0.0, -1.0, 0.0, 1.0]), (0, 0, 176, 144)
+EDGES, DENSITY, CUT = (0.06, 0.01), (4.0, 0.05), (2, 0.08, 0.3, 0.15)
+PLANE, FEET, MEASURED = np.array([0.0, -1.0, 0.0, 1.0]), 0.35, (0, 0, 176, 144)
 
 
 def script(
-    depth: Depth, searched: tuple[Any, Depth, float, float], camera: Floats, plane: Floats, *__: Any
+    depth: Depth,
+    searched: tuple[Any, Depth, float, float],
+    camera: Floats,
+    ground: tuple[Floats, float],
+    *__: Any,
 ) -> tuple[Floats, NDArray[np.bool_], Depth, Depth]:
     """The baseline: a call for each stage, and NumPy between them."""
-    _, before, *noise = searched
+    (_, before, *noise), (plane, _) = searched, ground
     distance = _core.ground_distance(depth, camera, plane[:3], NEAR, FAR)
     mask = (_core.depth_edges(distance, *EDGES) ^ np.uint8(1)) & _core.changed_depth(depth, before, *noise)
     density = _core.depth_density(_core.depth_histogram(distance, mask, NEAR, FAR, LEVELS), DENSITY[0])
@@ -29,8 +33,8 @@ def script(
     dividers = np.array([NEAR, *(NEAR + (minima + 0.5) * ((FAR - NEAR) / LEVELS)), FAR])
     labels = _core.divide_depth(distance, mask, dividers)
     table, _, columns, rows, _ = _core.depth_components(labels, depth, NEAR, FAR, 0, 16, 8, False)
-    cut = _core.cut_sides(depth, table, camera, *CUT)
-    return _core.measure_objects(table, columns, rows, cut, camera, plane, FEET), cut, columns, rows
+    cut = _core.cut_sides(depth, table, camera, CUT)
+    return _core.measure_objects((table, columns, rows, cut), camera, ground), cut, columns, rows
 
 
 @pytest.mark.benchmark(group="segment_depth")
@@ -47,7 +51,7 @@ def bench_segment_depth(
     above = _core.above_floor(room, camera, PLANE, NEAR, FAR, 0.12)
     before = np.full_like(room, np.nan)
     searched, divisions = (MEASURED, before, 0.02, 0.005), ((NEAR, FAR, LEVELS), *EDGES, *DENSITY, 8)
-    arguments = above, searched, camera, PLANE, MEASURED, divisions, CUT, FEET
+    arguments = above, searched, camera, (PLANE, FEET), MEASURED, divisions, CUT
     found, expected = benchmark(segment_depth, *arguments), reference.segment_depth(*arguments)
     assert_allclose(found[0], expected[0], rtol=1e-9, atol=1e-9)
     for one, other in zip(found[1:], expected[1:], strict=True):

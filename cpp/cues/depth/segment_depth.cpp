@@ -19,7 +19,6 @@
 #include "cues/depth/detail/depth_rows.hpp"
 #include "cues/depth/detail/searched_distances.hpp"
 #include "cues/depth/ground_distance.hpp"
-#include "cues/depth/measure_objects.hpp"
 
 namespace tricue {
 namespace {
@@ -212,17 +211,17 @@ void cut_at_edge(StatesRef table, const Region& measured, int border, Flags& cut
 }  // namespace
 
 DepthObjects segment_depth(const DepthView& depth, const SearchedPixels& searched, VectorRef camera,
-                           VectorRef plane, const Region& measured, const Divisions& divisions,
-                           const Cut& cut, double feet) {
+                           const Ground& ground, const Region& measured, const Divisions& divisions,
+                           const Cut& cut) {
     require_arguments(depth, searched, divisions);
     const auto& [near, far, levels] = divisions.levels;
-    SearchedDistances distances = find_distances(depth, searched, camera, plane, divisions);
+    SearchedDistances distances = find_distances(depth, searched, camera, ground.plane, divisions);
     PixelRuns runs = distances.runs(find_dividers(distances.histogram(divisions.levels), divisions),
                                     divisions.min_area == 1);
     auto found = describe_components(runs, depth, {near, far, 0, kBins}, divisions.min_area, false);
     Flags sides = cut_sides(depth, found.table, camera, cut);
     cut_at_edge(found.table, measured, cut.border, sides);
-    States states = measure_objects({found.table, found.columns, found.rows, sides}, camera, {plane, feet});
+    States states = measure_objects({found.table, found.columns, found.rows, sides}, camera, ground);
     return {std::move(states), std::move(sides), std::move(found.columns), std::move(found.rows)};
 }
 

@@ -6,6 +6,7 @@
 #include "base/region.hpp"
 #include "cues/depth/cut_sides.hpp"
 #include "cues/depth/depth_histogram.hpp"
+#include "cues/depth/measure_objects.hpp"
 
 namespace tricue {
 
@@ -42,13 +43,11 @@ struct DepthObjects {
 ///
 /// @param depth float32 (H, W), meters, NaN in the background; else in the range of `levels`
 /// @param camera float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
-/// @param plane float64 (4,): nx, ny, nz, d of the floor, meters; zeros where none is known
 /// @param measured (x0, y0, x1, y1), pixels: outside of it nothing was measured
-/// @param feet as in measure_objects
 /// @throws std::invalid_argument as those kernels
 /// Source: Sabeti, Parvizi, Wu 2008, equations (32)-(36), section IV.A; edges, floor and cuts are ours.
 DepthObjects segment_depth(const DepthView& depth, const SearchedPixels& searched, VectorRef camera,
-                           VectorRef plane, const Region& measured, const Divisions& divisions,
-                           const Cut& cut, double feet);
+                           const Ground& ground, const Region& measured, const Divisions& divisions,
+                           const Cut& cut);
 
 }  // namespace tricue

@@ -13,10 +13,12 @@ from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
+from tests.kernel_arguments import Place, with_argument
+
 Depth = NDArray[np.float32]
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
-BORDER, BESIDE, NEARER, SHARE = 2, 0.08, 0.3, 0.15
+BORDER, BESIDE, NEARER, SHARE = CUT = 2, 0.08, 0.3, 0.15
 LEFT, RIGHT, TOP, BOTTOM = range(4)
 PLACES = 12
 
@@ -59,8 +61,9 @@ def test_twin_flags_the_same(
     rng = np.random.default_rng(seed)
     shape = int(rng.integers(0, 60)), int(rng.integers(0, 80))
     depth = rng.uniform(0.5, 7, shape).astype(np.float32)
-    arguments = depth, boxes(shape, count, seed), np.array([90.0, 91, 40, 30]), max(border, 0)
-    native, twin = (k.cut_sides(*arguments, beside, nearer, share) for k in (_core, reference))
+    cut = max(border, 0), beside, nearer, share
+    arguments = depth, boxes(shape, count, seed), np.array([90.0, 91, 40, 30]), cut
+    native, twin = (k.cut_sides(*arguments) for k in (_core, reference))
     assert native.shape == (count, 4)
     assert_array_equal(native, twin, strict=True)
 
@@ -68,7 +71,7 @@ def test_twin_flags_the_same(
 @pytest.mark.parametrize("count", [0, 1, 40])
 def test_twin_flags_the_same_in_pictures(picture: Depth, camera: Floats, count: int) -> None:
     """They also agree on pictures of awkward sizes and layouts, on no objects and on many."""
-    arguments = picture, boxes(picture.shape, count, 7), camera, BORDER, BESIDE, NEARER, SHARE
+    arguments = picture, boxes(picture.shape, count, 7), camera, CUT
     native = _core.cut_sides(*arguments)
     assert native.shape == (count, 4)
     assert_array_equal(native, reference.cut_sides(*arguments), strict=True)
@@ -107,7 +110,7 @@ def test_agrees_with_points_in_space(
     """With no border to end at, a side goes on where OpenCV projects enough of it onto what is nearer."""
     table = boxes(noisy_room.shape, 150, 3)
     table[:, :2] = np.clip(table[:, :2], 0, np.array([176, 144]) - table[:, 2:4])
-    cut = kernels.cut_sides(noisy_room, table, camera, 0, BESIDE, NEARER, share)
+    cut = kernels.cut_sides(noisy_room, table, camera, (0, BESIDE, NEARER, share))
     truth = np.array([shown_nearer(noisy_room, box, camera, BESIDE, NEARER) for box in table]) > share
     assert_array_equal(cut, truth)
     assert 0.05 < cut.mean() < 0.95
@@ -130,7 +133,7 @@ def test_agrees_with_lengths(side: int, one: int, other: int, share: float) -> N
     expected[0, side] = covered / PLACES > share
     lens = np.array([96.0, 96, 0, 0])
     for kernels in (_core, reference):
-        assert_array_equal(kernels.cut_sides(depth, table, lens, 0, 4 * 3 / 96, NEARER, share), expected)
+        assert_array_equal(kernels.cut_sides(depth, table, lens, (0, 4 * 3 / 96, NEARER, share)), expected)
 
 
 @pytest.mark.parametrize("border", [0, 1, 2, 5])
@@ -146,7 +149,7 @@ def test_the_border(kernels: Kernels, border: int) -> None:
         row(20, border - 1, 10, 10, 2),
         row(20, 41 - border, 10, 10, 2),
     ]
-    cut = kernels.cut_sides(depth, np.array([inside, *outside]), lens, border, BESIDE, NEARER, SHARE)
+    cut = kernels.cut_sides(depth, np.array([inside, *outside]), lens, (border, *CUT[1:]))
     assert_array_equal(cut, np.concatenate([np.zeros((1, 4), np.bool_), np.eye(4, dtype=np.bool_)]))
 
 
@@ -161,7 +164,7 @@ def test_example_by_hand(kernels: Kernels) -> None:
         depth = np.full((120, 160), 5, np.float32)
         depth[20:100, 60:90] = 3
         depth[:, round(90 + gap * 100 / 3) :] = z
-        flags = kernels.cut_sides(depth, np.array([box]), lens, BORDER, BESIDE, NEARER, SHARE)
+        flags = kernels.cut_sides(depth, np.array([box]), lens, CUT)
         return list(flags[0])
 
     assert cut(2.0, 0.06) == [False, True, False, False]
@@ -175,7 +178,7 @@ def test_what_is_not_measured_is_not_nearer(kernels: Kernels, strange: float) ->
     """Neither holes nor what is outside the image cut anything."""
     depth, lens = np.full((40, 40), strange, np.float32), np.array([60.0, 60, 20, 20])
     table = np.array([row(10, 10, 20, 20, 2), row(-500, 10, 20, 20, 2), row(10, 1e300, 20, 20, 1e-3)])
-    behind = kernels.cut_sides(depth, table, lens, 0, BESIDE, NEARER, 0.0)
+    behind = kernels.cut_sides(depth, table, lens, (0, BESIDE, NEARER, 0.0))
     assert_array_equal(behind[0], np.zeros(4, np.bool_))
     assert_array_equal(behind[1], [True, False, False, False])
     assert_array_equal(behind[2], [False, False, False, True])
@@ -188,9 +191,9 @@ def test_less_goes_on_where_more_is_asked(seed: int, share: float, more: float) 
     depth, lens = rng.uniform(0.5, 7, (60, 80)).astype(np.float32), np.array([90.0, 91, 40, 30])
     table = boxes(depth.shape, 12, seed)
     for kernels in (_core, reference):
-        cut = kernels.cut_sides(depth, table, lens, BORDER, BESIDE, NEARER, share)
+        cut = kernels.cut_sides(depth, table, lens, (BORDER, BESIDE, NEARER, share))
         for nearer, least in ((NEARER, min(share + more, 1)), (NEARER + more, share)):
-            fewer = kernels.cut_sides(depth, table, lens, BORDER, BESIDE, nearer, least)
+            fewer = kernels.cut_sides(depth, table, lens, (BORDER, BESIDE, nearer, least))
             assert not (fewer & ~cut).any()
 
 
@@ -205,18 +208,16 @@ def test_mirror(seed: int) -> None:
     table = np.array([row(*corner, *size, 2.0) for corner, size in zip(corners, sizes, strict=True)])
     mirrored = table.copy()
     mirrored[:, 0] = 80 - table[:, 0] - table[:, 2]
-    beside = 0.5 * 2 / 64
+    limits = BORDER, 0.5 * 2 / 64, NEARER, 0.3
     for kernels in (_core, reference):
-        cut = kernels.cut_sides(depth, table, lens, BORDER, beside, NEARER, 0.3)
-        other = kernels.cut_sides(
-            np.ascontiguousarray(depth[:, ::-1]), mirrored, lens, BORDER, beside, NEARER, 0.3
-        )
+        cut = kernels.cut_sides(depth, table, lens, limits)
+        other = kernels.cut_sides(np.ascontiguousarray(depth[:, ::-1]), mirrored, lens, limits)
         assert_array_equal(other, cut[:, [1, 0, 2, 3]])
 
 
 ONE = np.ones((4, 4), np.float32)
 TABLE, LENS = np.array([row(1, 1, 2, 2, 2.0)] * 2), np.array([1.0, 1.0, 0.0, 0.0])
-BAD_VALUES: list[tuple[int, Any, str]] = [
+BAD_VALUES: list[tuple[Place, Any, str]] = [
     (1, TABLE[:, :6].copy(), r"table: expected shape \(2, 7\), got \(2, 6\)"),
     (1, TABLE * np.nan, "table: expected finite numbers, got nan"),
     (1, TABLE * [1, 1, 1, 1, 1, np.inf, 1], "table: expected finite numbers, got inf"),
@@ -227,22 +228,21 @@ BAD_VALUES: list[tuple[int, Any, str]] = [
     (2, LENS[:3], r"camera: expected shape \(4,\), got \(3,\)"),
     (2, LENS * np.nan, "camera: expected finite numbers, got nan"),
     (2, LENS * [1, 0, 1, 1], "camera: expected focal lengths above 0, got 0"),
-    (3, -1, "border: expected no negative number, got -1"),
-    (4, -0.5, "beside: expected a finite number, not negative, got -0.5"),
-    (4, np.nan, "beside: expected a finite number, not negative, got nan"),
-    (5, -0.5, "occluder_margin: expected a finite number, not negative, got -0.5"),
-    (5, np.inf, "occluder_margin: expected a finite number, not negative, got inf"),
-    (6, -0.5, r"share: expected a number in \[0, 1\], got -0.5"),
-    (6, 1.5, r"share: expected a number in \[0, 1\], got 1.5"),
-    (6, np.nan, r"share: expected a number in \[0, 1\], got nan"),
+    ((3, 0), -1, "border: expected no negative number, got -1"),
+    ((3, 1), -0.5, "beside: expected a finite number, not negative, got -0.5"),
+    ((3, 1), np.nan, "beside: expected a finite number, not negative, got nan"),
+    ((3, 2), -0.5, "occluder_margin: expected a finite number, not negative, got -0.5"),
+    ((3, 2), np.inf, "occluder_margin: expected a finite number, not negative, got inf"),
+    ((3, 3), -0.5, r"share: expected a number in \[0, 1\], got -0.5"),
+    ((3, 3), 1.5, r"share: expected a number in \[0, 1\], got 1.5"),
+    ((3, 3), np.nan, r"share: expected a number in \[0, 1\], got nan"),
 ]
 
 
 @pytest.mark.parametrize(("place", "value", "message"), BAD_VALUES)
-def test_refuses(kernels: Kernels, place: int, value: Any, message: str) -> None:
+def test_refuses(kernels: Kernels, place: Place, value: Any, message: str) -> None:
     """Tables, cameras and limits that are none are named."""
-    arguments: list[Any] = [ONE, TABLE, LENS, BORDER, BESIDE, NEARER, SHARE]
-    arguments[place] = value
+    arguments = with_argument([ONE, TABLE, LENS, CUT], place, value)
     with pytest.raises(ValueError, match=message):
         kernels.cut_sides(*arguments)
 
@@ -261,7 +261,6 @@ BAD: list[tuple[int, Any, type[Exception], str]] = [
 @pytest.mark.parametrize(("place", "value", "error", "message"), BAD)
 def test_native_refuses_other_arrays(place: int, value: Any, error: type[Exception], message: str) -> None:
     """Another type, shape or layout is named, not converted."""
-    arguments: list[Any] = [ONE, TABLE, LENS, BORDER, BESIDE, NEARER, SHARE]
-    arguments[place] = value
+    arguments = with_argument([ONE, TABLE, LENS, CUT], place, value)
     with pytest.raises(error, match=message):
         _core.cut_sides(*arguments)

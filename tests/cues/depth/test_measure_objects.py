@@ -13,8 +13,11 @@ from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
+from tests.kernel_arguments import grouped
+
 Floats = NDArray[np.float64]
 Case = dict[str, Any]
+PARTS = {"objects": ("table", "columns", "rows", "cut"), "ground": ("plane", "feet")}
 EPS = float(np.finfo(np.float64).eps)
 CAMERA = np.array([190.0, 192.0, 87.0, 70.5])
 NO_FLOOR = np.zeros(4)
@@ -24,7 +27,9 @@ BOTTOM = 3
 
 
 def case(count: int, bins: int = 16, seed: int = 0, **changes: Any) -> Case:
-    """All arguments: boxes of whole pixels, 1 to 6 m away, some cut, on a floor that is all but level."""
+    """All values, those in tuples one by one: boxes of whole pixels, 1 to 6 m away, some cut, on a floor that
+    is all but level.
+    """
     rng = np.random.default_rng(seed)
     table = np.empty((count, 7))
     table[:, :2] = rng.integers(0, 170, (count, 2))
@@ -56,7 +61,7 @@ def assert_same(arguments: Case) -> None:
     products that are rounded four times, divided by a tenth at least: ten times as wrong; all else is rounded
     less.
     """
-    native, twin = (k.measure_objects(**arguments) for k in (_core, reference))
+    native, twin = (measured(k, **arguments) for k in (_core, reference))
     assert native.shape == twin.shape == (len(arguments["table"]), 8)
     rounding = (arguments["columns"].shape[1] + 10 * (4 + 4)) * EPS
     assert_allclose(native, twin, rtol=rounding, atol=32 * rounding)
@@ -92,7 +97,7 @@ def test_some_stand() -> None:
 
 def measured(kernels: Any = reference, **arguments: Any) -> Floats:
     """(C, 8), by the reference unless told."""
-    objects: Floats = kernels.measure_objects(**arguments)
+    objects: Floats = kernels.measure_objects(**grouped(arguments, PARTS))
     return objects
 
 
@@ -111,7 +116,7 @@ def test_agrees_with_projection(kernels: Kernels) -> None:
     first, last = pixels[:50, 0] + 0.5, pixels[50:, 0] + 0.5  # box coordinates: pixel 0 begins at 0
     arguments = case(50, plane=NO_FLOOR)
     arguments["table"] = np.column_stack([first, last - first, np.ones(50), centers[:, 2], np.ones(50)])
-    found = kernels.measure_objects(**arguments)
+    found = measured(kernels, **arguments)
     assert_allclose(found[:, :SHIFT_X], np.column_stack([centers, sizes]), rtol=0, atol=1e-12)
 
 
@@ -128,7 +133,7 @@ def test_agrees_with_points(kernels: Kernels, seed: int) -> None:
     table = np.array([[columns[0], rows[0], inside.shape[1], inside.shape[0], count, z, 1]], float)
     shares = [(inside.sum(axis=axis)[None] / count).astype(np.float32) for axis in (0, 1)]
     arguments = case(1, table=table, columns=shares[0], rows=shares[1], plane=NO_FLOOR)
-    (found,) = kernels.measure_objects(**arguments)
+    (found,) = measured(kernels, **arguments)
     fx, fy, cx, cy = CAMERA
     v, u = np.nonzero(shape)
     points = (
@@ -187,7 +192,7 @@ def test_centroid_of_an_upright_board(kernels: Kernels, tilt: float, lost: int) 
     table = np.array([[60.0, first, 21, len(kept), kept[..., 0].size, kept[..., 2].mean(), 1]])
     arguments = case(1, table=table, rows=rows, columns=np.ones((1, 1), np.float32))
     arguments |= {"plane": np.array([*up, height]), "cut": np.array([[False, False, False, lost == 0]])}
-    (found,) = kernels.measure_objects(**arguments)
+    (found,) = measured(kernels, **arguments)
     atol = 1e-6 if lost == 0 else 5e-3
     assert_allclose(found[Y] + found[SHIFT_Y], points[..., 1].mean(), rtol=0, atol=atol)
 
@@ -200,13 +205,14 @@ def test_example_by_hand(kernels: Kernels) -> None:
     table = np.array([[0.0, 0.0, 32, 64, 1024, 2, 1]])
     columns, rows = np.float32([[0.25, 0.75]]), np.float32([[0.5, 0.5]])
     plane, cut = np.array([0, -1.0, 0, 1]), np.zeros((1, 4), np.bool_)
-    bare = kernels.measure_objects(table, columns, rows, cut, camera, NO_FLOOR, 0.35)
+    objects = table, columns, rows, cut
+    bare = kernels.measure_objects(objects, camera, (NO_FLOOR, 0.35))
     assert_array_equal(bare, [[0, 0.25, 2, 0.5, 1, 0.0625, 0, 0.25]])
-    stands = kernels.measure_objects(table, columns, rows, cut, camera, plane, 0.35)
+    stands = kernels.measure_objects(objects, camera, (plane, 0.35))
     assert_allclose(stands, [[0, 0.375, 2, 0.5, 1.25, 0.0625, 0, 0.25]], rtol=4 * EPS, atol=EPS)
     for hovers in (
-        kernels.measure_objects(table, columns, rows, cut, camera, plane, 0.25),
-        kernels.measure_objects(table, columns, rows, ~cut, camera, plane, 0.35),
+        kernels.measure_objects(objects, camera, (plane, 0.25)),
+        kernels.measure_objects((table, columns, rows, ~cut), camera, (plane, 0.35)),
     ):
         assert_array_equal(hovers, bare)
 
@@ -227,7 +233,7 @@ def test_twice_as_far(seed: int) -> None:
     twice = arguments | {"table": arguments["table"] * [1, 1, 1, 1, 1, 2, 1], "feet": 2 * FEET}
     twice["plane"] = arguments["plane"] * [1, 1, 1, 2]
     for kernels in (_core, reference):
-        near, far = kernels.measure_objects(**arguments), kernels.measure_objects(**twice)
+        near, far = measured(kernels, **arguments), measured(kernels, **twice)
         assert_array_equal(far, near * [2, 2, 2, 2, 2, 2, 2, 4])
 
 
@@ -239,7 +245,7 @@ def test_each_by_itself(seed: int) -> None:
     of_each = ("table", "columns", "rows", "cut")
     before = {name: arguments[name].copy() for name in of_each}
     for kernels in (_core, reference):
-        together = kernels.measure_objects(**arguments)
+        together = measured(kernels, **arguments)
         alone = [
             measured(kernels, **arguments | {name: arguments[name][[i]] for name in of_each})[0]
             for i in order
@@ -275,7 +281,7 @@ BAD_VALUES: list[tuple[str, Any, str]] = [
 def test_refuses(kernels: Kernels, name: str, value: Any, message: str) -> None:
     """Tables, shares, cameras, planes and limits that are none, or don't belong together, are named."""
     with pytest.raises(ValueError, match=message):
-        kernels.measure_objects(**case(2, **{name: value}))
+        measured(kernels, **case(2, **{name: value}))
 
 
 BAD: list[tuple[str, Any, type[Exception], str]] = [
@@ -299,4 +305,4 @@ BAD: list[tuple[str, Any, type[Exception], str]] = [
 def test_native_refuses_other_arrays(name: str, value: Any, error: type[Exception], message: str) -> None:
     """Another type, shape or layout is named, not converted."""
     with pytest.raises(error, match=message):
-        _core.measure_objects(**case(2, **{name: value}))
+        measured(_core, **case(2, **{name: value}))

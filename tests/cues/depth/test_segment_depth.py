@@ -19,6 +19,7 @@ Depth = NDArray[np.float32]
 Floats = NDArray[np.float64]
 PARTS = {
     "searched": ("region", "before", "noise", "noise_slope"),
+    "ground": ("plane", "feet"),
     "divisions": ("levels", "gap", "slope", "bandwidth", "prominence", "min_area"),
 }
 NEAR, FAR, LEVELS = 0.3, 8.0, 256
@@ -34,11 +35,10 @@ def arguments(depth: Depth, camera: Floats, /, **changes: Any) -> dict[str, Any]
         "depth": depth,
         "searched": ((0, 0, width, height), NOTHING, 0.02, 0.005),
         "camera": camera,
-        "plane": NO_FLOOR,
+        "ground": (NO_FLOOR, 0.35),
         "measured": (0, 0, width, height),
         "divisions": ((NEAR, FAR, LEVELS), 0.06, 0.01, 4.0, 0.05, 8),
         "cut": (2, 0.08, 0.3, 0.15),
-        "feet": 0.35,
     }
     return with_parts(usual, PARTS, changes)
 

@@ -115,10 +115,9 @@ def segment(
         fg.depth,
         (region, others, SAME_DEPTH, SAME_DEPTH_SLOPE),
         fg.camera,
-        plane[:4],
+        (plane[:4], MAX_FEET_HEIGHT),
         fg.measured,
         Divisions.create(p, fg),
         (BORDER, OCCLUDER_DISTANCE, p.occluder_margin, MAX_SIDE_COVERED),
-        MAX_FEET_HEIGHT,
     )
     return Objects(*found)

@@ -8,6 +8,8 @@ from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import refuse
 from tricue.reference.base.depth_pixels import has_depth, require_camera, require_table
 
+Cut = tuple[int, float, float, float]  # border, beside, occluder_margin, share
+
 PLACES = 12  # read beside each side
 ALONG = (2 * np.arange(PLACES) + 1) / PLACES - 1
 
@@ -16,13 +18,11 @@ def cut_sides(
     depth: NDArray[np.float32],
     table: Floats,
     camera: Floats,
-    border: int,
-    beside: float,
-    occluder_margin: float,
-    share: float,
+    cut: Cut,
 ) -> NDArray[np.bool_]:
     """Reads the places beside each side of one box at a time."""
-    _require(table, camera, border, beside, occluder_margin, share)
+    _require(table, camera, cut)
+    border, beside, occluder_margin, share = cut
     height, width = depth.shape
     sides = np.zeros((len(table), 4), np.bool_)
     for i, (x, y, w, h, _, z, _) in enumerate(table):
@@ -44,9 +44,8 @@ def _count_nearer(depth: NDArray[np.float32], x: Floats, y: Floats, limit: float
     return int(np.count_nonzero(has_depth(seen) & (seen.astype(np.float64) < limit)))
 
 
-def _require(
-    table: Floats, camera: Floats, border: int, beside: float, occluder_margin: float, share: float
-) -> None:
+def _require(table: Floats, camera: Floats, cut: Cut) -> None:
+    border, beside, occluder_margin, share = cut
     require_table(table)
     require_camera(camera)
     if border < 0:

@@ -11,17 +11,14 @@ from tricue.reference.base.depth_pixels import require_camera, require_table
 Shares = NDArray[np.float32]
 
 
-def measure_objects(
-    table: Floats,
-    columns: Shares,
-    rows: Shares,
-    cut: NDArray[np.bool_],
-    camera: Floats,
-    plane: Floats,
-    feet: float,
-) -> Floats:
+ObjectTable = tuple[Floats, Shares, Shares, NDArray[np.bool_]]  # table, columns, rows, cut
+Ground = tuple[Floats, float]  # plane, feet
+
+
+def measure_objects(objects: ObjectTable, camera: Floats, ground: Ground) -> Floats:
     """Back-projects the boxes, and extends those that stand on the floor."""
-    _require(table, columns, rows, cut, camera, plane, feet)
+    _require(objects, camera, ground)
+    (table, columns, rows, cut), (plane, _) = objects, ground
     fx, fy, cx, cy = camera
     x, y, w, h, pixels, z, _ = table.T
     width, height = w * z / fx, h * z / fy
@@ -29,7 +26,7 @@ def measure_objects(
     shift_x, shift_y = (_mean_place(shares) * size for shares, size in ((columns, width), (rows, height)))
 
     centers = np.column_stack([center_x, center_y, z])
-    strip = np.where(cut[:, 3], 0.0, _strips_to_floor(centers, height, plane, feet))
+    strip = np.where(cut[:, 3], 0.0, _strips_to_floor(centers, height, ground))
     if plane.any():
         shift_y = _mean_below(centers, height, strip, rows, plane[:3]) - strip / 2
     return np.column_stack(
@@ -37,11 +34,12 @@ def measure_objects(
     )
 
 
-def _strips_to_floor(centers: Floats, height: Floats, plane: Floats, feet: float) -> Floats:
+def _strips_to_floor(centers: Floats, height: Floats, ground: Ground) -> Floats:
     """The lengths from the lower edges down to the floor, at the depths of the centers (C, 3).
 
     0 for an object that doesn't stand on the floor.
     """
+    plane, feet = ground
     strips, up = np.zeros(len(centers)), plane[:3]
     if not plane.any():
         return strips
@@ -83,15 +81,8 @@ def _mean_place(shares: Shares) -> Floats:
     return mean
 
 
-def _require(
-    table: Floats,
-    columns: Shares,
-    rows: Shares,
-    cut: NDArray[np.bool_],
-    camera: Floats,
-    plane: Floats,
-    feet: float,
-) -> None:
+def _require(objects: ObjectTable, camera: Floats, ground: Ground) -> None:
+    (table, columns, rows, cut), (plane, feet) = objects, ground
     require_camera(camera)
     require_table(table)
     for name, each in (("columns", columns), ("rows", rows), ("cut", cut)):

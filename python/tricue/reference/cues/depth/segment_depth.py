@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from tricue.reference.base.arrays import Depth, Floats
 from tricue.reference.cues.depth.changed_depth import changed_depth
-from tricue.reference.cues.depth.cut_sides import cut_sides
+from tricue.reference.cues.depth.cut_sides import Cut, cut_sides
 from tricue.reference.cues.depth.density_extrema import density_extrema
 from tricue.reference.cues.depth.depth_components import depth_components
 from tricue.reference.cues.depth.depth_density import depth_density
@@ -14,7 +14,7 @@ from tricue.reference.cues.depth.depth_edges import depth_edges
 from tricue.reference.cues.depth.depth_histogram import depth_histogram
 from tricue.reference.cues.depth.divide_depth import divide_depth
 from tricue.reference.cues.depth.ground_distance import ground_distance
-from tricue.reference.cues.depth.measure_objects import measure_objects
+from tricue.reference.cues.depth.measure_objects import Ground, measure_objects
 
 Region = tuple[int, int, int, int]
 BINS = 16  # of an object's distributions over columns and rows
@@ -25,16 +25,16 @@ def segment_depth(
     depth: Depth,
     searched: tuple[Region, Depth, float, float],
     camera: Floats,
-    plane: Floats,
+    ground: Ground,
     measured: Region,
     divisions: tuple[tuple[float, float, int], float, float, float, float, int],
-    cut: tuple[int, float, float, float],
-    feet: float,
+    cut: Cut,
 ) -> tuple[Floats, NDArray[np.bool_], Depth, Depth]:
     """Calls one twin after the other."""
     region, before, noise, noise_slope = searched
+    up = ground[0][:3]
     (near, far, count), gap, slope, bandwidth, prominence, min_area = divisions
-    distance = ground_distance(depth, camera, plane[:3], near, far) if plane[:3].any() else depth
+    distance = ground_distance(depth, camera, up, near, far) if up.any() else depth
     mask = 1 - depth_edges(distance, gap, slope)
     if before.shape == (0, 0):
         before = np.full_like(depth, np.nan)  # everything differs from NaN
@@ -44,8 +44,8 @@ def segment_depth(
     dividers = _dividers(counts, near, far, bandwidth, prominence)
     labels = divide_depth(distance, mask, dividers)
     table, _, columns, rows, _ = depth_components(labels, depth, near, far, 0, BINS, min_area, False)
-    sides = cut_sides(depth, table, camera, *cut) | _at_edge(table, measured, cut[0])
-    return measure_objects(table, columns, rows, sides, camera, plane, feet), sides, columns, rows
+    sides = cut_sides(depth, table, camera, cut) | _at_edge(table, measured, cut[0])
+    return measure_objects((table, columns, rows, sides), camera, ground), sides, columns, rows
 
 
 def _inside(region: Region, depth: Depth) -> NDArray[np.bool_]:
