@@ -10,8 +10,8 @@ namespace tricue {
 
 /// How far from the middle a peak is searched for, and the penalty on peaks that are farther off.
 struct ShiftRange {
-    int most_right;  ///< columns either way, at least 0
-    int most_down;   ///< rows either way, at least 0
+    int max_right;   ///< columns to either side of column C // 2, all of which have to exist
+    int max_down;    ///< rows to either side of row R // 2, likewise
     double penalty;  ///< on a response, per squared column, finite
 };
 
@@ -33,8 +33,6 @@ struct Shift {
 /// @param places int64 (2R, 2C): as pick_pixels takes them
 /// @param taper float32 (R, C)
 /// @param filter complex64 (1, 19, R, C // 2 + 1)
-/// @param most_right, most_down cells to either side of column C // 2 and row R // 2, all of which have to exist
-/// @param penalty finite
 /// @returns right columns to the right
 /// @returns response of the filter, in the cell of the peak
 /// @throws std::invalid_argument on other shapes, or numbers out of range

@@ -57,14 +57,14 @@ std::tuple<Array<double>, Floating> localize_target_arrays(
 
 std::tuple<double, double> log_polar_shift_arrays(const Bytes& patch, const Array<std::int64_t>& places,
                                                   const Floating& taper, const Complex& filter,
-                                                  int most_right, int most_down, double penalty) {
+                                                  const Tuple<int, int, double>& range) {
     const auto view = color_image(patch, "patch");
     const auto pixels = pixel_places(places);
     const auto weights = plane(taper, "taper", kTaper);
     const auto model = filter_stack(filter, "filter");
-    const Shift shift = unlocked(work(view), [&] {
-        return log_polar_shift(view, pixels, weights, model, {most_right, most_down, penalty});
-    });
+    const auto near = unpack_as<ShiftRange>(range, "range");
+    const Shift shift =
+        unlocked(work(view), [&] { return log_polar_shift(view, pixels, weights, model, near); });
     return {shift.right, shift.response};
 }
 
@@ -134,8 +134,7 @@ void define_target(py::module_& m) {
     m.def("localize_target", localize_target_arrays, py::arg("patch"), py::arg("taper"),
           py::arg("appearance"), py::arg("other"), py::arg("search"), docs::localize_target);
     m.def("log_polar_shift", log_polar_shift_arrays, py::arg("patch"), py::arg("places"), py::arg("taper"),
-          py::arg("filter"), py::arg("most_right"), py::arg("most_down"), py::arg("penalty"),
-          docs::log_polar_shift);
+          py::arg("filter"), py::arg("range"), docs::log_polar_shift);
     m.def("learn_place_filter", learn_place_filter_arrays, py::arg("patch"), py::arg("taper"),
           py::arg("mask"), py::arg("label"), py::arg("previous"), py::arg("first"),
           py::arg("temporal_weight"), py::arg("penalty"), py::arg("first_weight"), docs::learn_place_filter);

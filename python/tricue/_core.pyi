@@ -1969,9 +1969,7 @@ def log_polar_shift(
     places: numpy.typing.NDArray[numpy.int64],
     taper: numpy.typing.NDArray[numpy.float32],
     filter: numpy.typing.NDArray[numpy.complex64],
-    most_right: int,
-    most_down: int,
-    penalty: float,
+    range: tuple[int, int, float],
 ) -> tuple[float, float]:
     """
     The shift of a patch to the right in other coordinates, in cells: in log-polar ones the logarithm of
@@ -1989,9 +1987,10 @@ def log_polar_shift(
         places: int64 (2R, 2C): as pick_pixels takes them
         taper: float32 (R, C)
         filter: complex64 (1, 19, R, C // 2 + 1)
-        most_right, most_down: cells to either side of column C // 2 and row R // 2, all of which have
-            to exist
-        penalty: finite
+        range: a tuple (max_right, max_down, penalty):
+            - max_right: columns to either side of column C // 2, all of which have to exist
+            - max_down: rows to either side of row R // 2, likewise
+            - penalty: on a response, per squared column, finite
 
     Returns:
         right: columns to the right
@@ -4122,9 +4121,7 @@ class Kernels(Protocol):
         places: numpy.typing.NDArray[numpy.int64],
         taper: numpy.typing.NDArray[numpy.float32],
         filter: numpy.typing.NDArray[numpy.complex64],
-        most_right: int,
-        most_down: int,
-        penalty: float,
+        range: tuple[int, int, float],
     ) -> tuple[float, float]: ...
     def match_object(
         self,

@@ -10,6 +10,8 @@ from tricue import _core, reference
 from tricue.kernels import Kernels
 from tricue.reference.fuse.log_polar_shift import gaussian_peak_offset
 
+from tests.kernel_arguments import Place, with_argument
+
 TAPER = np.ones((32, 32), np.float32)
 PLACES = np.arange(64 * 64).reshape(64, 64)  # each pixel its own: a shift is one in the patch
 RANGE = 2, 1, 0.05
@@ -39,7 +41,7 @@ def test_native_is_the_twin(seed: int) -> None:
     places = rng.permutation(64 * 64).reshape(64, 64)
     spectra = np.ascontiguousarray(np.fft.rfft2(rng.uniform(-1, 1, (1, 19, 32, 32))), np.complex64)
     for near in ((2, 1, 0.05), (15, 15, 0.0), (0, 0, 1.0), (3, 0, -0.2)):
-        arguments = noise(seed), places, TAPER, spectra, *near
+        arguments = noise(seed), places, TAPER, spectra, near
         assert _core.log_polar_shift(*arguments) == pytest.approx(
             reference.log_polar_shift(*arguments), abs=1e-3
         )
@@ -50,7 +52,7 @@ def test_finds_a_shift(kernels: Kernels, shift: int) -> None:
     """A patch moved by whole cells is found moved by as many, as the filter answers with a Gaussian."""
     patch = noise(3)
     moved = np.roll(patch, 2 * shift, axis=1)
-    found, response = kernels.log_polar_shift(moved, PLACES, TAPER, filter_for(patch), 2, 1, 0.0)
+    found, response = kernels.log_polar_shift(moved, PLACES, TAPER, filter_for(patch), (2, 1, 0.0))
     # Orientations at the left and right border, where gradients aren't those of a rolled patch, add a little.
     assert found == pytest.approx(shift, abs=0.05)
     assert response == pytest.approx(1.0, abs=0.1)
@@ -74,32 +76,32 @@ def test_range_and_penalty(kernels: Kernels) -> None:
     """A shift beyond the range isn't found, nor one whose penalty is above its response."""
     patch = noise(4)
     moved, own = np.roll(patch, 4, axis=1), filter_for(patch)
-    assert kernels.log_polar_shift(moved, PLACES, TAPER, own, 2, 1, 0.0)[0] == 2  # at the end: no neighbor
-    assert abs(kernels.log_polar_shift(moved, PLACES, TAPER, own, 1, 1, 0.0)[0]) <= 1
-    assert abs(kernels.log_polar_shift(moved, PLACES, TAPER, own, 2, 1, 10.0)[0]) <= 0.5
+    assert kernels.log_polar_shift(moved, PLACES, TAPER, own, (2, 1, 0.0))[0] == 2  # at the end: no neighbor
+    assert abs(kernels.log_polar_shift(moved, PLACES, TAPER, own, (1, 1, 0.0))[0]) <= 1
+    assert abs(kernels.log_polar_shift(moved, PLACES, TAPER, own, (2, 1, 10.0))[0]) <= 0.5
 
 
 def test_a_penalty_that_is_infinite_in_float32_keeps_the_middle(kernels: Kernels) -> None:
     """It excludes all columns but the middle one, whose penalty is 0."""
     patch = noise(4)
     moved, own = np.roll(patch, 2, axis=1), filter_for(patch)
-    found = kernels.log_polar_shift(moved, PLACES, TAPER, own, 2, 1, 1e39)
-    assert found == kernels.log_polar_shift(moved, PLACES, TAPER, own, 2, 1, 1e30)
+    found = kernels.log_polar_shift(moved, PLACES, TAPER, own, (2, 1, 1e39))
+    assert found == kernels.log_polar_shift(moved, PLACES, TAPER, own, (2, 1, 1e30))
 
 
 @pytest.mark.parametrize(
-    ("index", "value", "message"),
+    ("place", "value", "message"),
     [
         (3, np.zeros((2, 19, 32, 17), np.complex64), "filter: expected one filter, got 2"),
-        (4, 16, "most_right: expected 0 to 15, got 16"),
-        (5, -1, "most_down: expected 0 to 15, got -1"),
-        (6, np.inf, "penalty: expected a finite number, got inf"),
+        ((4, 0), 16, "max_right: expected 0 to 15, got 16"),
+        ((4, 1), -1, "max_down: expected 0 to 15, got -1"),
+        ((4, 2), np.inf, "penalty: expected a finite number, got inf"),
         (1, np.full((64, 64), 4096), "places: expected 0 to 4095"),
     ],
 )
-def test_refuses(kernels: Kernels, index: int, value: Any, message: str) -> None:
+def test_refuses(kernels: Kernels, place: Place, value: Any, message: str) -> None:
     """Wrong shapes and values are named."""
-    arguments: list[Any] = [noise(0), PLACES, TAPER, np.zeros((1, 19, 32, 17), np.complex64), *RANGE]
-    arguments[index] = value
+    usual = [noise(0), PLACES, TAPER, np.zeros((1, 19, 32, 17), np.complex64), RANGE]
+    arguments = with_argument(usual, place, value)
     with pytest.raises(ValueError, match=message):
         kernels.log_polar_shift(*arguments)

@@ -22,25 +22,24 @@ def log_polar_shift(
     places: NDArray[np.int64],
     taper: Plane,
     filter: NDArray[np.complex64],  # noqa: A002
-    most_right: int,
-    most_down: int,
-    penalty: float,
+    range: tuple[int, int, float],  # noqa: A002
 ) -> tuple[float, float]:
     """Calls the twins of its parts, and finds the peak around the middle."""
-    require_count("most_right", most_right, 0, (taper.shape[1] - 1) // 2)
-    require_count("most_down", most_down, 0, (len(taper) - 1) // 2)
+    max_right, max_down, penalty = range
+    require_count("max_right", max_right, 0, (taper.shape[1] - 1) // 2)
+    require_count("max_down", max_down, 0, (len(taper) - 1) // 2)
     if not math.isfinite(penalty):
         refuse("penalty", "a finite number", penalty)
     if len(filter) != 1:
         refuse("filter", "one filter", len(filter))
     response = correlation_response(hog_color_cells(pick_pixels(patch, places), taper), filter)[0]
     row, column = len(response) // 2, response.shape[1] // 2
-    near = response[row - most_down : row + most_down + 1, column - most_right : column + most_right + 1]
-    squares = np.arange(-most_right, most_right + 1, dtype=np.float32) ** 2
+    near = response[row - max_down : row + max_down + 1, column - max_right : column + max_right + 1]
+    squares = np.arange(-max_right, max_right + 1, dtype=np.float32) ** 2
     with np.errstate(over="ignore"):
         evidence = near - np.float32(np.clip(penalty, -MAX_PENALTY, MAX_PENALTY)) * squares
     row, column = divmod(int(evidence.argmax()), near.shape[1])
-    return column - most_right + gaussian_peak_offset(near[row], column), float(near[row, column])
+    return column - max_right + gaussian_peak_offset(near[row], column), float(near[row, column])
 
 
 def gaussian_peak_offset(values: Plane, index: int) -> float:

@@ -30,7 +30,7 @@ FilterParts = tuple[Spectra, Plane]  # numerator and denominator
 
 INNER_RADIUS, OUTER_RADIUS = 0.3, 2.5  # of the log-polar patch, in halves of the box's sides
 LABEL_WIDTH = 0.7  # cells
-FARTHEST = 2, 1  # cells to the right and down, between consecutive frames
+MAX_SHIFT = 2, 1  # cells to the right and down, between consecutive frames
 STEPS_PER_CELL = TURN_STEPS // WINDOW_CELLS
 LOG_PER_CELL = CELL_PIXELS * math.log(OUTER_RADIUS / INNER_RADIUS) / PATCH_PIXELS
 
@@ -120,7 +120,7 @@ class LogPolarExpert(ABC, Generic[P]):
     def _shift(self, observation: PictureObservation, target: Target) -> tuple[float, float]:
         """Cells by which what is at a target's place has shifted to the right, and the response to that."""
         patch, penalty = self._read(observation, target), self.params.size_change_penalty
-        return observation.k.log_polar_shift(*patch, self.filter.applied, *FARTHEST, penalty)
+        return observation.k.log_polar_shift(*patch, self.filter.applied, (*MAX_SHIFT, penalty))
 
     @staticmethod
     @abstractmethod
