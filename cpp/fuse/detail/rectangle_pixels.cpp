@@ -28,4 +28,14 @@ Region rectangle_pixels(const Rectangle& rectangle, int rows, int cols, const ch
             std::max(y0, first_pixel_from(rectangle.y1, rows))};
 }
 
+std::vector<Region> rectangle_pixels(StatesRef rectangles, int rows, int cols, const char* name) {
+    require_shape(rectangles, rectangles.rows(), 4, name);
+    std::vector<Region> regions;
+    for (Eigen::Index i = 0; i < rectangles.rows(); ++i) {
+        const auto each = rectangles.row(i);
+        regions.push_back(rectangle_pixels({each[0], each[1], each[2], each[3]}, rows, cols, name));
+    }
+    return regions;
+}
+
 }  // namespace tricue
