@@ -7,7 +7,7 @@
 namespace tricue {
 namespace {
 
-constexpr float kLeastSum = 1e-9F;  // so that contradictory posteriors, 0 and 1, give a finite result
+constexpr float kMinSum = 1e-9F;  // so that contradictory posteriors, 0 and 1, give a finite result
 
 TRICUE_MULTIVERSION
 void combine_row(const float* __restrict first, const float* __restrict second, int n,
@@ -15,7 +15,7 @@ void combine_row(const float* __restrict first, const float* __restrict second, 
     for (int i = 0; i < n; ++i) {
         const float target = first[i] * second[i], rest = (1.0F - first[i]) * (1.0F - second[i]);
         const float sum = rest + target;
-        combined[i] = target / (sum > kLeastSum ? sum : kLeastSum);
+        combined[i] = target / (sum > kMinSum ? sum : kMinSum);
     }
 }
 

@@ -107,11 +107,11 @@ Eigen::Map<const States> sampling(const StackView<double>& noise, int plane) {
 
 States draw_around(VectorRef mean, const Refinement& refinement, double nearest, StatesRef noise) {
     constexpr double kAny = -std::numeric_limits<double>::infinity();
-    const double least[kNumbers] = {kAny, kAny, nearest, refinement.least, refinement.least};
+    const double lower[kNumbers] = {kAny, kAny, nearest, refinement.min_size, refinement.min_size};
     States close(noise.rows(), noise.cols());
     for (Index i = 0; i < close.rows(); ++i)
         for (Index d = 0; d < kNumbers; ++d)
-            close(i, d) = std::max(mean[d] + refinement.scale[d] * noise(i, d), least[d]);
+            close(i, d) = std::max(mean[d] + refinement.scale[d] * noise(i, d), lower[d]);
     return close;
 }
 
@@ -128,7 +128,7 @@ void require_arguments(const WeightedRectangles& before, const StackView<double>
     require_size(refinement.scale, kNumbers, "scale");
     require_finite(refinement.scale, "scale");
     if (!(refinement.scale >= 0.0).all()) refuse("scale", "no negative number", refinement.scale.minCoeff());
-    require_positive(refinement.least, "least");
+    require_positive(refinement.min_size, "min_size");
     require_not_negative(likelihood.middle, "middle");
     if (!std::isfinite(likelihood.sharpness)) refuse("sharpness", "a finite number", likelihood.sharpness);
     if (!std::isfinite(likelihood.contrast)) refuse("contrast", "a finite number", likelihood.contrast);

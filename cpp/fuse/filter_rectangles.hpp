@@ -21,7 +21,7 @@ struct WeightedRectangles {
 /// How the second sampling is drawn.
 struct Refinement {
     VectorRef scale;  ///< float64 (5,), none negative
-    double least;     ///< of W and H, meters, above 0
+    double min_size;  ///< of W and H, meters, above 0
 };
 
 /// How the depths in and around a rectangle give its likelihood.
@@ -57,7 +57,7 @@ struct FilteredRectangles {
 /// resample, propose, depth_contrast, rectangle_prior, reweight and summarize.
 ///
 /// A second sampling is drawn around the mean of the first: x = mean + scale * noise, Z at least its lower bound, W and H at least
-/// `least`; its weights are the likelihoods. The log-likelihood is l(d) + contrast (inside - around) + rectangle_prior, where d,
+/// `min_size`; its weights are the likelihoods. The log-likelihood is l(d) + contrast (inside - around) + rectangle_prior, where d,
 /// inside and around are those of depth_contrast, and l(d) is -sharpness d², or log(max(1 - d, 1e-12)) where `linear`.
 ///
 /// @param depth float32 (H, W), meters

@@ -13,7 +13,7 @@
 namespace tricue {
 namespace {
 
-constexpr double kLeastMean = 1e-12;  // lower bound of a denominator's mean
+constexpr double kMinMean = 1e-12;  // lower bound of a denominator's mean
 
 TRICUE_MULTIVERSION
 void invert(float ridge, std::ptrdiff_t n, float* __restrict denominator) {
@@ -35,7 +35,7 @@ Floats find_factors(const Floats& learned, FloatsRef first, float share, double 
     blend_filters(learned.data(), first.data(), share, learned.size(), factors.data());
     double sum = 0.0;
     for (Eigen::Index i = 0; i < factors.size(); ++i) sum += factors.data()[i];
-    const double mean = std::max(sum / static_cast<double>(factors.size()), kLeastMean);
+    const double mean = std::max(sum / static_cast<double>(factors.size()), kMinMean);
     invert(static_cast<float>(ridge * mean), factors.size(), factors.data());
     return factors;
 }

@@ -21,7 +21,7 @@
 namespace tricue {
 namespace {
 
-constexpr double kLeastDeviation = 1e-6;  // for a response that is the same everywhere
+constexpr double kMinDeviation = 1e-6;  // for a response that is the same everywhere
 
 /// Pixels from `first` to before `end`.
 struct Span {
@@ -62,14 +62,14 @@ double peak_sharpness(const float* response, Eigen::Index count, double peak) {
         energy += each * each;
     }
     const double mean = total / static_cast<double>(count), power = energy / static_cast<double>(count);
-    return (peak - mean) / std::max(std::sqrt(std::max(power - mean * mean, 0.0)), kLeastDeviation);
+    return (peak - mean) / std::max(std::sqrt(std::max(power - mean * mean, 0.0)), kMinDeviation);
 }
 
 Span find_span(double center, double length, int size) {
-    const double last = size - 1.0, most = size;
+    const double last = size - 1.0, end = size;
     const double first = std::min(std::max(std::nearbyint(center - length / 2), 0.0), last);
     return {static_cast<int>(first),
-            static_cast<int>(std::max(std::min(std::nearbyint(center + length / 2), most), first + 1))};
+            static_cast<int>(std::max(std::min(std::nearbyint(center + length / 2), end), first + 1))};
 }
 
 int bits_of(VectorRef roots) {

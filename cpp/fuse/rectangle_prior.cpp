@@ -58,12 +58,13 @@ void add_squares(const double* __restrict x, std::ptrdiff_t n, double middle, do
 
 /// One column of the states after the other, so that all of them are computed at once.
 Vector log_sizes(StatesRef states, const MeanSize& mean_size) {
-    constexpr double kLeast = std::numeric_limits<double>::min(), kMost = std::numeric_limits<double>::max();
+    constexpr double kMinNormal = std::numeric_limits<double>::min(),
+                     kMaxFinite = std::numeric_limits<double>::max();
     const Index n = states.rows(), first = states.cols() - 2;
     Vector sums = Vector::Zero(n), relative(n);
     for (Index i = 0; i < 2; ++i) {
         relative = states.col(first + i) / mean_size.size[i];
-        if ((relative >= kLeast && relative <= kMost).all())
+        if ((relative >= kMinNormal && relative <= kMaxFinite).all())
             take_logs(relative.data(), n);
         else
             for (double& each : relative) each = std::log(each);

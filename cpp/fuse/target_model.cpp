@@ -18,7 +18,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr double kLeastSum = 1e-300;  // keeps a density of zeros from a division by 0
+constexpr double kMinSum = 1e-300;  // keeps a density of zeros from a division by 0
 
 ValueRange range_of(const ExpectedPeak& peak, int bins) {
     return {peak.value - peak.half_range, peak.value + peak.half_range, bins};
@@ -100,7 +100,7 @@ Vector blended(const Vector& density, const double* before, double shift, double
         }
         both[i] = memory * moved + (1.0 - memory) * density[i];
     }
-    return both / std::max(both.sum(), kLeastSum);
+    return both / std::max(both.sum(), kMinSum);
 }
 
 /// A Gaussian of sum 1, cut off at ceil(3 deviation) bins.
@@ -118,8 +118,8 @@ Vector gaussian_of(double deviation) {
 TRICUE_MULTIVERSION
 void smooth_by(const double* __restrict gaussian, std::ptrdiff_t radius, const double* __restrict histogram,
                std::ptrdiff_t bins, double* __restrict smooth) {
-    const std::ptrdiff_t most = std::min(radius, bins - 1);
-    for (std::ptrdiff_t j = -most; j <= most; ++j) {
+    const std::ptrdiff_t reach = std::min(radius, bins - 1);
+    for (std::ptrdiff_t j = -reach; j <= reach; ++j) {
         const double share = gaussian[radius - j];
         const std::ptrdiff_t begin = std::max(-j, std::ptrdiff_t{0}), end = std::min(bins - j, bins);
         for (std::ptrdiff_t i = begin; i < end; ++i) smooth[i] += histogram[i + j] * share;

@@ -60,8 +60,8 @@ std::tuple<Doubles, Doubles, Doubles, Doubles, Doubles, Doubles> filter_rectangl
     const Dynamics moves = dynamics_of(dynamics);
     const Bounds limits = bounds_of(bounds);
     const Detection seen = detection_of(detection);
-    const auto [close_scale, least] = unpack(refinement, "refinement");
-    const Refinement closer{vector(close_scale, "scale"), least};
+    const auto [close_scale, min_size] = unpack(refinement, "refinement");
+    const Refinement closer{vector(close_scale, "scale"), min_size};
     const DepthLikelihood by = depth_likelihood(likelihood);
     const auto [mean_size, measured] = unpack(prior, "prior");
     const RectanglePrior known{mean_size_of(mean_size), measured_state(measured)};

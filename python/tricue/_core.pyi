@@ -1140,8 +1140,8 @@ def filter_rectangles(
     of a depth camera, by resample, propose, depth_contrast, rectangle_prior, reweight and summarize.
 
     A second sampling is drawn around the mean of the first: x = mean + scale * noise, Z at least its
-    lower bound, W and H at least `least`; its weights are the likelihoods. The log-likelihood is l(d) +
-    contrast (inside - around) + rectangle_prior, where d, inside and around are those of
+    lower bound, W and H at least `min_size`; its weights are the likelihoods. The log-likelihood is
+    l(d) + contrast (inside - around) + rectangle_prior, where d, inside and around are those of
     depth_contrast, and l(d) is -sharpness d², or log(max(1 - d, 1e-12)) where `linear`.
 
     Args:
@@ -1165,9 +1165,9 @@ def filter_rectangles(
               numbers above the diagonal are not read
             - share: share of the particles that is drawn from it, in [0, 1); at 0 mean and root are not
               read
-        refinement: a tuple (scale, least):
+        refinement: a tuple (scale, min_size):
             - scale: float64 (5,), none negative
-            - least: of W and H, meters, above 0
+            - min_size: of W and H, meters, above 0
         likelihood: a tuple (model, middle, span, places, reach, occluder_margin, linear, sharpness,
             contrast):
             - model: float64 (L,): histogram of depth, of sum 1, or all 0, none negative

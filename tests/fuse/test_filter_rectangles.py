@@ -110,9 +110,9 @@ def test_is_what_its_stages_are() -> None:
     first = _core.propose(previous, dynamics, arguments["noise"][0], detection, arguments["bounds"])
     weights, _ = _core.reweight(log_likelihood(first), first, previous, dynamics, detection)
     mean, *_ = _core.summarize(first, weights)
-    spread, least = arguments["refinement"]
+    spread, min_size = arguments["refinement"]
     close = mean + spread * arguments["noise"][1]
-    np.maximum(close[:, 3:], least, out=close[:, 3:])
+    np.maximum(close[:, 3:], min_size, out=close[:, 3:])
     weights, _ = _core.reweight(
         log_likelihood(close), close, close, (dynamics[0], spread), (*detection[:2], 0.0)
     )
@@ -183,7 +183,7 @@ def test_nothing_in_sight(kernels: Kernels) -> None:
         ({"noise": np.full((1, 40, 5), np.inf)}, "noise: expected finite numbers, got inf"),
         ({"refinement": (np.ones(4), 0.1)}, r"scale: expected shape \(5,\), got \(4,\)"),
         ({"refinement": (-np.ones(5), 0.1)}, "scale: expected no negative number, got -1"),
-        ({"refinement": (np.ones(5), 0.0)}, "least: expected a finite number above 0, got 0"),
+        ({"refinement": (np.ones(5), 0.0)}, "min_size: expected a finite number above 0, got 0"),
         ({"middle": -1.0}, "middle: expected a finite number, not negative, got -1"),
         ({"span": 0.0}, "reach: expected a finite number above 0, got 0"),
         ({"reach": -1.0}, "reach: expected a finite number above 0, got -1"),

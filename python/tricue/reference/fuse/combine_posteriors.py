@@ -6,7 +6,7 @@ import numpy as np
 from tricue.reference.base.arrays import Plane
 from tricue.reference.base.checks import refuse
 
-LEAST_SUM = np.float32(1e-9)  # so that contradictory posteriors, 0 and 1, give a finite result
+MIN_SUM = np.float32(1e-9)  # so that contradictory posteriors, 0 and 1, give a finite result
 
 
 def combine_posteriors(first: Plane, second: Plane) -> Plane:
@@ -14,5 +14,5 @@ def combine_posteriors(first: Plane, second: Plane) -> Plane:
     if second.shape != first.shape:
         refuse("second", f"shape {first.shape}", second.shape)
     target, rest = first * second, (1 - first) * (1 - second)
-    combined: Plane = target / np.maximum(rest + target, LEAST_SUM)
+    combined: Plane = target / np.maximum(rest + target, MIN_SUM)
     return combined

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from tricue.reference.base.arrays import Floats
 from tricue.reference.base.checks import Detection, Dynamics, refuse, require_finite, require_shape
-from tricue.reference.cues.depth.depth_contrast import RectanglePattern, depth_contrast
+from tricue.reference.cues.depth.depth_contrast import RectanglePattern, depth_contrast, grid_pattern
 from tricue.reference.cues.depth.depth_distance import depth_distance
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
 from tricue.reference.fuse.propose import propose
@@ -83,7 +83,7 @@ class _View(NamedTuple):
         model = by.model if is_one_range else np.zeros(1), by.reach
         seen = depth_contrast(self.depth, self.camera, states, model, by.places, by.occluder_margin)
         if not is_one_range:
-            rectangles, places = self._in_pixels(states), _grid(*by.places[:2])
+            rectangles, places = self._in_pixels(states), grid_pattern(*by.places[:2])
             model = by.model, by.span
             each = depth_distance(self.depth, rectangles, model, places, by.occluder_margin)
             seen[:, 0] = each[:, 0]
@@ -101,7 +101,9 @@ class _View(NamedTuple):
     def histogram(self, state: Floats) -> Floats:
         """(L,) histogram of the depths inside one rectangle."""
         by, rectangle = self.by, self._in_pixels(state[None])[0]
-        return rectangle_histogram(self.depth, rectangle, len(by.model), _grid(*by.places[:2]), by.span)
+        return rectangle_histogram(
+            self.depth, rectangle, len(by.model), grid_pattern(*by.places[:2]), by.span
+        )
 
     def _in_pixels(self, states: Floats) -> Floats:
         """(N, 5): center x, y, width, height, pixels, and the depth to which the model is relative."""
@@ -113,10 +115,10 @@ class _View(NamedTuple):
         )
 
 
-def _draw_around(mean: Floats, scale: Floats, least: float, nearest: float, noise: Floats) -> Floats:
+def _draw_around(mean: Floats, scale: Floats, min_size: float, nearest: float, noise: Floats) -> Floats:
     states = mean + scale * noise
     states[:, 2] = np.maximum(states[:, 2], nearest)
-    states[:, 3:] = np.maximum(states[:, 3:], least)
+    states[:, 3:] = np.maximum(states[:, 3:], min_size)
     return states
 
 
@@ -125,12 +127,6 @@ def _normalized(log_weights: Floats) -> Floats:
     states = np.zeros((len(log_weights), 1))
     one = np.ones(1)
     return reweight(log_weights, states, states, (one, one), (one, np.eye(1), 0.0))[0]
-
-
-def _grid(rows: int, columns: int) -> Floats:
-    middles = [(2 * np.arange(n) + 1) / n - 1 for n in (rows, columns)]
-    v, u = np.meshgrid(*middles, indexing="ij")
-    return np.column_stack([u.ravel(), v.ravel()])
 
 
 def _require(
@@ -144,13 +140,13 @@ def _require(
     for each in noise:
         require_shape("noise", each, (len(particles), NUMBERS))
         require_finite("noise", each)
-    scale, least = refinement
+    scale, min_size = refinement
     require_shape("scale", scale, (NUMBERS,))
     require_finite("scale", scale)
     if np.any(scale < 0):
         refuse("scale", "no negative number", float(scale.min()))
-    if not 0 < least < np.inf:
-        refuse("least", "a finite number above 0", float(least))
+    if not 0 < min_size < np.inf:
+        refuse("min_size", "a finite number above 0", float(min_size))
     if not 0 <= by.middle < np.inf:
         refuse("middle", "a finite number, not negative", float(by.middle))
     for name, number in (("sharpness", by.sharpness), ("contrast", by.contrast)):

@@ -29,7 +29,7 @@ def depth_contrast(
     only_shares = np.zeros(1), model[1]
     with np.errstate(over="ignore", invalid="ignore"):
         rectangles = _seen_by(camera, states)
-        inside = depth_distance(depth, rectangles, model, _grid(rows, columns), occluder_margin)
+        inside = depth_distance(depth, rectangles, model, grid_pattern(rows, columns), occluder_margin)
         around = depth_distance(depth, rectangles, only_shares, _ring(margin, along), occluder_margin)
     return np.column_stack([inside, around[:, 1]])
 
@@ -49,7 +49,8 @@ def _middles(n: int) -> Floats:
     return (2 * np.arange(n) + 1) / n - 1
 
 
-def _grid(rows: int, columns: int) -> Floats:
+def grid_pattern(rows: int, columns: int) -> Floats:
+    """(rows x columns, 2): the middles of equal parts of [-1, 1] x [-1, 1], row by row."""
     v, u = np.meshgrid(_middles(rows), _middles(columns), indexing="ij")
     return np.column_stack([u.ravel(), v.ravel()])
 
