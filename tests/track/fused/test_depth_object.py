@@ -9,12 +9,12 @@ import pytest
 from tricue import Box, Frame, FusedTracker, Intrinsics, Status, Track
 from tricue import kernels as kernel_sets
 from tricue.track.fused.depth_object import (
-    INTERVAL,
     MAX_DEPTH_OFFSET,
     MAX_GROWTH,
     MAX_GROWTH_OF_PART,
     MIN_FIRST_IOU,
     MIN_SIDE,
+    SEARCH_INTERVAL,
     DepthObject,
     _share_inside,
     find_objects,
@@ -60,7 +60,7 @@ def first(rectangle: Rectangle = PERSON, box: Rectangle | None = None) -> DepthO
 def look(known: DepthObject, *things: tuple[Rectangle, float], own: Rectangle = PERSON) -> DepthObject:
     """Looked for around the target's own box."""
     target = target_of(own)
-    return known.look(observe(depth_of(*things)), target, target.box, Z)
+    return known.search(observe(depth_of(*things)), target, target.box, Z)
 
 
 def near(box: Box, rectangle: Rectangle) -> bool:
@@ -182,9 +182,9 @@ class TestOutgrown:
 
 def test_the_interval_between_two_looks():
     """It is over after some frames."""
-    known = first().wait(0.6 * INTERVAL)
+    known = first().wait(0.6 * SEARCH_INTERVAL)
     assert not known.is_due
-    assert known.wait(0.4 * INTERVAL).is_due
+    assert known.wait(0.4 * SEARCH_INTERVAL).is_due
 
 
 def test_find_objects_around_a_box_finds_only_those():
@@ -229,7 +229,9 @@ def frame(rectangle: Rectangle, seconds: float, z: float = Z, depth: bool = True
 
 def follow(tracker: FusedTracker, rectangles: list[Rectangle], **changes: object) -> list[Track]:
     """From the second on, each frame when the object is looked for again."""
-    return [tracker.update(frame(each, INTERVAL * (i + 1), **changes)) for i, each in enumerate(rectangles)]
+    return [
+        tracker.update(frame(each, SEARCH_INTERVAL * (i + 1), **changes)) for i, each in enumerate(rectangles)
+    ]
 
 
 def started(rectangle: Rectangle = PERSON) -> FusedTracker:
@@ -262,7 +264,7 @@ class TestTracker:
         tracks = follow(tracker, 3 * [PERSON], depth=False)
         assert all(near(track.box, PERSON) for track in tracks)
         wide = (122, 60, 188, 200)
-        track = tracker.update(frame(wide, 4 * INTERVAL))
+        track = tracker.update(frame(wide, 4 * SEARCH_INTERVAL))
         assert near(track.box, wide)
 
     def test_depth_that_the_camera_repeats(self):
@@ -271,7 +273,7 @@ class TestTracker:
         old = depth_of((PERSON, Z))
         moving = [(130 + 4 * i, 60, 180 + 4 * i, 200) for i in range(1, 6)]
         tracks = [
-            tracker.update(replace(frame(each, INTERVAL * (i + 1)), depth=old))
+            tracker.update(replace(frame(each, SEARCH_INTERVAL * (i + 1)), depth=old))
             for i, each in enumerate(moving)
         ]
         assert tracks[-1].box.iou(Box.from_xyxy(*moving[-1])) > 0.8
@@ -279,7 +281,7 @@ class TestTracker:
     @pytest.mark.parametrize("timed", [False, True])
     def test_frames_without_times_are_all_looked_at(self, timed):
         tracker = started()
-        wide = frame((130, 60, 190, 200), INTERVAL / 2)
+        wide = frame((130, 60, 190, 200), SEARCH_INTERVAL / 2)
         track = tracker.update(wide if timed else replace(wide, timestamp=None))
         assert near(track.box, PERSON if timed else (130, 60, 190, 200))
 
@@ -295,5 +297,5 @@ class TestTracker:
         tracker = started()
         follow(tracker, [PERSON])
         copy = pickle.loads(pickle.dumps(tracker))
-        last = frame((124, 60, 186, 200), 2 * INTERVAL)
+        last = frame((124, 60, 186, 200), 2 * SEARCH_INTERVAL)
         assert tracker.update(last).box == copy.update(last).box

@@ -68,7 +68,7 @@ def test_appearance_is_learned_ten_times_a_second(patrol, rate, every):
     learned = [0]
     for frame in shown[1:]:
         tracker.update(frame)
-        learned.append(tracker._state.learnings)
+        learned.append(tracker._state.appearance_updates)
     assert learned == [index // every for index in range(13)]
 
 
@@ -80,7 +80,7 @@ def test_unsteady_times_make_no_difference(patrol):
     tracker.init(Frame(frames[0].color, timestamp=0.0), boxes[0])
     for index, frame in enumerate(frames[1:], 1):
         tracker.update(Frame(frame.color, timestamp=(index + errors[index]) / 30))
-    assert tracker._state.learnings == (len(frames) - 1) // 3
+    assert tracker._state.appearance_updates == (len(frames) - 1) // 3
 
 
 @pytest.mark.parametrize("rate", [0.0, 0.025, 0.5])

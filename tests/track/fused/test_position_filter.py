@@ -146,7 +146,8 @@ def test_a_place_in_the_picture_tells_no_depth(kernels):
     for index in range(1, 31):
         estimate = before = estimate.predict(kernels, SECONDS, P)
         column, row = camera.project([0.4 + 0.03 * index, -0.2, 2.0])
-        estimate = before.aim(kernels, Target(float(column) + 0.5, float(row) + 0.5, 20.0, 20.0), camera)
+        target = Target(float(column) + 0.5, float(row) + 0.5, 20.0, 20.0)
+        estimate = before.correct_bearing(kernels, target, camera)
         assert estimate.position[2] == before.position[2] == 2.0
         assert estimate.covariance[2, 2] == before.covariance[2, 2]
     assert estimate.position[:2] == pytest.approx([1.3, -0.2], abs=0.01)

@@ -28,7 +28,7 @@ MAX_GROWTH = 1.5  # of the width or height: a neighbor that merges with the obje
 MAX_GROWTH_OF_PART = 2.0  # the same for an object that was partly hidden
 MIN_RENEWED_GROWTH = 3.0  # of the area, above which the models know too little of the target
 REGION = 2 * MAX_GROWTH_OF_PART  # size of the region searched for the object, relative to the target's box
-INTERVAL = 0.2  # seconds between two searches: each takes half as long as all other steps of an update
+SEARCH_INTERVAL = 0.2  # seconds between two searches: each takes half as long as all other steps of an update
 
 
 class SeenObject(NamedTuple):
@@ -88,7 +88,7 @@ class DepthObject(NamedTuple):
     @property
     def is_due(self) -> bool:
         """Whether it is time for the next search."""
-        return self.seconds >= INTERVAL - ADDED_TIME_ERROR
+        return self.seconds >= SEARCH_INTERVAL - ADDED_TIME_ERROR
 
     @property
     def outgrew_models(self) -> bool:
@@ -104,7 +104,7 @@ class DepthObject(NamedTuple):
         """The object so many seconds later, without a search."""
         return self._replace(seen=None, seconds=self.seconds + seconds)
 
-    def look(self, observation: PictureObservation, target: Target, around: Box, z: float) -> "DepthObject":
+    def search(self, observation: PictureObservation, target: Target, around: Box, z: float) -> "DepthObject":
         """Search near depth z, in meters, for the object that contains most of the target's own box.
 
         around: the box around which objects are searched for, that of the whole target.

@@ -128,6 +128,11 @@ class StereoSource(NamedTuple):
         """False: the windows of block matching reach beyond edges."""
         return False
 
+    @property
+    def _focal_baseline(self) -> float:
+        """Pixels times meters: depth times disparity."""
+        return self.rig.intrinsics.fx * self.rig.baseline
+
     def sample(self, k: Kernels, grid: Grid, side: int, expected: ExpectedDepth | None) -> Plane:
         """(side, side) depths of a grid's squares in meters, NaN where nothing is measured.
 
@@ -138,8 +143,7 @@ class StereoSource(NamedTuple):
         the image's width, and up to four sides of the grid, are found.
         """
         x, y, step = grid
-        focal_baseline = self.rig.intrinsics.fx * self.rig.baseline
-        shift = 0.0 if expected is None else focal_baseline / expected.z
+        shift = 0.0 if expected is None else self._focal_baseline / expected.z
         max_disparity = MAX_DISPARITY_OF_WIDTH * self.left.shape[1]
         first = 0 if expected is None else -MAX_DISPARITY_BELOW_EXPECTED
         last = int(np.ceil(max_disparity / step)) if expected is None else MAX_DISPARITY_ABOVE_EXPECTED
@@ -153,7 +157,7 @@ class StereoSource(NamedTuple):
         found = k.sad_disparity(left, right, region, False, (first, last), SAD_MATCHING, SAD_TOLERANCE)
         disparity = found * np.float32(step) + np.float32(shift)
         disparity[~(disparity > 0)] = np.nan  # not found, or not in front of the camera
-        depths: Plane = np.float32(focal_baseline) / disparity
+        depths: Plane = np.float32(self._focal_baseline) / disparity
         return depths
 
     def medians(
@@ -168,14 +172,18 @@ class StereoSource(NamedTuple):
         for box in boxes.tolist():
             step = max(box[2:]) / samples
             if expected is None:
-                nearer = self._nearer(k, box, step, samples, gate)
-                found.append(self._unexpected(k, box, step, samples, gate) if nearer is None else nearer)
+                medians = self._measure_nearer(k, box, step, samples, gate)
+                if medians is None:
+                    medians = self._measure_unexpected(k, box, step, samples, gate)
+                found.append(medians)
             else:
                 depths, part = self._sample_around(k, box, step, samples, expected)
                 found.append(k.median_depths(depths, part, samples, expected.z, *gate))
         return np.concatenate(found)
 
-    def _unexpected(self, k: Kernels, box: list[float], step: float, samples: int, gate: Gate) -> Floats:
+    def _measure_unexpected(
+        self, k: Kernels, box: list[float], step: float, samples: int, gate: Gate
+    ) -> Floats:
         """(1, 3) as in ``medians``, without an expected depth; NaN if too few depths agree with their median.
 
         A surface that the right image doesn't show, outside its border or occluded there, matches at random.
@@ -185,12 +193,14 @@ class StereoSource(NamedTuple):
         z = float(medians[0, 0])
         if math.isnan(z):
             return medians
-        sample = step * z * z / (self.rig.intrinsics.fx * self.rig.baseline)  # of disparity, in meters
+        sample = step * z * z / self._focal_baseline  # of disparity, in meters
         agreeing = AGREEING_OFFSET + AGREEING_SAMPLES * sample, MIN_AGREEING_SHARE
         agree = not math.isnan(k.median_depths(depths, part, samples, math.nan, *agreeing)[0, 0])
         return medians if agree else np.full((1, 3), np.nan)
 
-    def _nearer(self, k: Kernels, box: list[float], step: float, samples: int, gate: Gate) -> Floats | None:
+    def _measure_nearer(
+        self, k: Kernels, box: list[float], step: float, samples: int, gate: Gate
+    ) -> Floats | None:
         """(1, 3) as in ``medians``, for a surface that fills most of a box and is nearer than ``sample`` can
         find with samples ``step`` pixels apart; None if there is no such surface.
         """
@@ -227,4 +237,4 @@ class StereoSource(NamedTuple):
         Samples finer than pixels don't reduce this noise.
         """
         disparity_noise = DISPARITY_NOISE * max(pixel_size, 1.0)  # pixels
-        return disparity_noise * z * z / (self.rig.intrinsics.fx * self.rig.baseline)
+        return disparity_noise * z * z / self._focal_baseline

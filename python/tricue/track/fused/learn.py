@@ -9,7 +9,7 @@ used: it comes from another pose, which the first frame doesn't show.
 
 import math
 
-from tricue.track.fused.depth_object import INTERVAL
+from tricue.track.fused.depth_object import SEARCH_INTERVAL
 from tricue.track.fused.depth_sources import DepthImageSource
 from tricue.track.fused.experts.depth import covered_share
 from tricue.track.fused.localize import clamp_to_image
@@ -51,12 +51,12 @@ def update_models(
     window = extract_window(observation, state.target, p.context)
     # After a longer interval the rates stay the same: one frame mustn't outweigh the earlier ones.
     seconds = min(state.unlearned_seconds, max(p.learn_every, FRAME))
-    learnings = state.learnings + 1
+    appearance_updates = state.appearance_updates + 1
     appearance = _learn_appearance(state.models[observation.kind], window, seconds, p)
-    if "turn" in p.cues and learnings % TURN_EVERY == 0:
+    if "turn" in p.cues and appearance_updates % TURN_EVERY == 0:
         appearance = _learn_turn(appearance, window, TURN_EVERY * seconds, p)
     models = {**state.models, observation.kind: appearance}
-    return state.replace(models=models, unlearned_seconds=0.0, learnings=learnings)
+    return state.replace(models=models, unlearned_seconds=0.0, appearance_updates=appearance_updates)
 
 
 def without_drift(target: Target, match: Match) -> Target:
@@ -101,12 +101,12 @@ def update_object(state: FusedState, observation: PictureObservation) -> FusedSt
     known, position = state.depth_object, state.position
     if known is None or position is None:
         return state
-    known = known.wait(INTERVAL if state.timestamp is None else state.seconds)
+    known = known.wait(SEARCH_INTERVAL if state.timestamp is None else state.seconds)
     is_new = isinstance(observation.depth_source, DepthImageSource) and state.depth_trust.repeats == 0
     if state.missed_frames or not known.is_due or not is_new:
         return state.replace(depth_object=known)
     box = state.outline.apply_to(state.target).box
-    known = known.look(observation, state.target, box, float(position.mean[2]))
+    known = known.search(observation, state.target, box, float(position.mean[2]))
     if known.seen is None:
         return state.replace(depth_object=known)
     return state.replace(depth_object=known, outline=Outline.of(known.seen.box, state.target))
@@ -136,7 +136,9 @@ def _update_depth(
     if match.depth is None:
         if state.missed_frames:
             return state
-        return state.replace(position=state.position.aim(observation.k, state.target, observation.camera))
+        return state.replace(
+            position=state.position.correct_bearing(observation.k, state.target, observation.camera)
+        )
     if was_lost and state.missed_frames:
         return state
     point, noise = back_project(observation, state.target, match.depth)

@@ -138,13 +138,14 @@ class Sides(NamedTuple):
 
     def outline(self, reaches: Reaches) -> Outline:
         """The outline with the sides that depth shows; the others stay those of the box."""
-        return Outline(*(_side(*each) for each in zip(self, reaches, strict=True)))
+        return Outline(*(_limit_reach(*each) for each in zip(self, reaches, strict=True)))
 
 
 ALL_HIDDEN = Sides(*4 * [Side.HIDDEN])
 
 
-def _side(side: Side, reach: float | None) -> float:
+def _limit_reach(side: Side, reach: float | None) -> float:
+    """How far the side is from the center by depth, as far as depth is trusted; else that of the box."""
     if reach is None or side is Side.HIDDEN:
         return 1.0
     if side is Side.CUT:
@@ -169,10 +170,12 @@ def measure_reaches(
     posterior = window.posterior_without_support if without_support else window.depth_posterior
     rows, columns = window.inner(right, down, OUTLINE_CENTER_SHARE)
     x, y = PATCH_PIXELS / 2 + right, PATCH_PIXELS / 2 + down
-    across, along = posterior[rows], posterior[:, columns]
-    left, far = _extent(np.add.reduce(across, axis=0) / len(across), x, window.size[0] / 2)
-    top, bottom = _extent(np.add.reduce(along, axis=1) / along.shape[1], y, window.size[1] / 2)
-    return Reaches(left, top, far, bottom)
+    middle_rows, middle_columns = posterior[rows], posterior[:, columns]
+    across = np.add.reduce(middle_rows, axis=0) / len(middle_rows)
+    downward = np.add.reduce(middle_columns, axis=1) / middle_columns.shape[1]
+    to_left, to_right = _extent(across, x, window.size[0] / 2)
+    to_top, to_bottom = _extent(downward, y, window.size[1] / 2)
+    return Reaches(to_left, to_top, to_right, to_bottom)
 
 
 def _extent(profile: Plane, center: float, half: float) -> tuple[float | None, float | None]:

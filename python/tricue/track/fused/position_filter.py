@@ -130,7 +130,7 @@ class PositionFilter(NamedTuple):
         return PositionFilter(mean, limit_covariance(covariance, MOVING))
 
     def distance(self, point: Floats, noise: Floats) -> float:
-        """The distance, in standard deviations, to a measured point (3,) with covariance ``noise`` (3, 3)."""
+        """The Mahalanobis distance to a measured point (3,) with covariance ``noise`` (3, 3)."""
         off = point - self.mean[:3]
         return float(np.sqrt(off @ np.linalg.solve(self.covariance[:3, :3] + noise, off)))
 
@@ -144,8 +144,8 @@ class PositionFilter(NamedTuple):
         )
         return PositionFilter(mean, covariance)
 
-    def aim(self, k: Kernels, target: Target, camera: Intrinsics) -> "PositionFilter":
-        """The state corrected by the target's place in the picture; depth doesn't change.
+    def correct_bearing(self, k: Kernels, target: Target, camera: Intrinsics) -> "PositionFilter":
+        """The state corrected by the target's place in the picture alone; depth doesn't change.
 
         Depth is treated as independent of X and Y. Otherwise, errors of the motion model to the right or down
         would change it.

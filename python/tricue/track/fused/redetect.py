@@ -26,17 +26,18 @@ def redetect(
     windows = propose_windows(model, observation, lost)
     candidates = sorted((localize(model, each) for each in windows), key=lambda each: -each.evidence)
     recognitions = [recognize(model, each) for each in candidates[: model.params.candidates]]
-    seen = max([local.log_odds, *map(_log_odds, recognitions)])
+    seen = max([local.log_odds, *map(_lower_log_odds, recognitions)])
     local = local._replace(log_odds=local.log_odds - _distance_penalty(model, lost, local))
     matches = [
-        _match_elsewhere(model, lost, each) for each in recognitions if _log_odds(each) >= min_log_odds
+        _match_elsewhere(model, lost, each) for each in recognitions if _lower_log_odds(each) >= min_log_odds
     ]
     best = max(matches, key=lambda each: each.log_odds, default=local)
     found = best.log_odds >= min_log_odds and best.log_odds > local.log_odds
     return (best if found else local)._replace(best_seen=seen)
 
 
-def _log_odds(recognition: Recognition) -> float:
+def _lower_log_odds(recognition: Recognition) -> float:
+    """Those of the whole appearance, or of the structure if they are lower: elsewhere, both must match."""
     return min(recognition.log_odds, recognition.structure_log_odds)
 
 
@@ -58,7 +59,7 @@ def _distance_penalty(model: LocalizationModel, lost: LostTarget, match: Match) 
 
 
 def _distance(model: LocalizationModel, lost: LostTarget, match: Match) -> float:
-    """The distance from the target's predicted place, in standard deviations; in 3D if depths are known."""
+    """The Mahalanobis distance from the target's predicted place; in 3D if depths are known."""
     if lost.position is not None and match.depth is not None:
         return lost.position.distance(*back_project(match.observation, match.target, match.depth))
     sigma = lost.target.side * model.params.lost_position_noise * (1 + lost.missed_frames)

@@ -27,16 +27,16 @@ def search_local(
         candidates = [_localize_beside(model, each, last) for each in neighbors]
         candidate = max([candidate, *candidates], key=lambda each: each.evidence)
     continuity = depth_continuity(candidate.window, candidate.right, candidate.down)
-    return _measured(model, candidate, window, p.depth_continuity_weight * continuity)
+    return _measure_near(model, candidate, window, p.depth_continuity_weight * continuity)
 
 
 def search_last_place(model: LocalizationModel, observation: PictureObservation, last: Target) -> Match:
     """Search for a missed target at its last place; :func:`redetect` searches the rest of the frame."""
     window = extract_window(observation, last, model.params.context)
-    return _measured(model, localize(model, window), window, 0.0)
+    return _measure_near(model, localize(model, window), window, 0.0)
 
 
-def _measured(model: LocalizationModel, candidate: Candidate, last: Window, bonus: float) -> Match:
+def _measure_near(model: LocalizationModel, candidate: Candidate, last: Window, bonus: float) -> Match:
     """A measured candidate, with a bonus added to its log-odds; last: the window around the last place."""
     match = measure_candidate(model, candidate)
     log_odds = match.log_odds + bonus

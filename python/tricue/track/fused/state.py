@@ -52,7 +52,7 @@ class FusedState:
     missed_frames: int = 0  # in a row, in which the target was not recognized
     missed_seconds: float = 0.0  # of these frames
     unlearned_seconds: float = 0.0  # since appearance was learned
-    learnings: int = 0  # of appearance, after the first frame
+    appearance_updates: int = 0  # after the first frame
     seconds: float = 0.0  # since the previous frame
     mean_seconds: float = 0.0  # running mean of these; at first 1 / rate
     frames: int = 0  # since init

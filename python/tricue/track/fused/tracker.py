@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The fused tracker: it combines color, depth and motion."""
+"""The loop of the fused tracker: predict, observe, search, verify, update the models."""
 
 from typing import Any, ClassVar
 

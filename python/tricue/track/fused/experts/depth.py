@@ -102,11 +102,11 @@ def measure_depth(
     """
     if expected is None or expected.sigma > MAX_EXPECTED_SIGMA:
         return measure_center_depths(observation, [target])[0]
-    if observation.depth_source is None:
-        return None
-    noise = observation.depth_source.noise(expected.z, max(target.width, target.height) / DEPTH_SAMPLES)
-    gate = GATE_SIGMAS * math.hypot(expected.sigma, noise), MIN_MEASURED_SHARE
     k, source = observation.k, observation.depth_source
+    if source is None:
+        return None
+    noise = source.noise(expected.z, max(target.width, target.height) / DEPTH_SAMPLES)
+    gate = GATE_SIGMAS * math.hypot(expected.sigma, noise), MIN_MEASURED_SHARE
     return _measurements(source.medians(k, np.array([target[:4]]), DEPTH_SAMPLES, expected, gate))[0]
 
 
