@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Videos whose frames tell their numbers, and a tracker for sessions."""
+"""Videos whose frames tell their numbers, a tracker for sessions, and the server as a page uses it."""
 
+import json
 import os
 import shutil
 from collections.abc import Callable, Iterator
@@ -12,8 +13,11 @@ import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from starlette.testclient import TestClient
 from tricue import Box
 from tricue.app.frames import RecordedFrames
+from tricue.app.server import make_app
+from tricue.app.serving import Serving
 from tricue.app.session import Session
 from tricue.data.open_source import open_source
 from tricue.track.base import registry
@@ -22,6 +26,8 @@ from tests.app.session_runs import Counting
 
 FRAMES, WIDTH, HEIGHT = 60, 160, 120
 START = Box(20, 40, 40, 40)
+BOX = list(START)  # as a page sends it
+HOST = "http://127.0.0.1:8765"
 CHROMIUMS = ("chromium", "chromium-browser", "google-chrome")
 HIDDEN = range(30, 40)  # frames in which the square of moving() isn't there
 
@@ -112,3 +118,26 @@ def counting(monkeypatch: pytest.MonkeyPatch) -> type[Counting]:
     for name, value in {"bad": set(), "gate": None, "times": []}.items():
         monkeypatch.setattr(Counting, name, value)
     return Counting
+
+
+@pytest.fixture
+def serving(video: Path, session_of: Callable[..., Session], tmp_path: Path) -> Serving:
+    """A session on the video, to be served."""
+    return Serving(session_of(video), folder=tmp_path)
+
+
+@pytest.fixture
+def client(serving: Serving) -> Iterator[TestClient]:
+    """A browser that knows the token: addresses are relative to the page."""
+    with TestClient(make_app(serving), f"{HOST}/{serving.token}/") as client:
+        yield client
+
+
+def do(client: TestClient, command: str, **values: Any) -> Any:
+    """Have the server do something; its answer."""
+    return client.post("do", content=json.dumps({"do": command, **values})).json()
+
+
+def live(client: TestClient, **keywords: Any) -> Any:
+    """The page's WebSocket."""
+    return client.websocket_connect(str(client.base_url).replace("http:", "ws:") + "live", **keywords)
