@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Recordings for the commands, and a depth tracker."""
+"""Recordings and sequences for the commands, a depth tracker, and trackers of one's own."""
 
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -114,3 +115,56 @@ def sequence(tmp_path: Path) -> Path:
     lines = [f"{6 + 2 * index},11,20,20" for index in range(10)]
     (folder / "groundtruth_rect.txt").write_text("\n".join(lines))
     return folder
+
+
+def write_sequence(folder: Path, frames: int, seed: int = 0, size: tuple[int, int] = (80, 60)) -> None:
+    """OTB's layout: a bright textured square that goes round in a circle over noise."""
+    rng = np.random.default_rng(seed)
+    ground = rng.integers(20, 60, (size[1], size[0], 3), dtype=np.uint8)
+    square = cv2.resize(rng.integers(90, 255, (4, 4, 3), dtype=np.uint8), (20, 20)) // [4, 4, 1]
+    (folder / "img").mkdir(parents=True)
+    lines = []
+    for index in range(frames):
+        x, y = 30 + round(20 * np.cos(index / 12)), 20 + round(15 * np.sin(index / 12))
+        image = ground.copy()
+        image[y : y + 20, x : x + 20] = square
+        cv2.imwrite(str(folder / "img" / f"{index + 1:05d}.jpg"), image)
+        lines.append(f"{x + 1},{y + 1},20,20\n")
+    (folder / "groundtruth_rect.txt").write_text("".join(lines))
+
+
+@pytest.fixture(scope="session")
+def dataset(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Four sequences of 40 frames."""
+    root = tmp_path_factory.mktemp("data")
+    for seed, name in enumerate(("one", "two", "three", "four")):
+        write_sequence(root / name, 40, seed)
+    return root
+
+
+OWN = """
+import os, time
+from pathlib import Path
+print("imported")
+
+class Mine:
+    def init(self, frame, box): self.box = box
+    def update(self, frame):
+        print("| a | line | like | the table's |")
+        return self.box
+
+class Stays(Mine):
+    def update(self, frame):
+        Path("processes", str(os.getpid())).touch()
+        time.sleep(1000)
+"""
+
+
+@pytest.fixture
+def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A working folder with trackers of one's own in it."""
+    (tmp_path / "own_tracker.py").write_text(OWN)
+    (tmp_path / "processes").mkdir()
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "path", [path for path in sys.path if path])
+    return tmp_path

@@ -11,10 +11,8 @@ import pytest
 from starlette.testclient import TestClient
 from tricue.app.live.server import LiveServing, make_live_app
 
-from tests.app.conftest import START
+from tests.app.conftest import HOST, START, do, live
 from tests.app.live.conftest import IMAGES, Studio, level, wait
-
-HOST = "http://127.0.0.1:8765"
 
 
 @pytest.fixture
@@ -23,16 +21,6 @@ def client(studio: Studio) -> Iterator[TestClient]:
     serving = LiveServing(studio.session)
     with TestClient(make_live_app(serving), f"{HOST}/{serving.token}/") as client:
         yield client
-
-
-def do(client: TestClient, command: str, **values: Any) -> Any:
-    """Have the server do something; its answer."""
-    return client.post("do", content=json.dumps({"do": command, **values})).json()
-
-
-def live(client: TestClient) -> Any:
-    """The page's WebSocket."""
-    return client.websocket_connect(str(client.base_url).replace("http:", "ws:") + "live")
 
 
 def test_only_its_own_page_is_served(client: TestClient, studio: Studio) -> None:
