@@ -23,6 +23,7 @@ class FlowDepthParams(Params):
     :meth:`paper` has the paper's own form.
     """
 
+    # what is measured
     cues: tuple[Literal["flow", "disparity"], ...] = parameter(
         ("flow", "disparity"),
         unit="-",
@@ -42,6 +43,7 @@ class FlowDepthParams(Params):
         doc="by which the right camera is turned inwards",
     )
 
+    # flow and disparity, sections 2 and 3
     sigma: float = parameter(0.8, unit="cells", source=OURS, low=0.5, high=8, doc="of the filters g, h")
     flow_levels: int = parameter(
         2, unit="levels", source="1: section 2; " + OURS, low=1, high=6, doc="levels of the flow's pyramid"
@@ -76,6 +78,7 @@ class FlowDepthParams(Params):
         doc="largest step of the finest level from where it starts; a disparity farther off is left out",
     )
 
+    # the densities, sections 4.1 and 4.2
     bins: int = parameter(48, unit="bins", source=OURS, low=8, high=512, doc="bins of each histogram")
     smoothing: float = parameter(
         1.5,
@@ -185,6 +188,8 @@ class FlowDepthParams(Params):
         doc="weight of the densities of the frame before",
         was="memory",
     )
+
+    # target pixels, section 4.3
     min_posterior: float = parameter(
         0.8,
         unit="-",
@@ -203,7 +208,6 @@ class FlowDepthParams(Params):
         doc="smallest posterior of a target pixel, by one cue alone, whose posteriors are less extreme",
         was="posterior_alone",
     )
-
     min_neighbors: int = parameter(
         3,
         unit="of 8",
@@ -229,6 +233,8 @@ class FlowDepthParams(Params):
         below=0.5,
         doc="left out on each side of the temporal window",
     )
+
+    # the target's blocks, section 4.4
     block_rules: Literal["adaptive", "printed"] = parameter(
         "adaptive",
         unit="-",
@@ -316,6 +322,7 @@ class FlowDepthParams(Params):
         doc="of the target: lower bound of that tolerance and that margin",
     )
 
+    # the whole target, section 4.5
     target_window: Literal["outline", "pixels"] = parameter(
         "outline",
         unit="-",
@@ -368,6 +375,8 @@ class FlowDepthParams(Params):
         was="unsure",
     )
     lost_after: float = parameter(3.0, unit="s", source=OURS, low=0, doc="time missed until LOST")
+
+    # time, and the noise of the position
     rate: float = parameter(
         15.0,
         unit="frames/s",
