@@ -5,18 +5,13 @@
 #include "fuse/evidence_peak.hpp"
 #include "fuse/regularized_filter.hpp"
 #include "kernel_docs.hpp"
+#include "spectra.hpp"
 
 namespace tricue::bindings {
 namespace {
 
-using Floating = Array<float>;
-using Complex = Array<std::complex<float>>;
-
 constexpr const char* kCells = "float32 cells (K, R, C)";
 constexpr const char* kPlane = "float32 (R, C)";
-constexpr const char* kSpectrum = "complex64 (R, C // 2 + 1)";
-constexpr const char* kFilter = "complex64 (K, R, C // 2 + 1)";
-constexpr const char* kHalf = "float32 (R, C // 2 + 1)";
 
 std::ptrdiff_t work(const FloatStack& cells) {
     return std::ptrdiff_t{cells.planes} * cells.rows * cells.cols;

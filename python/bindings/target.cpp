@@ -7,19 +7,15 @@
 #include "fuse/localize_target.hpp"
 #include "fuse/log_polar_shift.hpp"
 #include "kernel_docs.hpp"
+#include "spectra.hpp"
 #include "tuples.hpp"
 
 namespace tricue::bindings {
 namespace {
 
 using Bytes = Array<std::uint8_t>;
-using Floating = Array<float>;
-using Complex = Array<std::complex<float>>;
 
 constexpr const char* kTaper = "float32 (R, C)";
-constexpr const char* kSpectrum = "complex64 (R, C // 2 + 1)";
-constexpr const char* kFilter = "complex64 (K, R, C // 2 + 1)";
-constexpr const char* kHalf = "float32 (R, C // 2 + 1)";
 
 Eigen::Map<const Floats> plane(const Floating& numbers, const char* name, const char* expected) {
     return floats(numbers, name, {-1, -1}, expected);
