@@ -7,11 +7,10 @@
 
 #include "base/check.hpp"
 #include "base/simd.hpp"
+#include "fuse/detail/parabola.hpp"
 
 namespace tricue {
 namespace {
-
-constexpr double kMaxOffset = 0.5;  // cells; a peak farther off would be in the next cell
 
 TRICUE_MULTIVERSION
 void weigh(const float* __restrict response, float weight, std::ptrdiff_t n, float* __restrict evidence) {
@@ -46,16 +45,11 @@ Eigen::Index find_greatest(const Floats& evidence) {
     return std::find(evidence.data(), evidence.data() + evidence.size(), most) - evidence.data();
 }
 
-double peak_offset(double before, double top, double after) {
-    const double bend = before - 2 * top + after;
-    return bend < 0 ? std::min(std::max(0.5 * (before - after) / bend, -kMaxOffset), kMaxOffset) : 0.0;
-}
-
 double offset_along(const Floats& evidence, Eigen::Index at, Eigen::Index index, Eigen::Index count,
                     Eigen::Index step) {
     if (index < 1 || index > count - 2) return 0.0;
     const float* top = evidence.data() + at;
-    return peak_offset(top[-step], top[0], top[step]);
+    return parabola_offset(top[-step], top[0], top[step]);
 }
 
 float greatest_near(const FloatStack& responses, int filter, Eigen::Index row, Eigen::Index column) {

@@ -8,11 +8,11 @@
 #include "base/check.hpp"
 #include "cues/color/hog_color_cells.hpp"
 #include "fuse/correlation_response.hpp"
+#include "fuse/detail/parabola.hpp"
 
 namespace tricue {
 namespace {
 
-constexpr double kMaxOffset = 0.5;  // cells; a peak farther off would be in the next cell
 constexpr double kMinShare = 0.05;  // of the maximum: lower bound for logarithms
 constexpr double kMaxPenalty = std::numeric_limits<float>::max();  // infinity times 0 columns isn't a number
 
@@ -22,8 +22,7 @@ double peak_offset(const float* row, int column, int reach) {
     if (column == -reach || column == reach || !(top > 0.0)) return 0.0;
     const double lowest = kMinShare * top, before = std::log(std::max(double{row[column - 1]}, lowest)),
                  after = std::log(std::max(double{row[column + 1]}, lowest));
-    const double bend = before - 2 * std::log(top) + after;
-    return bend < 0 ? std::min(std::max(0.5 * (before - after) / bend, -kMaxOffset), kMaxOffset) : 0.0;
+    return parabola_offset(before, std::log(top), after);
 }
 
 Shift find_shift(const Floats& response, const ShiftRange& range) {

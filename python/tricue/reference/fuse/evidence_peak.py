@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 
 from tricue.reference.base.arrays import Plane
 from tricue.reference.base.checks import refuse
-
-MAX_OFFSET = 0.5  # cells; a peak farther off would be in the next cell
+from tricue.reference.fuse.detail.parabola import parabola_offset
 
 
 def evidence_peak(
@@ -47,6 +46,4 @@ def peak_offset(values: Plane, index: int) -> float:
     """Offset of a peak from the maximum, by a parabola through the maximum and its neighbors."""
     if not 0 < index < len(values) - 1:
         return 0.0
-    before, top, after = values[index - 1 : index + 2].tolist()
-    bend = before - 2 * top + after
-    return min(max(0.5 * (before - after) / bend, -MAX_OFFSET), MAX_OFFSET) if bend < 0 else 0.0
+    return parabola_offset(*values[index - 1 : index + 2].tolist())

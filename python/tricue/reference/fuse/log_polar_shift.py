@@ -11,8 +11,8 @@ from tricue.reference.base.checks import refuse, require_count
 from tricue.reference.cues.color.hog_color_cells import hog_color_cells
 from tricue.reference.cues.color.pick_pixels import pick_pixels
 from tricue.reference.fuse.correlation_response import correlation_response
+from tricue.reference.fuse.detail.parabola import parabola_offset
 
-MAX_OFFSET = 0.5  # cells; a peak farther off would be in the next cell
 MIN_SHARE = 0.05  # of the maximum: lower bound of a neighbor before its logarithm is taken
 MAX_PENALTY = float(np.finfo(np.float32).max)  # infinity times 0 columns isn't a number
 
@@ -47,6 +47,4 @@ def gaussian_peak_offset(values: Plane, index: int) -> float:
     if not 0 < index < len(values) - 1 or values[index] <= 0:
         return 0.0
     before, top, after = values[index - 1 : index + 2].tolist()
-    before, top, after = (math.log(max(each, MIN_SHARE * top)) for each in (before, top, after))
-    bend = before - 2 * top + after
-    return min(max(0.5 * (before - after) / bend, -MAX_OFFSET), MAX_OFFSET) if bend < 0 else 0.0
+    return parabola_offset(*(math.log(max(each, MIN_SHARE * top)) for each in (before, top, after)))
