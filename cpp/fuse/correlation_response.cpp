@@ -35,8 +35,8 @@ Spectra sum_products(const FloatStack& cells, const FilterStack& filters, PlaneF
         planes.transform(cells.row(k, 0), cells.row(last, 0), &re(0, 0), &im(0, 0), &re(1, 0), &im(1, 0));
         for (int filter = 0; filter < filters.filters; ++filter)
             for (int plane = k; plane <= last; ++plane)
-                add_product(reinterpret_cast<const float*>(filters.plane(filter, plane)), &re(plane - k, 0),
-                            &im(plane - k, 0), planes.count(), &sums.re(filter, 0), &sums.im(filter, 0));
+                add_product(as_floats(filters.plane(filter, plane)), &re(plane - k, 0), &im(plane - k, 0),
+                            planes.count(), &sums.re(filter, 0), &sums.im(filter, 0));
     }
     return sums;
 }

@@ -6,9 +6,10 @@
 
 #include "base/check.hpp"
 #include "base/simd.hpp"
-#include "cues/color/hog_color_cells.hpp"
 #include "fuse/detail/blend_filters.hpp"
 #include "fuse/detail/correlation_checks.hpp"
+#include "fuse/detail/picked_cells.hpp"
+#include "fuse/detail/plane_fourier.hpp"
 
 namespace tricue {
 namespace {
@@ -47,11 +48,7 @@ SizeFilter learn_size_filter(const ImageView& patch, PlacesRef places, FloatsRef
                              double first_weight, double ridge) {
     require_share_of_first(first_weight);
     require_positive(ridge, "ridge");
-    const PixelBytes picked = pick_pixels(patch, places);
-    const int picked_cols = static_cast<int>(places.cols());
-    const FloatPlanes numbers = hog_color_cells(
-        {picked.data(), static_cast<int>(places.rows()), picked_cols, 3, 3 * std::ptrdiff_t{picked_cols}},
-        taper);
+    const FloatPlanes numbers = picked_cells(patch, places, taper);
     const FloatStack cells = numbers.view();
     const int rows = cells.rows;
     require_filter("first_numerator", first.numerator, cells);
@@ -63,7 +60,7 @@ SizeFilter learn_size_filter(const ImageView& patch, PlacesRef places, FloatsRef
     Complexes applied(filter.numerator.rows(), filter.numerator.cols());
     blend_filters(filter.numerator.data(), first.numerator.data, share, applied.size(), applied.data());
     for (int k = 0; k < cells.planes; ++k)
-        scale(factors.data(), factors.size(), reinterpret_cast<float*>(&applied(Eigen::Index{k} * rows, 0)));
+        scale(factors.data(), factors.size(), as_floats(&applied(Eigen::Index{k} * rows, 0)));
     return {std::move(filter), std::move(applied)};
 }
 

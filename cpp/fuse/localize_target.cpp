@@ -21,6 +21,9 @@
 namespace tricue {
 namespace {
 
+constexpr double kCellPixels = 2.0;  // patch pixels on a side of a cell of hog_color_cells
+// The index, in what evidence_peak returns, of the first filter's greatest response near the place.
+constexpr Eigen::Index kGreatestResponse = 5;
 constexpr double kMinDeviation = 1e-6;  // for a response that is the same everywhere
 
 /// Pixels from `first` to before `end`.
@@ -121,9 +124,9 @@ LocalizedTarget localize_target(const ImageView& patch, FloatsRef taper, const T
                                       {search.filter_weight, search.contrast_weight});
     Vector found(peak.size() + 2);
     found.head(peak.size()) = peak;
-    found[peak.size()] = peak_sharpness(responses.data(), taper.size(), peak[5]);
+    found[peak.size()] = peak_sharpness(responses.data(), taper.size(), peak[kGreatestResponse]);
     found[peak.size() + 1] =
-        color_similarity(patch, appearance.roots, bits, 2 * peak[0], 2 * peak[1], search);
+        color_similarity(patch, appearance.roots, bits, kCellPixels * peak[0], kCellPixels * peak[1], search);
     return {std::move(found), std::move(responses)};
 }
 

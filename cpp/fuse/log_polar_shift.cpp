@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "base/check.hpp"
-#include "cues/color/hog_color_cells.hpp"
 #include "fuse/correlation_response.hpp"
 #include "fuse/detail/parabola.hpp"
+#include "fuse/detail/picked_cells.hpp"
 
 namespace tricue {
 namespace {
@@ -56,10 +56,7 @@ Shift log_polar_shift(const ImageView& patch, PlacesRef places, FloatsRef taper,
     require_range(range.max_down, taper.rows(), "max_down");
     if (!std::isfinite(range.penalty)) refuse("penalty", "a finite number", range.penalty);
     if (filter.filters != 1) refuse("filter", "one filter", std::to_string(filter.filters));
-    const PixelBytes picked = pick_pixels(patch, places);
-    const int rows = static_cast<int>(places.rows()), cols = static_cast<int>(places.cols());
-    const FloatPlanes cells =
-        hog_color_cells({picked.data(), rows, cols, 3, 3 * std::ptrdiff_t{cols}}, taper);
+    const FloatPlanes cells = picked_cells(patch, places, taper);
     return find_shift(correlation_response(cells.view(), filter), range);
 }
 

@@ -17,7 +17,7 @@ void require_valid(const Bounds& bounds, Eigen::Index dimensions) {
 }
 
 /// Whether the share's running total passes a whole number here.
-bool detected(Eigen::Index i, double share) {
+bool is_detected(Eigen::Index i, double share) {
     const auto whole = [share](Eigen::Index count) {
         return static_cast<std::int64_t>(static_cast<double>(count) * share);
     };
@@ -29,7 +29,7 @@ void move(const double* from, const Dynamics& dynamics, const double* noise, dou
         to[d] = from[d] + dynamics.drift[d] + dynamics.scale[d] * noise[d];
 }
 
-void detect(const Detection& detection, const double* noise, double* to) {
+void draw_detected(const Detection& detection, const double* noise, double* to) {
     for (Eigen::Index d = 0; d < detection.mean.size(); ++d) {
         to[d] = detection.mean[d];
         for (Eigen::Index e = 0; e <= d; ++e) to[d] += detection.root(d, e) * noise[e];
@@ -57,7 +57,7 @@ States propose(StatesRef particles, const Dynamics& dynamics, StatesRef noise, c
         double* state = moved.row(i).data();
         const double* numbers = noise.row(i).data();
         move(particles.row(i).data(), dynamics, numbers, state);
-        if (detected(i, detection.share)) detect(detection, numbers, state);
+        if (is_detected(i, detection.share)) draw_detected(detection, numbers, state);
         clamp(bounds, state);
     }
     return moved;
