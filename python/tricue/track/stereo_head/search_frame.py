@@ -66,8 +66,25 @@ def search_frame(
         scores[~_select_reachable(head, geometry, x, y, z)] = -np.inf
         row, column = divmod(int(np.argmax(scores)), columns)
         if scores[row, column] > (-np.inf if best is None else best[0]):
-            best = float(scores[row, column]), (float(x[column]), float(y[row]), minor, major), disparity
-    return None if best is None else best[1:]
+            ellipse = float(x[column]), float(y[row]), minor, major
+            measured = _measure(np.where(coherent, disparities, np.float32(np.nan)), ellipse, step)
+            best = float(scores[row, column]), ellipse, cells if measured is None else measured
+    return None if best is None else (best[1], best[2] * pair.step)
+
+
+def _measure(disparities: Disparities, ellipse: Ellipse, step: int) -> float | None:
+    """The median of the disparities in an ellipse; None if there is none.
+
+    The search tries few distances, which are farther apart than the disparities that are searched next.
+    step: pixels from a disparity to the next one.
+    """
+    x, y, minor, major = ellipse
+    rows, columns = disparities.shape
+    across = ((np.arange(columns) + 0.5) * step - x) / minor
+    down = ((np.arange(rows) + 0.5) * step - y) / major
+    inside = disparities[across**2 + down[:, None] ** 2 <= 1]
+    measured = inside[np.isfinite(inside)]
+    return float(np.median(measured)) if measured.size else None
 
 
 def _sample_distances(near: float, far: float) -> list[float]:
