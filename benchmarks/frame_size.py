@@ -35,7 +35,7 @@ HEADING = "## One target in larger frames"
 TEXT = """
 A scene in the middle of larger and larger frames; the target keeps its size in pixels. µs per update, from each frame's minimum
 over {rounds} rounds; the overlap is the lowest of all sizes. `python -m benchmarks.frame_size --write` writes this table.
-Targets of stereo-head and flow-depth are larger: these reduce a frame to 160 and 320 columns, where small ones would vanish.
+Targets of stereo-head and flow-depth are larger; flow-depth reduces a frame to 320 columns, where a small one would vanish.
 The frames are in memory before the clock starts. A frame that is written just before its update evicts all else from the caches,
 which costs up to 0.4 ms at 1920x1080.
 

@@ -31,18 +31,19 @@ std::ptrdiff_t work_in(const Region& region, Factors... times) {
 }
 
 /// Whether the thread that took the GIL last, of those that run kernels, has released it for a kernel again. It may have been released
-/// or taken elsewhere: this only decides whether waiting awake may pay.
+/// or taken elsewhere: this only decides whether waiting awake may pay. A thread that takes the GIL sets it to false first, so that of
+/// several that wait only one does so; the others would fall asleep.
 inline std::atomic<bool> gil_is_free{true};
 
-/// Holds no GIL while it exists. Another thread's Python between two of its kernels takes some microseconds, but to be woken takes a
-/// sleeping thread ten times as long. So it waits awake for the GIL at first.
+/// Holds no GIL while it exists. Another thread's Python between two of its kernels takes some microseconds, up to a hundred from one
+/// frame to the next, but to be woken takes a sleeping thread as long. So it waits awake for the GIL at first.
 class WithoutGil {
 public:
     WithoutGil() : thread_(PyEval_SaveThread()) { gil_is_free.store(true); }
     WithoutGil(const WithoutGil&) = delete;
     WithoutGil& operator=(const WithoutGil&) = delete;
     ~WithoutGil() {
-        if (!gil_is_free.load()) wait_awake();
+        if (!gil_is_free.exchange(false)) wait_awake();
         PyEval_RestoreThread(thread_);
         gil_is_free.store(false);
     }
@@ -50,10 +51,11 @@ public:
 private:
     static void wait_awake() {
         using Clock = std::chrono::steady_clock;
-        constexpr std::chrono::microseconds kLongest{50};
+        constexpr std::chrono::microseconds kLongest{200};
         static const bool is_alone = std::thread::hardware_concurrency() == 1;
         if (is_alone) return;
-        for (const auto end = Clock::now() + kLongest; !gil_is_free.load() && Clock::now() < end;) pause();
+        for (const auto end = Clock::now() + kLongest; Clock::now() < end; pause())
+            if (gil_is_free.load() && gil_is_free.exchange(false)) return;
     }
 
     PyThreadState* thread_;
