@@ -10,6 +10,7 @@ which the target is LOST.
 """
 
 import argparse
+import sys
 import time
 from functools import partial
 from itertools import product
@@ -55,7 +56,7 @@ class Run(NamedTuple):
     milliseconds: np.ndarray
 
 
-def main() -> None:
+def main() -> int:
     """Print the table."""
     command = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     command.add_argument("--seeds", type=int, default=2, help="of each kind of scene")
@@ -73,6 +74,7 @@ def main() -> None:
         rows.append([f"{inner} in {outer}", str(cells), *shares, f"{mean[3]:.2f}", f"{mean[4]:.1f}"])
     columns = ["scene", "min_head_cells", "on target", "overlap", "found again", "ms", "ms, LOST"]
     print(markdown(columns, rows))
+    return 0
 
 
 def results(place: tuple[Size, Size], kind: str, seed: int, cells: list[int]) -> list[Result]:
@@ -126,4 +128,4 @@ def noise(frame: Frame, seed: int) -> Frame:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

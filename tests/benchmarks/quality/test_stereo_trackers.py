@@ -84,7 +84,7 @@ def test_the_table_has_a_line_per_tracker(folder, capsys):
 def test_parameters_come_from_a_file(folder, tmp_path, capsys):
     """Those of the file are the tracker's, near and far are the rig's; an unknown one is named."""
     path = tmp_path / "params.toml"
-    path.write_text("resolution = 80\nnear = 3.0\n")
+    path.write_text("resolution = 80\nmin_head_cells = 0\nnear = 3.0\n")
     assert stereo_trackers.main([str(folder / "head"), "--unit", "0.1", "--params", str(path)]) == 0
     coarse = capsys.readouterr().out.splitlines()[2].split(" | ")
     assert stereo_trackers.main([str(folder / "head"), "--unit", "0.1"]) == 0
