@@ -107,6 +107,7 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
     },
     StereoHeadTracker: {
         "resolution": (15, 0, -1),
+        "min_head_cells": (-1, 1001),
         "search": ((-1, 4), (8, 65), (8,), (8, 4, 2)),
         "bins": ((0, 16, 8), (16, 65, 8), (16, 16), (64, 64, 64)),
         "max_chroma": (0, 256),
