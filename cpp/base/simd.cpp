@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "base/simd.hpp"
 
-#ifdef TRICUE_BYTE_PERMUTATIONS
+#ifdef TRICUE_BYTE_SHUFFLES
 #include <immintrin.h>
 #endif
 
@@ -23,23 +23,54 @@ __attribute__((target("avx512bw,avx512vl,avx512vbmi"))) void permute_bytes(const
         _mm512_mask_storeu_epi8(out + k, some, _mm512_mask_blend_epi8(_mm512_movepi8_mask(index), low, high));
     }
 }
+#endif
 
-bool has_byte_permutations() {
-    static const bool has = __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("avx512bw");
-    return has;
-}
-#else
-bool has_byte_permutations() {
-    return false;
+#ifdef TRICUE_BYTE_SHUFFLES
+/// A shuffle uses 4 bits of an index and gives 0 where the eighth is set. So it is set, by a sum that stops at 255, unless the upper four
+/// bits are the number of the table's part.
+template <int kRegisters>
+__attribute__((target("avx2"))) void shuffle_block(const std::uint8_t* table, const std::uint8_t* indices,
+                                                   std::uint8_t* out) {
+    const __m256i all_but_lower = _mm256_set1_epi8(0x70);
+    __m256i index[kRegisters], found[kRegisters];
+    for (int i = 0; i < kRegisters; ++i) {
+        index[i] = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(indices) + i);
+        found[i] = _mm256_setzero_si256();
+    }
+    for (int part = 0; part < 16; ++part) {
+        const auto* sixteen = reinterpret_cast<const __m128i*>(table) + part;
+        const __m256i numbers = _mm256_broadcastsi128_si256(_mm_loadu_si128(sixteen));
+        const __m256i upper = _mm256_set1_epi8(static_cast<char>(part << 4));
+        for (int i = 0; i < kRegisters; ++i) {
+            const __m256i place = _mm256_adds_epu8(_mm256_xor_si256(index[i], upper), all_but_lower);
+            found[i] = _mm256_or_si256(found[i], _mm256_shuffle_epi8(numbers, place));
+        }
+    }
+    for (int i = 0; i < kRegisters; ++i)
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(out) + i, found[i]);
 }
 
-void permute_bytes(const std::uint8_t*, const std::uint8_t*, std::size_t, std::uint8_t*) {}
+__attribute__((target("avx2"))) void shuffle_bytes(const std::uint8_t* table, const std::uint8_t* indices,
+                                                   std::size_t n, std::uint8_t* out) {
+    std::size_t k = 0;
+    for (; k + 96 <= n; k += 96) shuffle_block<3>(table, indices + k, out + k);
+    for (; k + 32 <= n; k += 32) shuffle_block<1>(table, indices + k, out + k);
+    for (; k < n; ++k) out[k] = table[indices[k]];
+}
+
 #endif
 
 }  // namespace
 
 void look_up_bytes(const std::uint8_t* table, const std::uint8_t* indices, std::size_t n, std::uint8_t* out) {
-    if (has_byte_permutations()) return permute_bytes(table, indices, n, out);
+#ifdef TRICUE_BYTE_PERMUTATIONS
+    static const bool permutes = __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("avx512bw");
+    if (permutes) return permute_bytes(table, indices, n, out);
+#endif
+#ifdef TRICUE_BYTE_SHUFFLES
+    static const bool shuffles = __builtin_cpu_supports("avx2");
+    if (shuffles) return shuffle_bytes(table, indices, n, out);
+#endif
     for (std::size_t k = 0; k < n; ++k) out[k] = table[indices[k]];
 }
 

@@ -16,8 +16,11 @@
 #ifndef TRICUE_SIMD_LEVEL
 #define TRICUE_SIMD_LEVEL 4
 #endif
-#if defined(__GNUC__) && defined(__x86_64__) && TRICUE_SIMD_LEVEL >= 4
-#define TRICUE_BYTE_PERMUTATIONS  // chosen at run time, without the loader
+#if defined(__GNUC__) && defined(__x86_64__) && TRICUE_SIMD_LEVEL >= 3
+#define TRICUE_BYTE_SHUFFLES  // chosen at run time, without the loader, as are permutations
+#endif
+#if defined(TRICUE_BYTE_SHUFFLES) && TRICUE_SIMD_LEVEL >= 4
+#define TRICUE_BYTE_PERMUTATIONS
 #endif
 #if !defined(__GNUC__) || defined(__clang__) || __GNUC__ < 12 || !defined(__x86_64__) || \
     !defined(__linux__) || !defined(__GLIBC__) || defined(TRICUE_SANITIZE)
@@ -255,7 +258,7 @@ TRICUE_INLINE void prefetch_bytes(const void* address, std::ptrdiff_t n) {
 }
 
 /// out[k] = table[indices[k]] for n indices and a table of 256 bytes. Processors with byte permutations (AVX-512 VBMI) do 64 at a
-/// time; `out` must not overlap the others.
+/// time, those with byte shuffles (AVX2) 32, in 16 steps; `out` must not overlap the others.
 void look_up_bytes(const std::uint8_t* table, const std::uint8_t* indices, std::size_t n, std::uint8_t* out);
 
 /// The version of the functions that runs on this machine, for users: "x86-64" to "x86-64-v4", "NEON", or "one version".
