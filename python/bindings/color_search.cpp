@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <optional>
 
 #include "arrays.hpp"
@@ -20,10 +19,9 @@ namespace {
 
 using Triple = std::tuple<int, int, int>;
 
-Array<double> image_mean_array(const Array<std::uint8_t>& image, int step) {
+Array<double> image_mean_array(const Array<std::uint8_t>& image) {
     const auto view = color_image(image, "image");
-    return give(unlocked(std::ptrdiff_t{view.rows} * view.cols / std::max(step, 1),
-                         [&] { return image_mean(view, step); }));
+    return give(unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return image_mean(view); }));
 }
 
 Array<std::uint16_t> color_bins_arrays(const Array<std::uint8_t>& image, const RegionTuple& region,
@@ -113,7 +111,7 @@ Array<double> shift_histogram_arrays(const Array<double>& histogram, const Space
 void define_color_search(py::module_& m) {
     m.def("color_bins", color_bins_arrays, py::arg("image"), py::arg("region"), py::arg("space"),
           py::arg("step"), py::arg("gains") = py::none(), docs::color_bins);
-    m.def("image_mean", image_mean_array, py::arg("image"), py::arg("step"), docs::image_mean);
+    m.def("image_mean", image_mean_array, py::arg("image"), docs::image_mean);
     m.def("ellipse_search", ellipse_search_arrays, py::arg("bins"), py::arg("ellipse"), py::arg("grid"),
           py::arg("model"), py::arg("margin"), py::arg("mask"), docs::ellipse_search);
     m.def("best_ellipse", best_ellipse_arrays, py::arg("bins"), py::arg("ellipse"), py::arg("grid"),

@@ -1561,20 +1561,16 @@ def hog_color_cells(
     Cells of 2 x 2 pixels, eight bins by the ratio of the sides, the 102 levels and the colors are ours.
     """
 
-def image_mean(image: numpy.typing.NDArray[numpy.uint8], step: int) -> numpy.typing.NDArray[numpy.float64]:
+def image_mean(image: numpy.typing.NDArray[numpy.uint8]) -> numpy.typing.NDArray[numpy.float64]:
     """
-    The mean color of every step-th pixel of an image, from step // 2 on: a measure of the light while
-    the scene stays the same.
+    The mean color of an image, or of some of its rows: a measure of the light while the scene stays the
+    same.
 
     Args:
         image: uint8 (H, W, 3) BGR
-        step: pixels from one sample to the next, 1 to 1024
 
     Returns:
-        float64 (3,): blue, green and red; 0 where there is no sample
-
-    Raises:
-        ValueError: on a step out of range
+        float64 (3,): blue, green and red; 0 where there is no pixel
 
     Source: ours, for von Kries' adaptation to the light.
     """
@@ -3258,9 +3254,11 @@ def skin_moments(
     reference: numpy.typing.NDArray[numpy.uint8],
     threshold: float,
     region: tuple[int, int, int, int],
+    step: int,
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
-    Count, mean and covariance of the skin pixels in a region: the Gaussian of the proposal.
+    Count, mean and covariance of the skin pixels in a region: the Gaussian of the proposal. Of many
+    rows, every step-th tells about the same.
 
     Pixels are classified by (5)-(10). As printed, (14)-(16) are sums of squares; here they are divided
     by the count, as (11)-(12) are. A pixel stands for its center, (column + 0.5, row + 0.5).
@@ -3270,13 +3268,15 @@ def skin_moments(
         reference: uint8 (3,): the reference color c0, B, G, R
         threshold: a pixel is skin where Δ > threshold (skin_boundary), in [-1, 1]
         region: (x0, y0, x1, y1): the pixels [x0, x1) x [y0, y1), clipped to the image
+        step: rows from one that is read to the next, at least 1; the first is number step // 2 of the
+            clipped region
 
     Returns:
-        float64 (6,): count; mean x, y, pixels; variance xx, yy and covariance xy, pixels²; all 0
-            without skin
+        float64 (6,): count, times the step; mean x, y, pixels; variance xx, yy and covariance xy,
+            pixels²; all 0 without skin
 
     Raises:
-        ValueError: on a threshold outside [-1, 1]
+        ValueError: on a threshold outside [-1, 1], or a step below 1
 
     Source: Sabeti, Parvizi, Wu 2008, equations (5)-(16).
     """
@@ -4002,9 +4002,7 @@ class Kernels(Protocol):
     def hog_color_cells(
         self, patch: numpy.typing.NDArray[numpy.uint8], taper: numpy.typing.NDArray[numpy.float32]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
-    def image_mean(
-        self, image: numpy.typing.NDArray[numpy.uint8], step: int
-    ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def image_mean(self, image: numpy.typing.NDArray[numpy.uint8]) -> numpy.typing.NDArray[numpy.float64]: ...
     def joint_histogram(
         self, samples: numpy.typing.NDArray[numpy.uint8], bins: int
     ) -> numpy.typing.NDArray[numpy.float32]: ...
@@ -4425,6 +4423,7 @@ class Kernels(Protocol):
         reference: numpy.typing.NDArray[numpy.uint8],
         threshold: float,
         region: tuple[int, int, int, int],
+        step: int,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def skin_reference(
         self, patch: numpy.typing.NDArray[numpy.uint8]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The mean color of every fourth pixel of 640x480, in both directions: native, reference, cv2.mean."""
+"""The mean color of 60 rows of 640x480: native, reference, cv2.mean."""
 
 from collections.abc import Callable
 from typing import Any
@@ -15,13 +15,13 @@ Image = NDArray[np.uint8]
 Floats = NDArray[np.float64]
 
 
-def baseline(image: Image, step: int) -> Floats:
-    """cv2.mean of a copied slice."""
-    return np.array(cv2.mean(np.ascontiguousarray(image[step // 2 :: step, step // 2 :: step]))[:3])
+def baseline(rows: Image) -> Floats:
+    """cv2.mean, which takes the rows as they are."""
+    return np.array(cv2.mean(rows)[:3])
 
 
 @pytest.mark.benchmark(group="image_mean, 640x480")
-@pytest.mark.work(bytes=120 * 640 * 3)
+@pytest.mark.work(bytes=60 * 640 * 3)
 @pytest.mark.parametrize(
     "image_mean",
     [_core.image_mean, reference.image_mean, baseline],
@@ -30,4 +30,5 @@ def baseline(image: Image, step: int) -> Floats:
 def bench_image_mean(benchmark: Any, image_mean: Callable[..., Floats]) -> None:
     """All give the same mean, except for its last bit."""
     image = np.random.default_rng(0).integers(0, 256, (480, 640, 3), np.uint8)
-    assert_allclose(benchmark(image_mean, image, 4), reference.image_mean(image, 4), rtol=1e-15)
+    rows = image[4::8]
+    assert_allclose(benchmark(image_mean, rows), reference.image_mean(rows), rtol=1e-15)

@@ -6,13 +6,11 @@
 
 namespace tricue {
 
-/// The mean color of every step-th pixel of an image, from step // 2 on: a measure of the light while the scene stays the same.
+/// The mean color of an image, or of some of its rows: a measure of the light while the scene stays the same.
 ///
 /// @param image uint8 (H, W, 3) BGR
-/// @param step pixels from one sample to the next, 1 to 1024
-/// @returns float64 (3,): blue, green and red; 0 where there is no sample
-/// @throws std::invalid_argument on a step out of range
+/// @returns float64 (3,): blue, green and red; 0 where there is no pixel
 /// Source: ours, for von Kries' adaptation to the light.
-Vector image_mean(const ImageView& image, int step);
+Vector image_mean(const ImageView& image);
 
 }  // namespace tricue

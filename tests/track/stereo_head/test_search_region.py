@@ -111,7 +111,15 @@ def test_cells_are_squares_of_step_pixels(width, resolution, step):
     region = (0, 0, columns, rows)
     expected = K.color_bins(middles, region, P.color_space, 1)
     np.testing.assert_array_equal(pair.bins(K, region, 1, P), expected)
-    np.testing.assert_allclose(pair.mean, middles.mean(axis=(0, 1)), rtol=1e-12)
+
+
+@pytest.mark.parametrize(("rows", "read"), [(48, slice(None)), (480, slice(4, None, 8))])
+def test_some_rows_tell_the_light(rows, read):
+    """The mean color is that of about 60 rows, whatever the size of the head."""
+    image = picture(rows, 40)
+    for width in (5, np.inf):
+        pair = PreparedPair.of(K, image, shifted(image, 3), width, None, P)
+        np.testing.assert_allclose(pair.mean, image[read].mean(axis=(0, 1)), rtol=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -68,10 +68,12 @@ def predict(k: Kernels, state: HeadFilter, seconds: float, p: StereoHeadParams) 
     return HeadFilter(mean, limit_covariance(covariance, MOVING[: len(mean) - MEASUREMENT_SIZE + 3]))
 
 
-def mahalanobis_distance(predicted: HeadFilter, measured: Point, noise: Floats) -> float:
-    """The distance of a measured position from the predicted one, in standard deviations."""
+def mahalanobis_distance(predicted: HeadFilter, measured: Point, covariance: Floats) -> float:
+    """The distance of a measured position, with its covariance (3, 3), from the predicted one, in standard
+    deviations.
+    """
     (xx, xy, xz), (_, yy, yz), (_, _, zz) = predicted.position_covariance.tolist()
-    (noise_xx, noise_xy, noise_xz), (_, noise_yy, noise_yz), (_, _, noise_zz) = noise[:3, :3].tolist()
+    (noise_xx, noise_xy, noise_xz), (_, noise_yy, noise_yz), (_, _, noise_zz) = covariance.tolist()
     (x, y, z), (there_x, there_y, there_z) = measured, predicted.position
     # The sum and Cholesky's three steps are written out, because NumPy is slower than the whole correction.
     a = math.sqrt(xx + noise_xx)

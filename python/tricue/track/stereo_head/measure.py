@@ -23,18 +23,24 @@ class HeadMeasurement(NamedTuple):
     """A measured head.
 
     match, depth: its best match and the disparity there. histogram: (L,) of its colors, C of equation (2).
-    noise: (7, 7) covariance of the measurement, R of section 4.1.
+    covariance: (3, 3) of the position, square meters.
     """
 
     match: EllipseMatch
     depth: EllipseDisparity
     histogram: Floats
     position: Point
-    noise: Floats
+    covariance: Floats
 
     def values(self, color: Floats) -> Floats:
         """(7,) the measurement, z of equation (8), with the mean color (3,) of the updated model."""
         return np.array([*self.position, *color.tolist(), self.match.intersection])
+
+    def noise(self, p: StereoHeadParams) -> Floats:
+        """(7, 7) the covariance of the measurement, R of section 4.1."""
+        noise: Floats = _color_noise(p.color_noise, p.intersection_noise).copy()
+        noise[:3, :3] = self.covariance
+        return noise
 
     def inflated(self, mean_score: float, p: StereoHeadParams) -> "HeadMeasurement":
         """The same with a larger position covariance, if the score is below the running mean.
@@ -45,9 +51,7 @@ class HeadMeasurement(NamedTuple):
         factor = round((1 - self.match.score) / max(1 - mean_score, MIN_SCORE_LOSS), 2)
         if factor <= 1 or p.noise_model == "polynomial":
             return self
-        noise = self.noise.copy()
-        noise[:3, :3] *= factor
-        return self._replace(noise=noise)
+        return self._replace(covariance=factor * self.covariance)
 
 
 def measure(
@@ -76,9 +80,7 @@ def measure(
     point, covariance = geometry.triangulate(k, *match.ellipse[:2], depth.disparity, pair.step, p)
     if not p.near <= point[2] <= p.far:  # also for NaN, from a disparity of 0
         return None
-    noise = _color_noise(p.color_noise, p.intersection_noise).copy()
-    noise[:3, :3] = covariance
-    return HeadMeasurement(match, depth, histogram, point, noise)
+    return HeadMeasurement(match, depth, histogram, point, covariance)
 
 
 @lru_cache(maxsize=16)

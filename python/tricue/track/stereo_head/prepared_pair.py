@@ -17,6 +17,7 @@ Color = tuple[float, float, float]  # blue, green, red
 Limits = tuple[int, int]  # lowest and highest disparity, inclusive
 Disparities = NDArray[np.float32]
 
+LIGHT_ROWS = 60  # about so many rows of an image tell its light
 DARKEST = 1.0  # lowest mean level of a channel that is fully compensated
 # The largest matching windows, pixels, whose costs fit 16 bits: gray levels differ by up to 255, the
 # prefilter's slopes by at most 31 each.
@@ -27,7 +28,7 @@ class PreparedPair(NamedTuple):
     """A rectified stereo pair; the head is searched in cells of ``step`` x ``step`` pixels.
 
     left, right: left BGR (H, W, 3), right the same, or gray (H, W) where the frame is.
-    mean: color of the cells' middle pixels, a measure of the light while the scene stays the same.
+    mean: color of some of the left image's rows, a measure of the light while the scene stays the same.
     gains: those that turn colors into those of the first frame's light (von Kries); None: not compensated.
     """
 
@@ -53,7 +54,8 @@ class PreparedPair(NamedTuple):
         light.
         """
         step = cell_side(left.shape, head_width, p)
-        b, g, r = k.image_mean(left, step).tolist()
+        every = max(1, len(left) // LIGHT_ROWS)
+        b, g, r = k.image_mean(left[every // 2 :: every]).tolist()
         gains = None
         if first_mean is not None:
             first_b, first_g, first_r = first_mean

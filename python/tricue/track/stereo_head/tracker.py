@@ -100,7 +100,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, StereoHeadState]):
             first_histogram=histogram,
             learned_histogram=histogram,
             model=model,
-            filter=head_filter.initialize(first.values(color), first.noise, self.params),
+            filter=head_filter.initialize(first.values(color), first.noise(self.params), self.params),
             last_seen=first.position,
             score=first.match.score,
             mean_score=first.match.score,
@@ -176,7 +176,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, StereoHeadState]):
 
     def _recognizes(self, state: StereoHeadState, measured: HeadMeasurement, predicted: HeadFilter) -> bool:
         """Whether a measurement matches the head and is near the predicted position."""
-        distance = head_filter.mahalanobis_distance(predicted, measured.position, measured.noise)
+        distance = head_filter.mahalanobis_distance(predicted, measured.position, measured.covariance)
         if not distance < self.params.max_deviations:
             return False
         return self._matches(state, measured, self.params.min_score)
@@ -206,9 +206,9 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, StereoHeadState]):
         learned, model, color = self._mix(before, measured.histogram, rate, first)  # (2)
         values = measured.values(color)
         if predicted is None or not p.fuse:
-            head = head_filter.initialize(values, measured.noise, p)
+            head = head_filter.initialize(values, measured.noise(p), p)
         else:
-            head = head_filter.correct(self._k, predicted, values, measured.noise, p)
+            head = head_filter.correct(self._k, predicted, values, measured.noise(p), p)
         if p.feedback:
             shifted = self._k.shift_histogram(learned, p.color_space, head.color)
             learned, model, _ = self._mix(shifted, shifted, 0.0, first)
