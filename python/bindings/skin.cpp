@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include "arrays.hpp"
 #include "cues/color/skin_blobs.hpp"
 #include "cues/color/skin_boundary.hpp"
@@ -28,12 +30,12 @@ Array<std::int16_t> skin_boundary_arrays(const Bytes& image, const Bytes& refere
 }
 
 Array<double> skin_moments_arrays(const Bytes& image, const Bytes& reference, double threshold,
-                                  const RegionTuple& region) {
+                                  const RegionTuple& region, int step) {
     const auto view = color_image(image, "image");
     const auto color = bgr(reference, "reference");
     const Region corners = region_of(region);
-    return give(unlocked(std::ptrdiff_t{view.rows} * view.cols,
-                         [&] { return skin_moments(view, color, threshold, corners); }));
+    return give(unlocked(work_in(corners.clipped(view)) / std::max(step, 1),
+                         [&] { return skin_moments(view, color, threshold, corners, step); }));
 }
 
 Array<double> skin_blobs_arrays(const Bytes& image, const Bytes& reference, double threshold, int min_area) {
@@ -62,7 +64,7 @@ void define_skin(py::module_& m) {
     m.def("skin_reference", skin_reference_arrays, py::arg("patch"), docs::skin_reference);
     m.def("skin_boundary", skin_boundary_arrays, py::arg("image"), py::arg("reference"), docs::skin_boundary);
     m.def("skin_moments", skin_moments_arrays, py::arg("image"), py::arg("reference"), py::arg("threshold"),
-          py::arg("region"), docs::skin_moments);
+          py::arg("region"), py::arg("step"), docs::skin_moments);
     m.def("skin_blobs", skin_blobs_arrays, py::arg("image"), py::arg("reference"), py::arg("threshold"),
           py::arg("min_area"), docs::skin_blobs);
     m.def("skin_rule", skin_rule_arrays, py::arg("samples"), docs::skin_rule);

@@ -86,7 +86,7 @@ def test_a_written_threshold_keeps_out_what_the_curve_kept_out(tmp_path, capsys)
     assert main(["calibrate", "skin-threshold", str(tmp_path / "skin"), "--output", str(out)]) == 0
     printed = re.findall(r"threshold +(\S+),", capsys.readouterr().out)
     for threshold in (ColorParams.from_toml(out).skin_threshold, *map(float, printed)):
-        count, *_ = reference.skin_moments(image, np.array(SKIN, np.uint8), threshold, (0, 0, 32, 24))
+        count, *_ = reference.skin_moments(image, np.array(SKIN, np.uint8), threshold, (0, 0, 32, 24), 1)
         assert count == 16 * 24
 
 

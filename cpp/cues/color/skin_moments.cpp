@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/check.hpp"
 #include "base/overlapping_blocks.hpp"
 #include "base/simd.hpp"
 #include "cues/color/skin_boundary.hpp"
@@ -130,15 +131,21 @@ void add_tile(const ImageView& image, const Bgr& reference, int least, const Reg
 
 }  // namespace
 
-Vector skin_moments(const ImageView& image, const Bgr& reference, double threshold, const Region& region) {
+Vector skin_moments(const ImageView& image, const Bgr& reference, double threshold, const Region& region,
+                    int step) {
     const int least = least_skin(threshold);
-    if (least > 255) return Vector::Zero(6);
-    const Region visible = region.clipped(image);
+    if (step < 1) refuse("step", "at least 1", step);
+    const Region all = region.clipped(image);
+    const int first = all.y0 + std::min(step / 2, image.rows);
+    const int height = all.y1 > first ? (all.y1 - first - 1) / step + 1 : 0;
+    if (least > 255 || height == 0) return Vector::Zero(6);
+    const ImageView rows{image.row(first), height, image.cols, 3, step * image.stride};
+    const Region visible{all.x0, 0, all.x1, height};
     Sums sums;
     for (int y = visible.y0; y < visible.y1; y += kTile)
         for (int x = visible.x0; x < visible.x1; x += kTile) {
             const Region tile{x, y, std::min(x + kTile, visible.x1), std::min(y + kTile, visible.y1)};
-            add_tile(image, reference, least, visible, tile, sums);
+            add_tile(rows, reference, least, visible, tile, sums);
         }
 
     Vector moments = Vector::Zero(6);
@@ -146,8 +153,9 @@ Vector skin_moments(const ImageView& image, const Bgr& reference, double thresho
     const auto count = static_cast<double>(sums.count);
     const auto average = [count](std::int64_t sum) { return static_cast<double>(sum) / count; };
     const double x = average(sums.x), y = average(sums.y);
-    moments << count, visible.x0 + x + 0.5, visible.y0 + y + 0.5, average(sums.xx) - x * x,
-        average(sums.yy) - y * y, average(sums.xy) - x * y;
+    const double xx = average(sums.xx) - x * x, yy = average(sums.yy) - y * y, xy = average(sums.xy) - x * y;
+    const double down = step;
+    moments << down * count, visible.x0 + x + 0.5, first + down * y + 0.5, xx, down * down * yy, down * xy;
     return moments;
 }
 

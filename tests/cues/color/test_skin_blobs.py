@@ -108,7 +108,7 @@ def test_order(kernels: Kernels) -> None:
 def test_every_pixel_in_one_blob(mask: NDArray[np.bool_]) -> None:
     """Areas add up to the skin pixels, and the centroids, weighed by them, to the mean of skin_moments."""
     blobs = _core.skin_blobs(paint(mask), SKIN, BINARY, 1)
-    moments = _core.skin_moments(paint(mask), SKIN, BINARY, (0, 0, *mask.shape[::-1]))
+    moments = _core.skin_moments(paint(mask), SKIN, BINARY, (0, 0, *mask.shape[::-1]), 1)
     assert blobs[:, 4].sum() == moments[0]
     assert_allclose(blobs[:, 4] @ blobs[:, 5:], moments[0] * moments[1:3], rtol=1e-12)
 

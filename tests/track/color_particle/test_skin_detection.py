@@ -21,14 +21,15 @@ def test_of_many_rows_every_nth_tells_the_same(top, monkeypatch):
     low, high = (center[0] - 40, top + 300.0, 1.0, 1.0), (center[0] + 40, top + 600.0, 200.0, 300.0)
     prediction = EllipsePrediction((0, 0, 0, 0), (1, 1, 1, 1), low, high)
     counting, found = _Counting(), []
-    for rows in (skin_detection.SKIN_ROWS, 10_000):
+    few_rows = skin_detection.SKIN_ROWS
+    for rows in (few_rows, 10_000):
         monkeypatch.setattr(skin_detection, "SKIN_ROWS", rows)
         ellipse = (*center, 120.0, 200.0)
         found.append(
             skin_detection.detect_skin(counting, image, SKIN, ellipse, prediction, ColorParticleParams())
         )
     few, all_of_them = found
-    assert counting.rows[0] < 256 < 500 < counting.rows[1]
+    assert counting.rows[0] < 2 * few_rows < 500 < counting.rows[1]
     np.testing.assert_allclose(few.mean, all_of_them.mean, atol=1)
     np.testing.assert_allclose(few.root, all_of_them.root, atol=1)
 
@@ -39,6 +40,6 @@ class _Counting:
     def __init__(self):
         self.rows = []
 
-    def skin_moments(self, image, reference, threshold, region):
-        self.rows.append(min(region[3], len(image)) - max(region[1], 0))
-        return kernels.load("native").skin_moments(image, reference, threshold, region)
+    def skin_moments(self, image, reference, threshold, region, step):
+        self.rows.append((min(region[3], len(image)) - max(region[1], 0)) // step)
+        return kernels.load("native").skin_moments(image, reference, threshold, region, step)

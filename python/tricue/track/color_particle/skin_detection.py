@@ -10,8 +10,6 @@ from tricue.kernels import Kernels
 from tricue.track.color_particle.motion import Ellipse, EllipseMotion, EllipsePrediction
 from tricue.track.color_particle.params import ColorParticleParams
 
-Region = tuple[int, int, int, int]
-
 SKIN_PATCH = 1 / 3  # of the target's width and height: the central patch that gives its reference color
 MIN_SKIN_AREA = 0.05  # of the target's area; with fewer skin pixels there is no detection
 SKIN_ROWS = 128  # up to twice this many are read where the target can be next; of more, every n-th suffices
@@ -67,7 +65,7 @@ def detect_skin(
         right, bottom, *_ = prediction.upper
         region = (int(left - minor), int(top - major), int(right + minor) + 1, int(bottom + major) + 1)
         step = max((region[3] - region[1]) // SKIN_ROWS, 1)
-    count, x, y, xx, yy, xy = _skin_moments(k, image, skin_color, p.skin_threshold, region, step)
+    count, x, y, xx, yy, xy = k.skin_moments(image, skin_color, p.skin_threshold, region, step).tolist()
     if count < MIN_SKIN_AREA * 4 * minor * major:
         return NO_DETECTION
     # Cholesky decomposition of the covariance.
@@ -75,22 +73,6 @@ def detect_skin(
     cross = xy / first
     second = (yy + MIN_PIXEL_VARIANCE - cross * cross) ** 0.5
     return SkinDetection((x, y), (first, cross, second), p.skin_share)
-
-
-def _skin_moments(
-    k: Kernels, image: Image, skin_color: Image, threshold: float, region: Region, step: int
-) -> list[float]:
-    """Count, mean and covariance (pixels) of a region's skin pixels, from every ``step``-th row."""
-    found: list[float]
-    if step == 1:
-        found = k.skin_moments(image, skin_color, threshold, region).tolist()
-        return found
-    left, top, right, bottom = region
-    first = max(top, 0) + step // 2
-    rows = image[first : max(bottom, 0) : step]
-    found = k.skin_moments(rows, skin_color, threshold, (left, 0, right, len(rows))).tolist()
-    count, x, y, xx, yy, xy = found
-    return [step * count, x, first + step * (y - 0.5) + 0.5, xx, step * step * yy, step * xy]
 
 
 def draw_candidates(
