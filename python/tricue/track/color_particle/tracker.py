@@ -27,7 +27,7 @@ from tricue.track.head_detection.start_box import head_or_face_to_start_on
 
 MEAN_RATE = 0.05  # per frame, of the running means of the log-likelihood
 LEAD_EVERY = 4  # frames; the lead of a followed target is measured in one of this many
-COLORS_EVERY = 2  # frames; colors change slowly, and are learned in one of this many, by as many times the rate
+COLORS_EVERY = 2  # frames; colors change slowly: they are learned in one of this many, so many times as fast
 LEAD_RATE = 0.7  # of the lead's running mean, per measurement
 MIN_SCORE_AFTER_MISS = 0.8  # of a target that was missed in the last frame
 REDETECTION_RATE = 0.5  # learning rate, once, when a lost target is detected again
