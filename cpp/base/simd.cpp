@@ -26,38 +26,30 @@ __attribute__((target("avx512bw,avx512vl,avx512vbmi"))) void permute_bytes(const
 #endif
 
 #ifdef TRICUE_BYTE_SHUFFLES
-/// A shuffle uses 4 bits of an index and gives 0 where the eighth is set. So it is set, by a sum that stops at 255, unless the upper four
-/// bits are the number of the table's part.
-template <int kRegisters>
+/// A shuffle uses the lower four bits of an index, and picks from a sixteenth of the table; each of the upper four halves what is left.
 __attribute__((target("avx2"))) void shuffle_block(const std::uint8_t* table, const std::uint8_t* indices,
                                                    std::uint8_t* out) {
-    const __m256i all_but_lower = _mm256_set1_epi8(0x70);
-    __m256i index[kRegisters], found[kRegisters];
-    for (int i = 0; i < kRegisters; ++i) {
-        index[i] = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(indices) + i);
-        found[i] = _mm256_setzero_si256();
-    }
+    const __m256i index = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(indices));
+    const __m256i lower = _mm256_and_si256(index, _mm256_set1_epi8(15));
+    __m256i found[16];
     for (int part = 0; part < 16; ++part) {
         const auto* sixteen = reinterpret_cast<const __m128i*>(table) + part;
-        const __m256i numbers = _mm256_broadcastsi128_si256(_mm_loadu_si128(sixteen));
-        const __m256i upper = _mm256_set1_epi8(static_cast<char>(part << 4));
-        for (int i = 0; i < kRegisters; ++i) {
-            const __m256i place = _mm256_adds_epu8(_mm256_xor_si256(index[i], upper), all_but_lower);
-            found[i] = _mm256_or_si256(found[i], _mm256_shuffle_epi8(numbers, place));
-        }
+        found[part] = _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(_mm_loadu_si128(sixteen)), lower);
     }
-    for (int i = 0; i < kRegisters; ++i)
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(out) + i, found[i]);
+    for (int left = 8, bit = 4; left > 0; left /= 2, ++bit) {
+        const __m256i is_upper = _mm256_slli_epi16(index, 7 - bit);  // in the highest bit of each byte
+        for (int part = 0; part < left; ++part)
+            found[part] = _mm256_blendv_epi8(found[2 * part], found[2 * part + 1], is_upper);
+    }
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), found[0]);
 }
 
 __attribute__((target("avx2"))) void shuffle_bytes(const std::uint8_t* table, const std::uint8_t* indices,
                                                    std::size_t n, std::uint8_t* out) {
     std::size_t k = 0;
-    for (; k + 96 <= n; k += 96) shuffle_block<3>(table, indices + k, out + k);
-    for (; k + 32 <= n; k += 32) shuffle_block<1>(table, indices + k, out + k);
+    for (; k + 32 <= n; k += 32) shuffle_block(table, indices + k, out + k);
     for (; k < n; ++k) out[k] = table[indices[k]];
 }
-
 #endif
 
 }  // namespace
