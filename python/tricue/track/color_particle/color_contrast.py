@@ -32,11 +32,16 @@ class ColorContrast(NamedTuple):
     target: Singles = EMPTY_HISTOGRAM
     surround: Singles = EMPTY_HISTOGRAM
     table: Singles = EMPTY_HISTOGRAM
+    skipped: bool = False  # whether the last frame was skipped in learning
 
     def learn(self, k: Kernels, image: Image, ellipse: Floats, rate: float) -> "ColorContrast":
-        """Blend in the colors inside and around the ellipse (4,); a rate of 1 initializes the histograms."""
-        if rate == 0:
-            return self
+        """Blend in the colors inside and around the ellipse (4,); a rate of 1 initializes the histograms.
+
+        Colors change slowly: only every second call learns, with twice the rate.
+        """
+        if rate < 1 and not self.skipped:
+            return ColorContrast(self.weight, self.target, self.surround, self.table, skipped=True)
+        rate = min(2 * rate, 1.0)
         tables = k.learn_contrast(image, ellipse, PATTERN, self.target, self.surround, rate, MIN_CELL_SHARE)
         return ColorContrast(self.weight, *tables)
 

@@ -27,7 +27,6 @@ from tricue.track.head_detection.start_box import head_or_face_to_start_on
 
 MEAN_RATE = 0.05  # per frame, of the running means of the log-likelihood
 LEAD_EVERY = 4  # frames; the lead of a followed target is measured in one of this many
-COLORS_EVERY = 2  # frames; colors change slowly: they are learned in one of this many, so many times as fast
 LEAD_RATE = 0.7  # of the lead's running mean, per measurement
 MIN_SCORE_AFTER_MISS = 0.8  # of a target that was missed in the last frame
 REDETECTION_RATE = 0.5  # learning rate, once, when a lost target is detected again
@@ -319,9 +318,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, ColorParticleState])
 
     def _learn(self, state: ColorParticleState, image: Image, rate: float) -> Appearance:
         """The appearance with the estimated window blended in."""
-        particles = state.particles
-        learns_colors = state.frames % COLORS_EVERY == COLORS_EVERY - 1
-        color_rate = min(COLORS_EVERY * self.params.color_rate, 1.0) if learns_colors else 0.0
+        particles, color_rate = state.particles, self.params.color_rate
         return state.appearance.learn(self._k, image, particles.ellipse, particles.seen, rate, color_rate)
 
     def _particles_at(self, ellipse: Floats) -> tuple[Floats, Floats]:
