@@ -136,7 +136,8 @@ Vector skin_moments(const ImageView& image, const Bgr& reference, double thresho
     const int least = least_skin(threshold);
     if (step < 1) refuse("step", "at least 1", step);
     const Region all = region.clipped(image);
-    const int first = all.y0 + std::min(step / 2, image.rows);
+    const int top = std::min(all.y0, image.rows);  // so that sums don't overflow
+    const int first = top + std::min(step / 2, image.rows - top);
     const int height = all.y1 > first ? (all.y1 - first - 1) / step + 1 : 0;
     if (least > 255 || height == 0) return Vector::Zero(6);
     const ImageView rows{image.row(first), height, image.cols, 3, step * image.stride};

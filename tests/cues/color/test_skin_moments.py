@@ -112,13 +112,21 @@ def test_region_is_clipped(kernels: Kernels, picture: Image, color: Image) -> No
 
 
 @pytest.mark.parametrize(
-    "region", [(5, 5, 5, 9), (9, 0, 3, 9), (30, 0, 40, 9), (-9, -9, 0, 0), (20, 20, -5, -5)]
+    "region",
+    [
+        (5, 5, 5, 9),
+        (9, 0, 3, 9),
+        (30, 0, 40, 9),
+        (-9, -9, 0, 0),
+        (20, 20, -5, -5),
+        (0, 2**31 - 1, 9, 2**31 - 1),
+    ],
 )
 def test_nothing_to_see(kernels: Kernels, region: tuple[int, int, int, int]) -> None:
     """An empty region, or one outside the picture, has no skin: zeros."""
-    assert_array_equal(
-        kernels.skin_moments(np.full((10, 20, 3), 255, np.uint8), SKIN, -1.0, region, 1), np.zeros(6)
-    )
+    image = np.full((10, 20, 3), 255, np.uint8)
+    for step in (1, 2**31 - 1):
+        assert_array_equal(kernels.skin_moments(image, SKIN, -1.0, region, step), np.zeros(6))
 
 
 def test_thresholds_at_their_ends(kernels: Kernels) -> None:
