@@ -28,13 +28,26 @@ def run(session: Session, *arguments: Any) -> None:
     wait(lambda: session.run is None)
 
 
+class Gate:
+    """Where a tracker waits inside an update until it is let through."""
+
+    def __init__(self) -> None:
+        self.reached, self.open = threading.Event(), threading.Event()
+
+    def wait(self) -> None:
+        self.reached.set()
+        self.open.wait(PATIENCE)
+
+
 class Counting:
-    """Says by its score how often it was updated since init; raises in the frames named in ``bad``."""
+    """Says by its score how often it was updated since init; raises in the frames named in ``bad``,
+    and waits at the gate in its fifth update.
+    """
 
     traits = Traits(channels=(Channels.of("color"),), follows="nothing")
     Params = None
     bad: ClassVar[set[int]] = set()
-    gate: ClassVar[threading.Event | None] = None
+    gate: ClassVar[Gate | None] = None
     times: ClassVar[list[float]] = []
 
     def __init__(self, seed: int = 0, kernels: str = "native") -> None:
@@ -50,7 +63,7 @@ class Counting:
         if self.count in self.bad:
             raise RuntimeError(f"bad\nframe {self.count}")
         if self.gate is not None and self.count == 5:
-            self.gate.wait(PATIENCE)
+            self.gate.wait()
         return self._track(frame)
 
     def _track(self, frame: Frame) -> Track:

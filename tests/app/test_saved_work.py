@@ -3,7 +3,6 @@
 
 import json
 import os
-import threading
 from pathlib import Path
 
 import pytest
@@ -11,7 +10,7 @@ from tricue.app import project_file, saver
 from tricue.app.exports import EXPORTS
 
 from tests.app.conftest import START, moving, write_video
-from tests.app.session_runs import Counting, SessionOf, counts, run, wait
+from tests.app.session_runs import Counting, Gate, SessionOf, counts, run, wait
 
 
 @pytest.mark.usefixtures("counting")
@@ -34,13 +33,13 @@ def test_work_is_saved_as_it_goes(video: Path, session_of: SessionOf, counting: 
     wait(lambda: session.saved)
     path = video.with_name("video.mp4.tricue.json")
     assert json.loads(path.read_text())["targets"][0]["drawn"] == {"0": [20, 40, 40, 40]}
-    counting.gate = threading.Event()
+    counting.gate = Gate()
     session.track(0, 1)
     try:
         wait(lambda: len(json.loads(path.read_text())["targets"][0]["tracks"]) >= 5)
         assert session.run is not None
     finally:
-        counting.gate.set()
+        counting.gate.open.set()
 
 
 def test_other_video_is_asked_about(video: Path, session_of: SessionOf) -> None:

@@ -16,7 +16,7 @@ from tricue.camera.shared_frame import messages_of, warn_of_frame
 from tricue.errors import BoxError
 
 from tests.app.conftest import FRAMES, START, moving
-from tests.app.session_runs import Counting, SessionOf, counts, run, wait
+from tests.app.session_runs import PATIENCE, Counting, Gate, SessionOf, counts, run, wait
 
 
 def test_target_is_followed_to_the_end(video: Path, session_of: SessionOf) -> None:
@@ -108,13 +108,13 @@ def test_pause_goes_on_where_it_was(video: Path, session_of: SessionOf, counting
     """A paused tracker goes on with all that it knows; after an edit there it starts anew."""
     session = session_of(video)
     session.add(0, START, "counting")
-    counting.gate = threading.Event()
+    counting.gate = Gate()
     session.track(0, 1)
-    wait(lambda: session.run is not None and len(session.run.found) >= 5)
+    assert counting.gate.reached.wait(PATIENCE)
     stopping = threading.Thread(target=session.pause)
     stopping.start()
     wait(lambda: session.run is None or session.run.stop.is_set())
-    counting.gate.set()
+    counting.gate.open.set()
     stopping.join()
     assert session.last_run is not None
     assert session.last_run.reached == 5
@@ -205,13 +205,13 @@ def test_edit_ends_the_run_first(video: Path, session_of: SessionOf, counting: t
     """What is edited while a tracker runs is edited after it, and one undo takes back the edit alone."""
     session = session_of(video)
     session.add(0, START, "counting")
-    counting.gate = threading.Event()
+    counting.gate = Gate()
     session.track(0, 1)
-    wait(lambda: session.run is not None and len(session.run.found) >= 5)
+    assert counting.gate.reached.wait(PATIENCE)
     editing = threading.Thread(target=lambda: session.add(3, START, "fused"))
     editing.start()
     wait(lambda: session.run is None or session.run.stop.is_set())
-    counting.gate.set()
+    counting.gate.open.set()
     editing.join()
     assert session.run is None
     assert len(session.project.targets) == 2
