@@ -12,7 +12,7 @@ WHEEL_PYTHONS = $(PYTHON)
 PARALLEL := -n auto --dist loadfile --benchmark-disable
 SOURCES := pyproject.toml CMakeLists.txt README.md tools/kernel_docs.py $(shell find cpp python -not -path '*/__pycache__*')
 
-.PHONY: demo test fuzz setup bench lint format stubs kernel-docs notebooks experiments docs linkcheck results opencv sanitize level-builds levels level-speeds vot wheel sdist arm clean
+.PHONY: demo test fuzz setup bench lint format stubs kernel-docs notebooks experiments docs linkcheck results opencv sanitized sanitize level-builds levels level-speeds vot wheel sdist arm clean
 
 demo: $(VENV)/demo
 	$(BIN)/tricue demo
@@ -90,12 +90,14 @@ COPY_INSTALLED = rm -rf $(BUILDS) && mkdir -p $(BUILDS)/installed && \
 # their last words. What Python itself leaks is not looked at.
 SANITIZERS = ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 \
     LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libstdc++.so)"
-sanitize: BUILDS := build/sanitized
-sanitize: $(VENV)/dev
+sanitized sanitize: BUILDS := build/sanitized
+sanitized: $(VENV)/dev
 	$(COPY_INSTALLED)
-	SKBUILD_BUILD_DIR=build/debug SKBUILD_CMAKE_BUILD_TYPE=Debug SKBUILD_INSTALL_STRIP=false \
+	CMAKE_CXX_COMPILER_LAUNCHER= SKBUILD_BUILD_DIR=build/debug SKBUILD_CMAKE_BUILD_TYPE=Debug SKBUILD_INSTALL_STRIP=false \
 	    SKBUILD_CMAKE_DEFINE="TRICUE_SANITIZE=ON;TRICUE_WERROR=ON" \
 	    $(PIP) install --quiet --no-build-isolation --no-deps --target $(BUILDS)/debug .
+
+sanitize: sanitized
 	printf '%s\n' installed debug | $(HASH_EACH) $(SANITIZERS) $(HASHED)
 	$(BIN)/python tools/kernel_hashes.py $(BUILDS)/*.json
 	TRICUE_KERNELS=native PYTHONPATH=$(BUILDS)/debug $(SANITIZERS) $(BIN)/python -m pytest -q --capture=sys --hypothesis-profile=brief \
