@@ -93,7 +93,7 @@ SANITIZERS = ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 \
 sanitized sanitize: BUILDS := build/sanitized
 sanitized: $(VENV)/dev
 	$(COPY_INSTALLED)
-	CMAKE_CXX_COMPILER_LAUNCHER= SKBUILD_BUILD_DIR=build/debug SKBUILD_CMAKE_BUILD_TYPE=Debug SKBUILD_INSTALL_STRIP=false \
+	SKBUILD_BUILD_DIR=build/debug SKBUILD_CMAKE_BUILD_TYPE=Debug SKBUILD_INSTALL_STRIP=false \
 	    SKBUILD_CMAKE_DEFINE="TRICUE_SANITIZE=ON;TRICUE_WERROR=ON" \
 	    $(PIP) install --quiet --no-build-isolation --no-deps --target $(BUILDS)/debug .
 
