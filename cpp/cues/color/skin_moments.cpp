@@ -7,7 +7,6 @@
 #include <cstdint>
 
 #include "base/check.hpp"
-#include "base/overlapping_blocks.hpp"
 #include "base/simd.hpp"
 #include "cues/color/skin_boundary.hpp"
 
@@ -25,34 +24,83 @@ struct Sums {
     std::int64_t count = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
 };
 
-/// In bytes as far as possible: |a - b| as max - min, and a difference limited to at least 0.
-inline std::uint8_t distance(std::uint8_t a, std::uint8_t b) {
-    return static_cast<std::uint8_t>(std::max(a, b) - std::min(a, b));
-}
-
+/// In bytes as far as possible: a difference limited to at least 0, and |a - b|, of which one part is 0.
 inline std::uint8_t difference(std::uint8_t a, std::uint8_t b) {
     return static_cast<std::uint8_t>(std::max(a, b) - b);
 }
 
-/// Marks the pixels of a row whose boundary value, eta - delta of skin_boundary, is at least `least`, below 256.
-TRICUE_MULTIVERSION
-void mark_skin(const std::uint8_t* __restrict pixels, int n, const Bgr& reference, int least,
-               std::uint8_t* __restrict skin) {
+inline std::uint8_t distance(std::uint8_t a, std::uint8_t b) {
+    const std::uint8_t larger = std::max(a, b);
+    return static_cast<std::uint8_t>((larger - a) + (larger - b));
+}
+
+/// The order in which a block's pixels are marked. Of its bytes j, j + 64 and j + 128 one is blue: that of the pixel in lane j, whose
+/// green and red follow. So a channel is picked without moving bytes from lane to lane, which takes longer than all the rest.
+struct BlockOrder {
+    std::uint8_t pixel[kBlock] = {};     ///< in each lane
+    std::uint8_t lane[kBlock] = {};      ///< of each pixel
+    std::uint8_t third[3][kBlock] = {};  ///< 255 in the lanes whose blue byte is in that third of the block
+};
+
+constexpr BlockOrder order_of_block() {
+    BlockOrder order;
+    for (int lane = 0; lane < kBlock; ++lane)
+        for (int third = 0; third < 3; ++third) {
+            const int byte = kBlock * third + lane;
+            if (byte % 3 != 0) continue;
+            order.pixel[lane] = static_cast<std::uint8_t>(byte / 3);
+            order.lane[byte / 3] = static_cast<std::uint8_t>(lane);
+            order.third[third][lane] = 255;
+        }
+    return order;
+}
+
+constexpr BlockOrder kOrder = order_of_block();
+constexpr int kBlockBytes = 3 * kBlock + 2;  // that are read; the last two don't count
+
+template <bool kPositive>
+TRICUE_INLINE void mark_block(const std::uint8_t* __restrict bytes, const Bgr& reference, std::uint8_t limit,
+                              std::uint8_t* __restrict marks) {
     const std::uint8_t b0 = reference[0], g0 = reference[1], r0 = reference[2];
-    const auto eta = [=](std::ptrdiff_t x) {
-        return std::max(pixels[3 * x], std::max(pixels[3 * x + 1], pixels[3 * x + 2]));
+    const auto pick = [bytes](int lane, int channel) {
+        const auto part = [=](int third) {
+            return bytes[kBlock * third + lane + channel] & kOrder.third[third][lane];
+        };
+        return static_cast<std::uint8_t>(part(0) | part(1) | part(2));
     };
-    const auto delta = [=](std::ptrdiff_t x) {
-        return std::max(distance(pixels[3 * x], b0),
-                        std::max(distance(pixels[3 * x + 1], g0), distance(pixels[3 * x + 2], r0)));
-    };
+    for (int lane = 0; lane < kBlock; ++lane) {
+        const std::uint8_t b = pick(lane, 0), g = pick(lane, 1), r = pick(lane, 2);
+        const std::uint8_t eta = std::max(b, std::max(g, r));
+        const std::uint8_t delta = std::max(distance(b, b0), std::max(distance(g, g0), distance(r, r0)));
+        if constexpr (kPositive)
+            marks[lane] = difference(eta, delta) >= limit ? kSkin : 0;
+        else
+            marks[lane] = difference(delta, eta) <= limit ? kSkin : 0;
+    }
+}
+
+template <bool kPositive>
+TRICUE_INLINE void mark_row(const std::uint8_t* pixels, int n, const Bgr& reference, std::uint8_t limit,
+                            std::uint8_t* marks) {
+    for (; n > kBlock; n -= kBlock, pixels += 3 * kBlock, marks += kBlock)
+        mark_block<kPositive>(pixels, reference, limit, marks);
+    // The image may end with these pixels.
+    std::array<std::uint8_t, kBlockBytes> last{};
+    std::copy_n(pixels, 3 * n, last.begin());
+    mark_block<kPositive>(last.data(), reference, limit, marks);
+    const auto rest = static_cast<std::uint8_t>(n);
+    for (int lane = 0; lane < kBlock; ++lane) marks[lane] = kOrder.pixel[lane] < rest ? marks[lane] : 0;
+}
+
+/// Marks the pixels of a row, at least one, whose boundary value, eta - delta of skin_boundary, is at least `least`, below 256: in
+/// whole blocks, each in kOrder.
+TRICUE_MULTIVERSION
+void mark_skin(const std::uint8_t* pixels, int n, const Bgr& reference, int least, std::uint8_t* marks) {
     const auto limit = static_cast<std::uint8_t>(std::abs(least));
     if (least > 0)
-        for_overlapping_blocks<kBlock>(
-            n, [=](std::ptrdiff_t x) { skin[x] = difference(eta(x), delta(x)) >= limit ? kSkin : 0; });
+        mark_row<true>(pixels, n, reference, limit, marks);
     else
-        for_overlapping_blocks<kBlock>(
-            n, [=](std::ptrdiff_t x) { skin[x] = difference(delta(x), eta(x)) <= limit ? kSkin : 0; });
+        mark_row<false>(pixels, n, reference, limit, marks);
 }
 
 /// Adds the marks of a strip, `height` rows from row `top` of the tile, to the tile's columns, n in whole blocks, and counts the marks
@@ -98,8 +146,6 @@ void add_tile(const ImageView& image, const Bgr& reference, int least, const Reg
     alignas(kBlock) std::array<std::uint8_t, std::size_t{kStrip} * kTile> marks;
     alignas(kBlock) std::array<std::int32_t, kTile> counts,
         rows;  // of each column: skin, and sum of its rows
-    for (int row = 0; row < kStrip; ++row)
-        std::fill(marks.begin() + kTile * row + width, marks.begin() + kTile * row + padded, std::uint8_t{0});
     std::fill_n(counts.begin(), padded, 0);
     std::fill_n(rows.begin(), padded, 0);
     for (int first = 0; first < height; first += kStrip) {
@@ -119,7 +165,7 @@ void add_tile(const ImageView& image, const Bgr& reference, int least, const Reg
         }
     }
     for (int column = 0; column < width; ++column) {
-        const auto at = static_cast<std::size_t>(column);
+        const auto at = static_cast<std::size_t>(column / kBlock * kBlock + kOrder.lane[column % kBlock]);
         const std::int64_t x = left + column, count = counts[at], y = rows[at] + top * count;
         sums.count += count;
         sums.x += x * count;

@@ -50,16 +50,14 @@ class EllipseMotion(NamedTuple):
 
         Centers stay in the image.
         """
-        (x, y, minor, major), (vx, vy) = self.ellipse, self.velocity
+        (x, y, minor, major), (vx, vy), (mean_minor, mean_major), (first_minor, first_major) = self
         side, k, pull = self.side, p.velocity_noise, p.size_pull
         noise = MIN_PIXEL_NOISE + p.position_noise * side
         size_noise = (p.size_noise**2 + p.aspect_noise**2) ** 0.5
         step = max(p.max_step, p.max_step_sizes * side)
-        height, width = shape[:2]
-        left, right = min(max(x - step, 0.0), width), min(max(x + step, 0.0), width)
-        top, bottom = min(max(y - step, 0.0), height), min(max(y + step, 0.0), height)
-        mean_minor, mean_major = self.mean_size
-        (smallest, largest), (first_minor, first_major) = p.size_range, self.first_size
+        left, right = _reach(x, step, shape[1])
+        top, bottom = _reach(y, step, shape[0])
+        smallest, largest = p.size_range
         return EllipsePrediction(
             (p.drift * vx, p.drift * vy, pull * (mean_minor - minor), pull * (mean_major - major)),
             (noise + k * abs(vx), noise + k * abs(vy), size_noise * minor, size_noise * major),
@@ -79,6 +77,13 @@ class EllipseMotion(NamedTuple):
     def restart_at(self, ellipse: Ellipse) -> "EllipseMotion":
         """Move to another place, at rest; the mean size is kept."""
         return EllipseMotion(ellipse, (0.0, 0.0), self.mean_size, self.first_size)
+
+
+def _reach(center: float, step: float, size: int) -> tuple[float, float]:
+    """A step below and above a center, between 0 and the image's size."""
+    if step <= center <= size - step:
+        return center - step, center + step
+    return min(max(center - step, 0.0), size), min(max(center + step, 0.0), size)
 
 
 def size_correlation(p: ColorParticleParams) -> float:

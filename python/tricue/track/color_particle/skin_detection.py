@@ -61,8 +61,8 @@ def detect_skin(
     if p.skin_region == "image":
         region = (0, 0, image.shape[1], image.shape[0])
     else:
-        left, top, *_ = prediction.lower
-        right, bottom, *_ = prediction.upper
+        left, top, _, _ = prediction.lower
+        right, bottom, _, _ = prediction.upper
         region = (int(left - minor), int(top - major), int(right + minor) + 1, int(bottom + major) + 1)
         step = max((region[3] - region[1]) // SKIN_ROWS, 1)
     count, x, y, xx, yy, xy = k.skin_moments(image, skin_color, p.skin_threshold, region, step).tolist()
