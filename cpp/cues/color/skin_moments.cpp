@@ -80,27 +80,30 @@ TRICUE_INLINE void mark_block(const std::uint8_t* __restrict bytes, const Bgr& r
 }
 
 template <bool kPositive>
-TRICUE_INLINE void mark_row(const std::uint8_t* pixels, int n, const Bgr& reference, std::uint8_t limit,
-                            std::uint8_t* marks) {
+TRICUE_INLINE void mark_row(const std::uint8_t* pixels, int n, const std::uint8_t* end, const Bgr& reference,
+                            std::uint8_t limit, std::uint8_t* marks) {
     for (; n > kBlock; n -= kBlock, pixels += 3 * kBlock, marks += kBlock)
         mark_block<kPositive>(pixels, reference, limit, marks);
-    // The image may end with these pixels.
-    std::array<std::uint8_t, kBlockBytes> last{};
-    std::copy_n(pixels, 3 * n, last.begin());
-    mark_block<kPositive>(last.data(), reference, limit, marks);
+    std::array<std::uint8_t, kBlockBytes> copy;
+    if (end - pixels < kBlockBytes) {
+        std::fill(std::copy_n(pixels, 3 * n, copy.begin()), copy.end(), std::uint8_t{0});
+        pixels = copy.data();
+    }
+    mark_block<kPositive>(pixels, reference, limit, marks);
     const auto rest = static_cast<std::uint8_t>(n);
     for (int lane = 0; lane < kBlock; ++lane) marks[lane] = kOrder.pixel[lane] < rest ? marks[lane] : 0;
 }
 
 /// Marks the pixels of a row, at least one, whose boundary value, eta - delta of skin_boundary, is at least `least`, below 256: in
-/// whole blocks, each in kOrder.
+/// whole blocks, each in kOrder. Nothing at or after the image's `end` is read.
 TRICUE_MULTIVERSION
-void mark_skin(const std::uint8_t* pixels, int n, const Bgr& reference, int least, std::uint8_t* marks) {
+void mark_skin(const std::uint8_t* pixels, int n, const std::uint8_t* end, const Bgr& reference, int least,
+               std::uint8_t* marks) {
     const auto limit = static_cast<std::uint8_t>(std::abs(least));
     if (least > 0)
-        mark_row<true>(pixels, n, reference, limit, marks);
+        mark_row<true>(pixels, n, end, reference, limit, marks);
     else
-        mark_row<false>(pixels, n, reference, limit, marks);
+        mark_row<false>(pixels, n, end, reference, limit, marks);
 }
 
 /// Adds the marks of a strip, `height` rows from row `top` of the tile, to the tile's columns, n in whole blocks, and counts the marks
@@ -146,6 +149,7 @@ void add_tile(const ImageView& image, const Bgr& reference, int least, const Reg
     alignas(kBlock) std::array<std::uint8_t, std::size_t{kStrip} * kTile> marks;
     alignas(kBlock) std::array<std::int32_t, kTile> counts,
         rows;  // of each column: skin, and sum of its rows
+    const std::uint8_t* const end = image.row(image.rows - 1) + 3 * std::ptrdiff_t{image.cols};
     std::fill_n(counts.begin(), padded, 0);
     std::fill_n(rows.begin(), padded, 0);
     for (int first = 0; first < height; first += kStrip) {
@@ -154,7 +158,7 @@ void add_tile(const ImageView& image, const Bgr& reference, int least, const Reg
             const std::ptrdiff_t begin = 3 * std::ptrdiff_t{tile.x0};
             if (row + kPrefetchRows < height)
                 prefetch_bytes(image.row(tile.y0 + row + kPrefetchRows) + begin, 3 * width);
-            mark_skin(image.row(tile.y0 + row) + begin, width, reference, least,
+            mark_skin(image.row(tile.y0 + row) + begin, width, end, reference, least,
                       marks.data() + kTile * (row - first));
         }
         int found[kStrip];
