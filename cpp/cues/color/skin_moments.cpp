@@ -112,15 +112,16 @@ template <int kBytes>
 TRICUE_INLINE void add_strip_by(const std::uint8_t* marks, int height, int top, int n, std::int32_t* count,
                                 std::int32_t* rows, int* found) {
     using Register = Pack<std::uint8_t, kBytes>;
-    Register in_row[kStrip] = {};  // at most kTile / 16 marks a lane
+    std::uint8_t in_row[kStrip][std::size_t{kBytes}] = {};  // at most kTile / 16 marks a lane
     std::uint8_t lanes[2][std::size_t{kBytes}];
     for (int x = 0; x < n; x += kBytes) {
-        Register in_column = {}, their_rows = {}, mark;
+        Register in_column = {}, their_rows = {}, mark, before;
         for (int row = 0; row < height; ++row) {
             load(marks + kTile * row + x, mark);
             in_column -= mark;
             their_rows += mark & static_cast<std::uint8_t>(row);
-            in_row[row] -= mark;
+            load(in_row[row], before);
+            store(before - mark, in_row[row]);
         }
         store(in_column, lanes[0]);
         store(their_rows, lanes[1]);
@@ -130,9 +131,8 @@ TRICUE_INLINE void add_strip_by(const std::uint8_t* marks, int height, int top, 
         }
     }
     for (int row = 0; row < height; ++row) {
-        store(in_row[row], lanes[0]);
         found[row] = 0;
-        for (int lane = 0; lane < kBytes; ++lane) found[row] += lanes[0][lane];
+        for (int lane = 0; lane < kBytes; ++lane) found[row] += in_row[row][lane];
     }
 }
 
