@@ -22,7 +22,13 @@ from tricue.track.color_particle.motion import EllipseMotion, EllipsePrediction,
 from tricue.track.color_particle.params import NEVER, ColorParticleParams
 from tricue.track.color_particle.realignment import GAIN_TO_FORGET, moved, realign
 from tricue.track.color_particle.skin_detection import detect_skin, draw_candidates, reference_color
-from tricue.track.color_particle.state import ColorParticleSet, ColorParticleState
+from tricue.track.color_particle.state import (
+    Clock,
+    ColorParticleSet,
+    ColorParticleState,
+    Confidence,
+    FirstFrame,
+)
 from tricue.track.head_detection.start_box import head_or_face_to_start_on
 
 MEAN_RATE = 0.05  # per frame, of the running means of the log-likelihood
@@ -114,18 +120,18 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, ColorParticleState])
         log_likelihood = float(appearance.log_likelihood(k, image, window[None])[0])
         particles, weights = self._particles_at(window)
         state = ColorParticleState(
-            shape=image.shape,
-            appearance=appearance,
-            skin_color=reference_color(k, image, ellipse),
-            motion=EllipseMotion.start(ellipse),
-            particles=ColorParticleSet(particles, weights, len(particles), window, log_likelihood, seen),
-            first=appearance,
-            recognition=appearance.recognition(k, seen),
-            score=1.0,
-            mean_log_likelihood=log_likelihood,
-            recognized_mean=log_likelihood,
-            lead=self._lead(appearance, image, window, log_likelihood),
-            timestamp=timestamp,
+            FirstFrame(image.shape, appearance, reference_color(k, image, ellipse)),
+            appearance,
+            EllipseMotion.start(ellipse),
+            ColorParticleSet(particles, weights, len(particles), window, log_likelihood, seen),
+            Confidence(
+                recognition=appearance.recognition(k, seen),
+                score=1.0,
+                mean_log_likelihood=log_likelihood,
+                recognized_mean=log_likelihood,
+                lead=self._lead(appearance, image, window, log_likelihood),
+            ),
+            Clock(timestamp),
         )
         return self._keep(state, frame)
 
@@ -136,42 +142,45 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, ColorParticleState])
         before ``init``. An error leaves the tracker unchanged.
         """
         before = validation.require_initialized(self._state)
-        image, timestamp = validation.color_image(frame, before.shape)
-        seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
+        image, timestamp = validation.color_image(frame, before.first.shape)
+        last = before.clock
+        seconds = validation.elapsed(last.timestamp, timestamp, self.params.rate)
         state = self._redetect(before, image) if before.is_lost(self.params) else self._follow(before, image)
-        appearance = state.appearance
-        if state.is_tracked(self.params) and state.recognition >= self.params.min_score_to_learn:
+        appearance, confidence = state.appearance, state.confidence
+        if state.is_tracked(self.params) and confidence.recognition >= self.params.min_score_to_learn:
             appearance = self._learn(state, image, self.params.learning_rate)
-        state = state._replace(
-            appearance=appearance,
-            timestamp=timestamp,
-            missed_seconds=before.missed_seconds + seconds if state.missed_frames else 0.0,
-            low_lead_seconds=before.low_lead_seconds + seconds if state.has_low_lead(self.params) else 0.0,
-            frames=before.frames + 1,
+        clock = Clock(
+            timestamp,
+            frames=last.frames + 1,
+            missed_seconds=last.missed_seconds + seconds if confidence.missed_frames else 0.0,
+            low_lead_seconds=last.low_lead_seconds + seconds if state.has_low_lead(self.params) else 0.0,
         )
+        state = ColorParticleState(state.first, appearance, state.motion, state.particles, confidence, clock)
         return self._keep(state, frame)
 
     def _follow(self, state: ColorParticleState, image: Image) -> ColorParticleState:
         """Predict, measure, weigh, estimate; repeat in a wide search if the likelihood has dropped."""
         k, p, motion = self._k, self.params, state.motion
-        prediction = motion.predict(p, state.shape)
-        detection = detect_skin(k, image, state.skin_color, motion.ellipse, prediction, p)
+        prediction = motion.predict(p, state.first.shape)
+        detection = detect_skin(k, image, state.first.skin_color, motion.ellipse, prediction, p)
         last = state.particles
         scarce = last.effective < p.resample_below * len(last.weights)
         proposal = Proposal(prediction, detection)
         particles = self._filter(
             state, image, last.particles, last.weights, proposal, FilterStep.NARROW, resample=scarce
         )
-        if particles.log_likelihood < state.mean_log_likelihood - p.likelihood_drop:
+        if particles.log_likelihood < state.confidence.mean_log_likelihood - p.likelihood_drop:
             particles = self._search_wide(state, image, particles, prediction)
         first_log_likelihood = None
         if self._comparable:
             sizes = prediction.lower[2:], prediction.upper[2:]
-            realigned = realign(k, image, state.first, particles.ellipse, state.frames, sizes)
+            realigned = realign(
+                k, image, state.first.appearance, particles.ellipse, state.clock.frames, sizes
+            )
             first_log_likelihood = realigned.log_likelihood
             if realigned.gain > 0:
                 if realigned.gain > GAIN_TO_FORGET:
-                    state = state._replace(appearance=state.first)
+                    state = state._replace(appearance=state.first.appearance)
                 bounds = np.array([prediction.lower, prediction.upper])
                 particles = moved(k, image, state.appearance, particles, realigned.ellipse, bounds)
         motion = motion.update(tuple(particles.ellipse.tolist()), p)
@@ -189,7 +198,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, ColorParticleState])
         searching: bool = False,
     ) -> ColorParticleSet:
         """One step of the particle filter. searching: for a lost target."""
-        step = STEPS_PER_FRAME * state.frames + which
+        step = STEPS_PER_FRAME * state.clock.frames + which
         offset = self._noise.uniform(step) if resample else None
         noise = StepNoise(offset, self._noise.normal(step, particles.shape), self._correlation)
         return filter_step(self._k, image, state.appearance, particles, weights, noise, proposal, searching)
@@ -215,22 +224,22 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, ColorParticleState])
     def _redetect(self, state: ColorParticleState, image: Image) -> ColorParticleState:
         """Search for a lost target in the whole frame, and track it again if it is recognized."""
         k, p, appearance = self._k, self.params, state.appearance
-        rng = np.random.default_rng((self.seed, state.frames))
-        candidates = draw_candidates(k, image, state.skin_color, state.motion, p, rng)
+        rng = np.random.default_rng((self.seed, state.clock.frames))
+        candidates = draw_candidates(k, image, state.first.skin_color, state.motion, p, rng)
         log_likelihood = appearance.log_likelihood(k, image, candidates, searching=True)
         best = candidates[np.argmax(log_likelihood)]
         motion = state.motion.restart_at(tuple(best.tolist()))
-        proposal = Proposal(motion.predict(p, state.shape))
+        proposal = Proposal(motion.predict(p, state.first.shape))
         particles = self._filter(
             state, image, *self._particles_at(best), proposal, FilterStep.CLOSE, searching=True
         )
         recognized = appearance.recognition(k, particles.seen, searching=True) >= p.min_score_to_redetect
         background = float(np.median(log_likelihood))
-        required = background + REDETECTION_SHARE * (state.recognized_mean - background)
+        required = background + REDETECTION_SHARE * (state.confidence.recognized_mean - background)
         lead = self._lead(appearance, image, particles.ellipse, particles.log_likelihood)
         if not recognized or particles.log_likelihood < required or lead < REDETECTION_LEAD * p.min_lead:
-            return state._replace(score=0.0)
-        state = state._replace(lead=lead)
+            return state._replace(confidence=state.confidence._replace(score=0.0))
+        state = state._replace(confidence=state.confidence._replace(lead=lead))
         motion = motion.restart_at(tuple(particles.ellipse.tolist()))
         redetected = self._accept(state, image, particles, motion)
         return redetected._replace(appearance=self._learn(redetected, image, REDETECTION_RATE))
@@ -255,48 +264,43 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, ColorParticleState])
         """
         p, log_likelihood = self.params, particles.log_likelihood
         recognition = state.appearance.recognition(self._k, particles.seen)
-        score, lead = recognition, state.lead
+        _, _, mean, recognized_mean, lead, missed_frames = state.confidence
+        score = recognition
         if self._comparable:
             lead = self._update_lead(state, image, particles)
             if first_log_likelihood is None:
-                first = state.first.log_likelihood(self._k, image, particles.ellipse[None])
+                first = state.first.appearance.log_likelihood(self._k, image, particles.ellipse[None])
                 first_log_likelihood = float(first[0])
             score = probability(first_log_likelihood, lead)
             if recognition < p.min_score:
                 score = min(score, recognition)
         recognized = self._recognizes(state, particles, recognition, score)
-        mean, recognized_mean = state.mean_log_likelihood, state.recognized_mean
         if recognized:
             recognized_mean += MEAN_RATE * (log_likelihood - recognized_mean)
-        return state._replace(
-            particles=particles,
-            motion=motion,
-            recognition=recognition,
-            score=score,
-            mean_log_likelihood=mean + MEAN_RATE * (log_likelihood - mean),
-            recognized_mean=recognized_mean,
-            lead=lead,
-            missed_frames=0 if recognized else state.missed_frames + 1,
-        )
+        mean += MEAN_RATE * (log_likelihood - mean)
+        missed_frames = 0 if recognized else missed_frames + 1
+        confidence = Confidence(recognition, score, mean, recognized_mean, lead, missed_frames)
+        return ColorParticleState(state.first, state.appearance, motion, particles, confidence, state.clock)
 
     def _update_lead(self, state: ColorParticleState, image: Image, particles: ColorParticleSet) -> float:
         """The running mean of the lead, which is measured in some frames, and always while it is missed."""
-        if not state.missed_frames and state.frames % LEAD_EVERY != LEAD_EVERY - 1:
-            return state.lead
+        last = state.confidence
+        if not last.missed_frames and state.clock.frames % LEAD_EVERY != LEAD_EVERY - 1:
+            return last.lead
         lead = self._lead(state.appearance, image, particles.ellipse, particles.log_likelihood)
-        return state.lead + LEAD_RATE * (lead - state.lead)
+        return last.lead + LEAD_RATE * (lead - last.lead)
 
     def _recognizes(
         self, state: ColorParticleState, particles: ColorParticleSet, recognition: float, score: float
     ) -> bool:
         """Whether the target is where the particles are."""
-        p = self.params
-        least = state.recognized_mean - p.max_likelihood_drop
+        p, last = self.params, state.confidence
+        least = last.recognized_mean - p.max_likelihood_drop
         if recognition < p.min_score or particles.log_likelihood < least:
             return False
         if state.is_lost(p):
             return True
-        if self._comparable and state.missed_frames and score < MIN_SCORE_AFTER_MISS:
+        if self._comparable and last.missed_frames and score < MIN_SCORE_AFTER_MISS:
             return False
         return not self._has_jumped(state, particles)
 
@@ -305,7 +309,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, ColorParticleState])
         search usually goes.
         """
         p, motion = self.params, state.motion
-        if particles.log_likelihood >= state.mean_log_likelihood - p.likelihood_drop:
+        if particles.log_likelihood >= state.confidence.mean_log_likelihood - p.likelihood_drop:
             return False
         (x, y, *_), (last_x, last_y, *_) = particles.ellipse.tolist(), motion.ellipse
         right, down = motion.velocity
@@ -330,4 +334,4 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, ColorParticleState])
             status = Status.TRACKED
         else:
             status = Status.LOST if state.is_lost(self.params) else Status.OCCLUDED
-        return Track(Box.from_ellipse(*state.motion.ellipse), state.score, status)
+        return Track(Box.from_ellipse(*state.motion.ellipse), state.confidence.score, status)
