@@ -50,15 +50,11 @@ class ColorAppearance(NamedTuple):
     table: Singles
 
 
-class RankMeasurement(NamedTuple):
-    """Arguments that ``rank_likelihood``, ``rank_search`` and ``rank_filter`` share, in their order.
+RankArguments = tuple[EllipsePattern, ColorAppearance, tuple[float, float]]
+"""What ``rank_likelihood``, ``rank_search`` and ``rank_filter`` measure windows by, as their arguments.
 
-    factors: of the squared distance of ranks, and of the color contrast, in the log-likelihood, nats.
-    """
-
-    pattern: EllipsePattern
-    appearance: ColorAppearance
-    factors: tuple[float, float]
+The factors in the log-likelihood, nats, are those of the squared distance of ranks and of the color contrast.
+"""
 
 
 class Appearance(NamedTuple):
@@ -69,7 +65,7 @@ class Appearance(NamedTuple):
     pattern: EllipsePattern  # where the window and its surround are sampled
     linear: bool  # whether the likelihood is the printed (18)
     sharpness: float
-    measurement: RankMeasurement | None  # by which kernels measure windows; None if they don't support that
+    target: ColorAppearance | None  # for kernels that measure windows; None if they don't support the models
 
     @classmethod
     def create(cls, p: ColorParticleParams) -> "Appearance":
@@ -92,12 +88,11 @@ class Appearance(NamedTuple):
         linear: bool,
         sharpness: float,
     ) -> "Appearance":
-        """These models, and the measurement by them, if kernels support it."""
-        measurement = None
+        """These models, also as kernels take them, if they do."""
+        target = None
         if contrast is not None and not linear and isinstance(model, RankSpatial):
             target = ColorAppearance(model.maps, model.weights, False, contrast.table)
-            measurement = RankMeasurement(pattern, target, (sharpness, contrast.weight))
-        return cls(model, contrast, pattern, linear, sharpness, measurement)
+        return cls(model, contrast, pattern, linear, sharpness, target)
 
     def sample(self, k: Kernels, image: Image, ellipses: Floats) -> WindowSamples:
         """Sample the windows of ellipses (N, 4)."""
@@ -112,19 +107,20 @@ class Appearance(NamedTuple):
     @property
     def comparable(self) -> bool:
         """Whether log-likelihoods come from color ranks and contrast, for which thresholds are known."""
-        return self.measurement is not None
+        return self.target is not None
 
-    def rank_measurement(self, searching: bool) -> RankMeasurement | None:
-        """The measurement; searching: for a lost target, by the most similar of its maps alone."""
-        if self.measurement is None or not searching:
-            return self.measurement
-        return self.measurement._replace(appearance=self.measurement.appearance._replace(nearest=True))
+    def rank_arguments(self, searching: bool = False) -> RankArguments | None:
+        """For kernels that measure windows; searching: for a lost target, by the most similar map alone."""
+        if self.target is None or self.contrast is None:
+            return None
+        target = self.target._replace(nearest=True) if searching else self.target
+        return self.pattern, target, (self.sharpness, self.contrast.weight)
 
     def log_likelihood(self, k: Kernels, image: Image, ellipses: Floats, searching: bool = False) -> Floats:
         """(N,) log p(y | x), nats: equation (18), or its exponential form, times the color contrast term."""
-        measurement = self.rank_measurement(searching)
-        if measurement is not None:
-            return k.rank_likelihood(image, ellipses, *measurement)
+        arguments = self.rank_arguments(searching)
+        if arguments is not None:
+            return k.rank_likelihood(image, ellipses, *arguments)
         samples = self.sample(k, image, ellipses)
         distance = self.model.distance(k, *samples, searching).astype(np.float64)
         if self.linear:
@@ -141,8 +137,9 @@ class Appearance(NamedTuple):
         """The most likely (4,) of an ellipse (4,) and the windows at offsets (n, 4) from it, its
         log-likelihood, and that of the ellipse; for comparable likelihoods only.
         """
-        assert self.measurement is not None
-        return k.rank_search(image, ellipse, offsets, *self.measurement)
+        arguments = self.rank_arguments()
+        assert arguments is not None
+        return k.rank_search(image, ellipse, offsets, *arguments)
 
     def recognition(self, k: Kernels, seen: Any, searching: bool = False) -> float:
         """The similarity, in [0, 1], of the observation to the target; about 0 in noise and flat windows."""

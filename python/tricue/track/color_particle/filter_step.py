@@ -50,8 +50,8 @@ def filter_step(
     searching: whether for a lost target.
     """
     prediction, detection = proposal
-    measurement = appearance.rank_measurement(searching)
-    if measurement is not None:
+    arguments = appearance.rank_arguments(searching)
+    if arguments is not None:
         step = k.rank_filter(
             image,
             (particles, weights, noise.offset),
@@ -59,7 +59,7 @@ def filter_step(
             prediction[:2],
             prediction[2:],
             detection,
-            *measurement,
+            *arguments,
             MIN_RANK_SPREAD,
         )
         return ColorParticleSet(*step[:5], RankWindow(*step[5:]))
