@@ -108,6 +108,25 @@ def test_a_video_beside_images(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.parametrize(
+    ("names", "kept"),
+    [
+        (["1.png", "1.jpg", "2.png", "2.jpg"], ["1.png", "2.png"]),
+        (["1.JPG", "1.png", "2.JPG", "10.JPG"], ["1.JPG", "2.JPG", "10.JPG"]),
+        (["1.jpg", "1.webp"], ["1.jpg"]),
+    ],
+)
+def test_images_in_two_formats(tmp_path: Path, names: list[str], kept: list[str]) -> None:
+    """It proves that an image that is there in two formats is one frame, and that a note tells."""
+    folder = images(tmp_path / "a", names)
+    source = open_source(folder)
+    assert [path.name for path in source.channels["color"].paths] == kept
+    left_out = next(name for name in sorted(names) if name not in kept)
+    assert source.notes == (
+        f"left out {folder / left_out} and others, as the same images are there in another format",
+    )
+
+
 def test_a_video_with_truth(tmp_path: Path) -> None:
     """It proves that a folder with one video and a truth file is a sequence; its first box may be unknown."""
     video(tmp_path / "video.avi")

@@ -2,6 +2,7 @@
 """Recognizes image and video files, mostly by their names, and sorts them in natural order."""
 
 import re
+from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Literal
@@ -20,6 +21,7 @@ _IMAGE_SUFFIXES = {
     ".tiff",
     ".webp",
 }
+_LOSSY_SUFFIXES = {".jp2", ".jpeg", ".jpg", ".webp"}
 _VIDEO_SUFFIXES = {".avi", ".m4v", ".mkv", ".mov", ".mp4", ".mpeg", ".mpg", ".ogv", ".webm", ".wmv"}
 _OTHER_VIDEO_SUFFIXES = {
     ".3g2",
@@ -61,6 +63,24 @@ def image_paths(folder: Path) -> list[Path]:
     """The image files in a folder, in natural order: 2.png before 10.png. Hidden files are left out."""
     paths = (p for p in folder.iterdir() if is_image(p) and not p.name.startswith("."))
     return natural_order(paths)
+
+
+def without_copies(paths: list[Path]) -> list[Path]:
+    """The images without those that are there in another format, too: 1.png and not 1.jpg.
+
+    Of a name's formats, that of the most images is kept; of equally many, one that doesn't lose anything.
+    """
+    names = Counter(path.stem for path in paths)
+    if len(names) == len(paths):
+        return paths
+    formats = Counter(path.suffix.lower() for path in paths)
+
+    def rank(path: Path) -> tuple[int, bool, str]:
+        suffix = path.suffix.lower()
+        return -formats[suffix], suffix in _LOSSY_SUFFIXES, path.name
+
+    best = {path.stem: path for path in sorted(paths, key=rank, reverse=True)}
+    return [path for path in paths if best[path.stem] == path]
 
 
 def natural_order(paths: Iterable[Path]) -> list[Path]:

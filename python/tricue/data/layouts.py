@@ -10,7 +10,7 @@ from tricue.camera.read_calibration import KITTI_COLOR_CAMERAS
 from tricue.data import kitti, otb, princeton, tum, viewer_images, vot
 from tricue.data.box_table import find_box_table, read_box_table
 from tricue.data.depth_images import DepthReader, is_depth, require_scale
-from tricue.data.files import image_paths, is_video, natural_order, video_paths
+from tricue.data.files import image_paths, is_video, natural_order, video_paths, without_copies
 from tricue.data.streams import Images, Stream, Video, image_names, timed_images
 from tricue.data.truth import (
     Truth,
@@ -131,7 +131,7 @@ def _read_plain_layout(folder: Path, scale: float | None, target: str | None) ->
     Depth is in depth/. Right images are in right/ if the left ones are in left/.
     """
     truth = find_truth(folder, target)
-    images = find_plain_images(folder)
+    images = without_copies(every := find_plain_images(folder))
     if images and is_depth(images[0]):
         return Layout("images", {"depth": depth_images(images, scale)}, truth)
     depth = image_paths(folder / "depth") if (folder / "depth").is_dir() else []
@@ -139,8 +139,10 @@ def _read_plain_layout(folder: Path, scale: float | None, target: str | None) ->
     notes: tuple[str, ...] = ()
     if images:
         channels["color"] = _color_images(images)
+        if copy := next((path for path in every if path not in images), None):
+            notes = (f"left out {copy} and others, as the same images are there in another format",)
         if images[0].parent == folder and (video := next(filter(is_video, video_paths(folder)), None)):
-            notes = (f"left out {video}, as images are beside it; name the file to open it",)
+            notes = (*notes, f"left out {video}, as images are beside it; name the file to open it")
         if images[0].parent == folder / "left" and (folder / "right").is_dir():
             channels["right"] = Images(image_paths(folder / "right"))
     elif found := _video(folder, optional=bool(depth)):
