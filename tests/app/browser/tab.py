@@ -63,6 +63,8 @@ class Tab:
         self.expected = ["status of 400"]  # in what the browser complains of rightly
         self.page.on("pageerror", lambda error: self.troubles.append(str(error)))
         self.page.on("console", self._console)
+        self.sent: list[str] = []
+        self.page.on("request", lambda request: self.sent.append(f"{request.url} {request.post_data}"))
         self.url = url
         self.page.goto(url)
         self.shows(0)
@@ -104,9 +106,15 @@ class Tab:
     @contextmanager
     def done(self, command: str) -> Iterator[None]:
         """What the page is made to send in it is answered, done and known to the page when it ends."""
+        from playwright.sync_api import TimeoutError as NoAnswerError  # not everybody has it
+
         asked = f'"do":"{command}"'
-        with self.page.expect_response(lambda answer: asked in (answer.request.post_data or "")):
-            yield
+        try:
+            with self.page.expect_response(lambda answer: asked in (answer.request.post_data or "")):
+                yield
+        except NoAnswerError as error:
+            about = self.page.evaluate("({...document.documentElement.dataset})")
+            raise AssertionError(f"{command}: sent {self.sent}, page {about}, {self.troubles}") from error
         self.settled()
 
     def settled(self) -> None:
