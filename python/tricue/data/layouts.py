@@ -134,17 +134,18 @@ def _read_plain_layout(folder: Path, scale: float | None, target: str | None) ->
     images = without_copies(every := find_plain_images(folder))
     if images and is_depth(images[0]):
         return Layout("images", {"depth": depth_images(images, scale)}, truth)
-    depth = image_paths(folder / "depth") if (folder / "depth").is_dir() else []
+    depth = without_copies(image_paths(folder / "depth")) if (folder / "depth").is_dir() else []
     channels: dict[str, Stream] = {}
     notes: tuple[str, ...] = ()
     if images:
         channels["color"] = _color_images(images)
-        if copy := next((path for path in every if path not in images), None):
-            notes = (f"left out {copy} and others, as the same images are there in another format",)
+        if len(images) < len(every):
+            copy = min(set(every) - set(images))
+            notes = (f"left out {copy} and others, as images of these names are there in another format",)
         if images[0].parent == folder and (video := next(filter(is_video, video_paths(folder)), None)):
             notes = (*notes, f"left out {video}, as images are beside it; name the file to open it")
         if images[0].parent == folder / "left" and (folder / "right").is_dir():
-            channels["right"] = Images(image_paths(folder / "right"))
+            channels["right"] = Images(without_copies(image_paths(folder / "right")))
     elif found := _video(folder, optional=bool(depth)):
         channels["color"] = found
     if depth and channels and scale is None:
